@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/charts/axis_range.h"
@@ -18,6 +19,7 @@ struct ChartSeries {
     kBeyond,       ///< A law where nothing was measured, dotted.
     kFaintCurve,   ///< Somebody's fitted line behind the rest.
     kBand,         ///< From `low` to `high`, behind everything; not in small panels.
+    kSpread,       ///< From `low` to `high` of many people's lines, grey, instead of them.
     kAnswers,      ///< Points, `low` to `high` as bars.
     kManyAnswers,  ///< Points of so many levels that each has few answers; no bars.
     kMeans,        ///< Points in the colour of `colour`, without bars.
@@ -30,6 +32,8 @@ struct ChartSeries {
   std::size_t table = 0;      ///< In the tables of the set.
   std::optional<int> series;  ///< The rows with this number in `series_column`; else all.
   std::string series_column = "series";
+  /// Its first and last row, where it is known that they stand together: others are not read.
+  std::optional<std::pair<std::size_t, std::size_t>> rows;
   std::string x, y;               ///< Names of columns; rows without either are left out.
   std::string low, high;          ///< Of bars and band; a row without an end has none there.
   bool has_bars_along_x = false;  ///< The bars are of x.

@@ -1,6 +1,9 @@
 #include "analysis/charts/chart_parts.h"
 
+#include <algorithm>
+
 #include "analysis/results/number_words.h"
+#include "analysis/statistics/summary.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -22,6 +25,42 @@ std::vector<double> even_grid(const AxisRange& range) {
     grid.push_back(range.low + (range.high - range.low) * i / kSteps);
   }
   return grid;
+}
+
+FigureTable spread_table(const std::string& name, const std::string& x,
+                         const std::map<double, std::vector<double>>& values) {
+  constexpr double kLow = 0.05, kHigh = 0.95;
+  FigureTable table{.name = name, .columns = {x, "median", "low", "high"}};
+  for (const auto& [at, of_people] : values) {
+    if (of_people.size() < 2) continue;
+    std::vector<double> ascending = of_people;
+    std::ranges::sort(ascending);
+    table.rows.push_back({at, percentile(ascending, 0.5), percentile(ascending, kLow),
+                          percentile(ascending, kHigh)});
+  }
+  return table;
+}
+
+ChartSeries spread_series(std::size_t table, const std::string& x, const std::string& legend) {
+  return {.look = ChartSeries::Look::kSpread,
+          .table = table,
+          .x = x,
+          .y = "median",
+          .low = "low",
+          .high = "high",
+          .legend = legend};
+}
+
+std::map<double, std::vector<double>> values_by(const FigureTable& table, const std::string& x,
+                                                const std::string& y) {
+  const std::size_t x_at = table.place_of(x), y_at = table.place_of(y);
+  std::map<double, std::vector<double>> values;
+  for (const std::vector<FigureCell>& row : table.rows) {
+    if (row[x_at].number && row[y_at].number) {
+      values[*row[x_at].number].push_back(*row[y_at].number);
+    }
+  }
+  return values;
 }
 
 void add_value(Chart& chart, const std::optional<double>& value, const Interval& ci95,

@@ -23,10 +23,13 @@ namespace jnd::analysis {
 /// Response times over the stimuli of blocks whose study file lists them.
 [[nodiscard]] std::vector<ChartSet> response_time_charts(const FigureSource& source);
 
+/// Ratings and answers to questions after trials over the stimuli, where levels are fixed.
+[[nodiscard]] std::vector<ChartSet> rated_charts(const FigureSource& source);
+
 /// In the order of report and window. A new kind is a file of its own and a place here.
 inline constexpr std::vector<ChartSet> (*kChartKinds[])(const FigureSource&) = {
-    magnitude_charts, psychometric_charts, matching_charts,
-    threshold_charts, track_charts,        response_time_charts};
+    magnitude_charts, psychometric_charts, matching_charts,     threshold_charts,
+    track_charts,     rated_charts,        response_time_charts};
 
 /// Every chart that there are data for. Not real time.
 [[nodiscard]] std::vector<ChartSet> charts_of(const FigureSource& source);

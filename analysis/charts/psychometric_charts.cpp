@@ -119,7 +119,7 @@ class PsychometricCharts {
     for (const auto& [intensity, level] : pooled_) intensities.push_back(intensity);
     set_.x.range = axis_range(intensities);
     set_.x.range.low = std::max(set_.x.range.low, 0.0);
-    set_.tables.resize(kPooledTable + 1);
+    set_.tables.resize(kSpreadTable + 1);
     set_.tables[kAnswersTable] = {
         .name = name + "_answers",
         .columns = {"series", "participant", "intensity", "num_yes", "num_trials", "ratio",
@@ -145,7 +145,8 @@ class PsychometricCharts {
 
  private:
   static constexpr std::size_t kAnswersTable = 0, kCurvesTable = 1, kFreeCurvesTable = 2,
-                               kMedianPersonTable = 3, kGroupCurveTable = 4, kPooledTable = 5;
+                               kMedianPersonTable = 3, kGroupCurveTable = 4, kPooledTable = 5,
+                               kSpreadTable = 6;
 
   void count(const ParticipantData& participant) {
     OwnAnswers own{.participant = participant.participant};
@@ -249,6 +250,7 @@ class PsychometricCharts {
       add_curve(set_.tables[primary_table], {series, own.participant}, *primary,
                 /*has_band=*/true);
       chart.series.push_back(curve_series(Look::kBand, primary_table, series));
+      with_curve_.push_back(series);
     }
     if (other) {
       add_curve(set_.tables[other_table], {series, own.participant}, *other,
@@ -350,15 +352,18 @@ class PsychometricCharts {
     const std::optional<Curve> person = median_person();
     const std::optional<Curve> group = group_curve();
     const std::size_t own_table = frees_ ? kFreeCurvesTable : kCurvesTable;
-    for (std::size_t i = 1; i <= set_.participants.size(); ++i) {
-      const auto series = static_cast<int>(i);
-      const auto& rows = set_.tables[own_table].rows;
-      const bool has_curve = std::ranges::any_of(
-          rows, [&](const auto& row) { return row.front().number == series; });
-      if (!has_curve) continue;
-      chart.series.push_back(curve_series(Look::kFaintCurve, own_table, series));
+    if (are_curves_a_band()) {
+      set_.tables[kSpreadTable] =
+          spread_table(file_word(block_.block) + "_spread_of_curves", "intensity",
+                       values_by(set_.tables[own_table], "intensity", "ratio"));
+      chart.series.push_back(spread_series(kSpreadTable, "intensity",
+                                           "middle 90 % of the participants’ own curves"));
+    } else {
+      for (const int series : with_curve_) {
+        chart.series.push_back(curve_series(Look::kFaintCurve, own_table, series));
+      }
+      if (!chart.series.empty()) chart.series.back().legend = "each participant, fitted";
     }
-    if (!chart.series.empty()) chart.series.back().legend = "each participant, fitted";
     if (person) {
       add_curve(set_.tables[kMedianPersonTable], {}, *person, /*has_band=*/true);
       chart.series.push_back(curve_series(Look::kBand, kMedianPersonTable));
@@ -446,7 +451,12 @@ class PsychometricCharts {
                                           const std::optional<Curve>& group,
                                           bool has_weber_line) const {
     return curves_words(person, group) +
-           "Grey: each participant’s own (maximum likelihood, point of subjective equality " +
+           (are_curves_a_band() ? "Grey band: at each stimulus the middle 90 % of the "
+                                  "participants’ own curves, "
+                                  "of which there are " +
+                                      std::to_string(with_curve_.size())
+                                : std::string("Grey: each participant’s own")) +
+           " (maximum likelihood, point of subjective equality " +
            (frees_ ? "free). Points: " : "at the reference). Points: ") +
            (block_.has_fixed_levels()
                 ? "mean proportion of answers “more than the reference” and standard "
@@ -461,6 +471,8 @@ class PsychometricCharts {
                 ? ". Solid, vertical: where the median person answers “more” in 84.13 %."
                 : ".");
   }
+
+  [[nodiscard]] bool are_curves_a_band() const { return with_curve_.size() > kMostLines; }
 
   [[nodiscard]] std::string panels_caption() const {
     return std::string("Proportion of answers “more than the reference”") +
@@ -485,6 +497,7 @@ class PsychometricCharts {
   std::vector<OwnAnswers> all_;  ///< Of those who answered.
   std::map<double, LevelAnswers> pooled_;
   bool has_order_effects_ = false;
+  std::vector<int> with_curve_;  ///< The series of those who have the primary one.
   ChartSet set_;
 };
 

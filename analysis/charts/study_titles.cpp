@@ -55,6 +55,15 @@ std::string procedure_words(const experiments::Block& block) {
                            block.settings.word("interval_order") == "balanced";
   const std::string order = is_balanced ? " (order balanced)" : " (order drawn)";
   if (measures == Measure::kDifference) return words + " as a same-different task" + order;
+  if (measures == Measure::kIdentification) {
+    const Task task = task_of(block);
+    return words +
+           (task == Task::kThreeInterval ? " as a three-interval forced choice"
+            : task == Task::kOddity      ? " as an oddity task"
+            : task == Task::kAbx         ? " as an ABX task"
+                                         : " as a match-to-sample task") +
+           " (every order equally often)";
+  }
   if (measures != Measure::kComparison) return words;
   if (task_of(block) == Task::kTwoInterval) return words + " as a two-interval task" + order;
   if (procedure.adapts()) return words;

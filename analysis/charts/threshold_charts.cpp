@@ -10,6 +10,7 @@
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/wilson_interval.h"
 #include "core/psychometric_function.h"
+#include "experiments/procedures/task.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -20,6 +21,10 @@ constexpr std::size_t kAnswersTable = 0, kCurvesTable = 1, kPooledTable = 2;
 /// P("yes"), or of "different", at an intensity; empty without a curve.
 using ThresholdCurve = std::function<double(double)>;
 
+double guess_rate_of(const BlockDesign& block) {
+  return 1.0 / experiments::num_choices_to_guess(task_of(block.written));
+}
+
 ThresholdCurve curve_of(const FigureSource& source, const BlockDesign& block,
                         const std::string& participant) {
   const auto own = [&](const std::string& name) {
@@ -27,6 +32,18 @@ ThresholdCurve curve_of(const FigureSource& source, const BlockDesign& block,
         source.own(block.block, participant, block.block + "." + name);
     return found == nullptr ? std::nullopt : found->value;
   };
+  if (block.identifies()) {
+    const auto fraction = own("weber_fraction"), width = own("spread_ln");
+    if (!fraction || !width) return {};
+    const double guess = guess_rate_of(block);
+    return [reference = *block.reference_intensity, mean = std::log(std::log1p(*fraction)),
+            sd = *width, guess](double intensity) {
+      const double distance = std::abs(std::log(intensity / reference));
+      if (distance == 0.0) return guess;
+      return guess +
+             (1.0 - guess) * core::standard_normal_cdf((std::log(distance) - mean) / sd);
+    };
+  }
   const auto place = own(block.detects() ? "threshold" : "criterion_ln");
   const auto spread = own(block.detects() ? "spread_ln" : "weber_fraction");
   if (!place || !spread) return {};
@@ -73,7 +90,9 @@ class ThresholdCharts {
 
   [[nodiscard]] ChartSet set() {
     const std::string name = file_word(block_.block);
-    const std::string answer = block_.detects() ? "“yes”" : "“different”";
+    const std::string answer = block_.detects()      ? "“yes”"
+                               : block_.identifies() ? "right"
+                                                     : "“different”";
     const std::string title = source_.titles.title_of(block_.block);
     set_ = {.section = block_.block,
             .heading = title,
@@ -111,7 +130,8 @@ class ThresholdCharts {
                                       : " at every level that the answers led to") +
            ", and the curve of maximum likelihood where it exists, with " +
            (block_.detects() ? "the intensity felt in 50 %" : "its Weber fraction w") +
-           " in the title. Dashed: the same answer in catch trials.";
+           " in the title. Dashed: " +
+           (block_.identifies() ? "right by guessing." : "the same answer in catch trials.");
   }
 
   [[nodiscard]] ChartSeries answers(std::size_t table, std::optional<int> series) const {
@@ -136,7 +156,12 @@ class ThresholdCharts {
                              .until = kFeltInHalf,
                              .label = "threshold"});
     }
-    if (catches.num_trials > 0) {
+    if (block_.identifies()) {
+      chart.lines.push_back({.kind = ChartLine::Kind::kRate,
+                             .at = guess_rate_of(block_),
+                             .is_vertical = false,
+                             .label = "guessing"});
+    } else if (catches.num_trials > 0) {
       chart.lines.push_back(
           {.kind = ChartLine::Kind::kRate,
            .at = static_cast<double>(catches.num_yes) / static_cast<double>(catches.num_trials),
@@ -148,7 +173,7 @@ class ThresholdCharts {
   void add_participant(const ThresholdAnswers& one) {
     constexpr int kPoints = 120;
     const int series = static_cast<int>(set_.participants.size()) + 1;
-    for (const AnswerCount& row : one.rows_with_catches()) {
+    for (const AnswerCount& row : block_.identifies() ? one.rows() : one.rows_with_catches()) {
       add_row(set_.tables[kAnswersTable], {series, one.participant}, answer_cells(row));
     }
     Chart chart{.who = one.participant};
@@ -214,7 +239,7 @@ class ThresholdCharts {
 std::vector<ChartSet> threshold_charts(const FigureSource& source) {
   std::vector<ChartSet> sets;
   for (const BlockDesign& block : source.data.blocks) {
-    if (!block.detects() && !block.tells_apart()) continue;
+    if (!block.detects() && !block.tells_apart() && !block.identifies()) continue;
     ThresholdCharts charts(source, block);
     if (!charts.empty()) sets.push_back(charts.set());
   }

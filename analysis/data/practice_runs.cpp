@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "analysis/data/planned_trials.h"
 #include "core/error.h"
 #include "experiments/procedures/practice.h"
 
@@ -11,7 +12,6 @@ namespace {
 
 using experiments::AnsweredTrial;
 using experiments::Block;
-using experiments::PlannedTrial;
 
 /// Of one session, in the order in which they were answered, by block.
 std::map<std::pair<std::int64_t, std::string>, std::vector<AnsweredTrial>> answered_of(
@@ -19,11 +19,7 @@ std::map<std::pair<std::int64_t, std::string>, std::vector<AnsweredTrial>> answe
   std::map<std::pair<std::int64_t, std::string>, std::vector<AnsweredTrial>> answered;
   for (const core::TrialRow& row : participant.practice_trials) {
     if (!row.response) continue;
-    PlannedTrial planned{.intensity = row.intensity,
-                         .reference_intensity = row.reference_intensity,
-                         .is_catch = row.is_catch};
-    if (row.test_interval) planned.test_interval = static_cast<int>(*row.test_interval);
-    answered[{row.session, row.block}].push_back({planned, *row.response});
+    answered[{row.session, row.block}].push_back({planned_trial(row), *row.response});
   }
   return answered;
 }

@@ -191,6 +191,9 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
     for (core::AnswerRow& answer : store.answers(session.session)) {
       participant.answers.push_back(std::move(answer));
     }
+    for (core::QuestionAnswerRow& row : store.question_answers(session.session)) {
+      if (!is_practice(row.block)) participant.question_answers.push_back(std::move(row));
+    }
     std::set<std::int64_t> standing;
     for (core::TrialRow& trial : store.trials(session.session)) {
       standing.insert(trial.trial);

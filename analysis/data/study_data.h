@@ -36,6 +36,8 @@ struct ParticipantData {
   std::vector<TrialRecord> records;      ///< Of every trial that was drawn but for practice.
   std::string cells;                     ///< Counterbalancing, as a session keeps it.
   std::vector<core::AnswerRow> answers;  ///< Outside of trials, in the order of the sessions.
+  /// To questions after the trials that stand, in the order of the sessions; of practice none.
+  std::vector<core::QuestionAnswerRow> question_answers;
   /// Blocks and stages of questions of the study that none of their sessions has, for they were
   /// in another arm.
   std::set<std::string> of_other_arms;
@@ -63,6 +65,8 @@ struct BlockDesign {
   [[nodiscard]] bool estimates() const { return measures == Measure::kMagnitude; }
   [[nodiscard]] bool produces() const { return measures == Measure::kProducedMagnitude; }
   [[nodiscard]] bool matches() const { return measures == Measure::kMatch; }
+  [[nodiscard]] bool identifies() const { return measures == Measure::kIdentification; }
+  [[nodiscard]] bool rates() const { return measures == Measure::kRating; }
   /// Its answers have a psychometric function, whatever procedure chose the stimuli. Not where
   /// no trial with the reference was answered.
   [[nodiscard]] bool compares() const {

@@ -43,6 +43,10 @@ std::vector<BidsBlock> blocks_of_trials(const core::StudyStore& store,
       break;
     }
   }
+  for (ExportedAnswer& one : exported_question_answers(store, session.session, trials)) {
+    const auto block = std::ranges::find(blocks, one.row.block, &BidsBlock::name);
+    if (block != blocks.end()) block->answers.push_back(std::move(one));
+  }
   return blocks;
 }
 

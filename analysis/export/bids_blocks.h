@@ -24,6 +24,7 @@ struct BidsBlock {
   std::string name;                   ///< Of the block or stage in the study file.
   std::vector<ExportedTrial> trials;  ///< None in a stage that only shows media.
   std::vector<ExportedPresentation> presentations;
+  std::vector<ExportedAnswer> answers;    ///< To questions after the trials.
   std::vector<BidsExploration> explored;  ///< Explored media; a block has none.
   std::int64_t first_tick = 0,
                last_tick = 0;  ///< From its first medium to the end of its last.
@@ -50,7 +51,8 @@ void write_bids_events(const std::filesystem::path& front, const BidsBlock& bloc
                        const core::SessionRow& session,
                        const std::vector<core::TickRange>& gaps);
 
-/// beh/..._beh.tsv and its sidecar: one row a trial whose answer stands.
+/// beh/..._beh.tsv and its sidecar: one row a trial whose answer stands, with a column
+/// question_NAME for each question that follows trials.
 void write_bids_beh(const std::filesystem::path& folder, const BidsTask& task,
                     const BidsBlock& block, const core::SessionRow& session);
 

@@ -141,13 +141,45 @@ void write_bids_events(const fs::path& front, const BidsBlock& block,
   write_json(front.string() + "_events.json", described(all_event_columns()));
 }
 
+namespace {
+
+/// A question after the trials of a block, as a column of theirs.
+struct QuestionColumn {
+  std::string question, name, unit, words;
+};
+
+std::vector<QuestionColumn> question_columns_of(const BidsBlock& block) {
+  std::vector<QuestionColumn> columns;
+  for (const ExportedAnswer& one : block.answers) {
+    if (std::ranges::find(columns, one.row.question, &QuestionColumn::question) !=
+        columns.end()) {
+      continue;
+    }
+    columns.push_back({one.row.question, "question_" + one.row.question, one.unit,
+                       "Answer after the trial: " + one.asked});
+  }
+  return columns;
+}
+
+}  // namespace
+
 void write_bids_beh(const fs::path& folder, const BidsTask& task, const BidsBlock& block,
                     const core::SessionRow& session) {
   const std::vector<CsvColumn>& all = trial_columns();
-  const std::vector<CsvColumn> columns(all.begin() + kNumTrialOwners, all.end());
+  std::vector<CsvColumn> columns(all.begin() + kNumTrialOwners, all.end());
+  const std::vector<QuestionColumn> asked = question_columns_of(block);
+  for (const QuestionColumn& one : asked) {
+    columns.push_back({one.name.c_str(), one.unit.c_str(), one.words.c_str()});
+  }
   CsvTableWriter table(folder / (task.front + "_beh.tsv"), columns, TableStyle::kBids);
   for (const ExportedTrial& trial : block.trials) {
     write_trial_cells(table, session, trial);
+    for (const QuestionColumn& one : asked) {
+      const auto given = std::ranges::find_if(block.answers, [&](const ExportedAnswer& answer) {
+        return answer.row.trial == trial.row.trial && answer.row.question == one.question;
+      });
+      table.cell(given == block.answers.end() ? std::string() : given->row.answer);
+    }
     table.end_row();
   }
   table.finish();

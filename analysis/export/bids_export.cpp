@@ -62,7 +62,9 @@ class BidsExport {
     label_tasks();
     write_bids_participants(folder_.path(), dataset_, store_);
     std::map<std::string, std::vector<std::pair<std::string, core::SessionRow>>> visits;
+    std::size_t num_done = 0;
     for (const auto& [session, blocks] : sessions_) {
+      core::tell(options_.on_progress, num_done++, sessions_.size());
       char number[32];
       auto& its = visits[session.participant];
       std::snprintf(number, sizeof number, "ses-%02d", static_cast<int>(its.size()) + 1);

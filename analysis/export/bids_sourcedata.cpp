@@ -42,7 +42,9 @@ void delete_rows(core::Database& database, const std::vector<core::SessionRow>& 
   core::Transaction transaction(database);
   const auto all_guards = guards(database);
   for (const auto& [name, sql] : all_guards) database.execute("DROP TRIGGER " + name);
-  for (const char* table : {"answer", "presentation", "trial", "design", "event", "session"}) {
+  for (const char* table :
+       {"question_answer", "answer", "presentation", "trial", "design", "event", "session"}) {
+    if (!has_table(database, table)) continue;  // Of an older layout.
     database.execute(std::string("DELETE FROM ") + table + " WHERE session NOT IN " +
                      numbers_of(kept));
   }

@@ -55,7 +55,11 @@ struct SessionRows {
   std::vector<core::EventRow> events;
   std::vector<core::AnswerRow> answers;
   std::vector<QuestionnaireItem> questions;
+  std::vector<ExportedAnswer> question_answers;
 };
+
+/// Of the time of an export with samples, for its progress.
+constexpr double kShareOfTables = 0.05;
 
 class CsvExport {
  public:
@@ -105,6 +109,7 @@ class CsvExport {
     CsvTableWriter events = table("events.csv", event_columns());
     CsvTableWriter answers = table("answers.csv", answer_columns());
     CsvTableWriter questionnaires = table("questionnaires.csv", questionnaire_columns());
+    CsvTableWriter after_trials = table("questions.csv", question_columns());
     StudyQuestions questions(store_);
     const auto read_ahead = [&](std::size_t i) {
       return std::async(std::launch::async, [this, &questions, i] {
@@ -113,8 +118,11 @@ class CsvExport {
     };
     // The next session is read while this one is written.
     std::future<SessionRows> next = read_ahead(0);
+    const core::Progress tables =
+        core::part_of(options_.on_progress, 0.0, options_.recordings ? kShareOfTables : 1.0);
     for (std::size_t i = 0; i < sessions_.size(); ++i) {
       if (options_.keep_going) options_.keep_going();
+      core::tell(tables, i, sessions_.size());
       const SessionRows rows = next.get();
       next = read_ahead(i + 1);
       const core::SessionRow& session = sessions_[i];
@@ -124,10 +132,11 @@ class CsvExport {
       write_events(events, session, rows.events);
       write_answers(answers, session, rows.answers);
       write_questionnaire(questionnaires, session, rows.answers, rows.questions);
+      write_questions(after_trials, session, rows.question_answers);
       count(session, rows);
     }
-    for (CsvTableWriter* one :
-         {&sessions, &trials, &presentations, &events, &answers, &questionnaires}) {
+    for (CsvTableWriter* one : {&sessions, &trials, &presentations, &events, &answers,
+                                &questionnaires, &after_trials}) {
       one->finish();
     }
   }
@@ -140,6 +149,7 @@ class CsvExport {
                      .answers = store_.answers(session.session),
                      .questions = questions.of(session)};
     rows.presentations = exported_presentations(store_, session.session, rows.trials);
+    rows.question_answers = exported_question_answers(store_, session.session, rows.trials);
     return rows;
   }
 
@@ -180,7 +190,10 @@ class CsvExport {
   void write_recordings() {
     (void)folder_.make("recordings");
     CsvTableWriter gaps = table("recordings/gaps.csv", gap_columns());
+    const core::Progress recordings = core::part_of(options_.on_progress, kShareOfTables, 1.0);
+    std::size_t num_done = 0;
     for (const core::SessionRow& session : sessions_) {
+      core::tell(recordings, num_done++, sessions_.size());
       const ExportedRecording recording(store_, session, options_);
       if (!recording.problem().empty()) outcome_.problems.push_back(recording.problem());
       write_gaps(gaps, session, recording);
@@ -218,6 +231,7 @@ class CsvExport {
         {"events.csv", &event_columns()},
         {"answers.csv", &answer_columns()},
         {"questionnaires.csv", &questionnaire_columns()},
+        {"questions.csv", &question_columns()},
         {"codebook.csv", &codebook_columns()}};
     if (options_.recordings) tables.emplace_back("recordings/gaps.csv", &gap_columns());
     write_codebook(rows, tables);

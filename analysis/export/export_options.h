@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/progress.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::analysis {
@@ -18,6 +19,7 @@ struct ExportOptions {
   std::function<std::vector<std::string>(const core::SessionRow&)> stage_names = {};
   /// Called every now and then; what it throws ends the export. May be empty.
   std::function<void()> keep_going = {};
+  core::Progress on_progress = {};  ///< By sessions.
 };
 
 /// What became of a data set that was written.

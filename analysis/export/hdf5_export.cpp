@@ -73,8 +73,10 @@ class Hdf5Export {
                       store_.events(session.session));
       }
     });
+    std::size_t num_done = 0;
     for (const core::SessionRow& session : sessions_) {
       if (options_.keep_going) options_.keep_going();
+      core::tell(options_.on_progress, num_done++, sessions_.size());
       write_one(root_.group(group_name(session.session)), session);
     }
     write_device_profiles();
@@ -151,6 +153,10 @@ class Hdf5Export {
     write_table(group, "questionnaires", questionnaire_columns(), [&](TableWriter& table) {
       write_questionnaire(table, session, answers, questions_.of(session));
     });
+    write_table(group, "questions", question_columns(), [&](TableWriter& table) {
+      write_questions(table, session,
+                      exported_question_answers(store_, session.session, trials));
+    });
     write_table(group, "gaps", gap_columns(),
                 [&](TableWriter& table) { write_gaps(table, session, recording); });
     group.attribute("recorded", std::int64_t{recording.any()});
@@ -170,6 +176,7 @@ class Hdf5Export {
                              {"session_*/events", &event_columns()},
                              {"session_*/answers", &answer_columns()},
                              {"session_*/questionnaires", &questionnaire_columns()},
+                             {"session_*/questions", &question_columns()},
                              {"session_*/gaps", &gap_columns()},
                              {"codebook", &codebook_columns()}});
       for (const RecordingColumn& column : recording_columns(any_columns_)) {

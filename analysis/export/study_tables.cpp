@@ -102,6 +102,10 @@ struct QuestionCells {
   const QuestionnaireItem& item;
   std::string given;
 };
+struct QuestionAnswerCells {
+  const core::SessionRow& session;
+  const ExportedAnswer& answer;
+};
 struct GapCells {
   const core::SessionRow& session;
   core::TickRange gap;
@@ -205,6 +209,28 @@ const Columns<QuestionCells>& questionnaire_table() {
   return kColumns;
 }
 
+const Columns<QuestionAnswerCells>& question_table() {
+  static const Columns<QuestionAnswerCells> kColumns = [] {
+    auto all = owned(stored_columns<QuestionAnswerCells>(
+        [](const QuestionAnswerCells& it) -> const core::QuestionAnswerRow& {
+          return it.answer.row;
+        }));
+    insert_after(
+        all, "question",
+        {{"kind", "", "How it is answered: number, text, choice, yes_no, yes_no_which, scale"},
+         [](auto& to, const auto& it) { to.cell(it.answer.kind); }});
+    all.push_back(
+        {{"value", "unit", "The number, or the step of the scale; empty otherwise", kReal},
+         [](auto& to, const auto& it) { to.cell(it.answer.value); }});
+    all.push_back({{"unit", "", "Of a number"},
+                   [](auto& to, const auto& it) { to.cell(it.answer.unit); }});
+    all.push_back({{"excluded", "", "1: its trial is set aside", kCount},
+                   [](auto& to, const auto& it) { to.cell(it.answer.excluded); }});
+    return all;
+  }();
+  return kColumns;
+}
+
 const Columns<GapCells>& gap_table() {
   static const Columns<GapCells> kColumns = owned(Columns<GapCells>{
       {{"first_tick", "tick", "First tick without a sample", kCount},
@@ -247,6 +273,11 @@ const std::vector<CsvColumn>& answer_columns() {
 
 const std::vector<CsvColumn>& questionnaire_columns() {
   static const std::vector<CsvColumn> kColumns = told(questionnaire_table());
+  return kColumns;
+}
+
+const std::vector<CsvColumn>& question_columns() {
+  static const std::vector<CsvColumn> kColumns = told(question_table());
   return kColumns;
 }
 
@@ -321,6 +352,17 @@ void write_questionnaire(TableWriter& table, const core::SessionRow& session,
     }
     put(table, questionnaire_table(), {session, item, given}).end_row();
   }
+}
+
+void write_questions(TableWriter& table, const core::SessionRow& session,
+                     const std::vector<ExportedAnswer>& answers) {
+  for (const ExportedAnswer& one : answers)
+    put(table, question_table(), {session, one}).end_row();
+}
+
+void write_question_cells(TableWriter& table, const core::SessionRow& session,
+                          const ExportedAnswer& answer) {
+  put(table, question_table(), {session, answer}, kNumTrialOwners);
 }
 
 void write_gaps(TableWriter& table, const core::SessionRow& session,

@@ -20,6 +20,7 @@ namespace jnd::analysis {
 [[nodiscard]] const std::vector<CsvColumn>& event_columns();
 [[nodiscard]] const std::vector<CsvColumn>& answer_columns();
 [[nodiscard]] const std::vector<CsvColumn>& questionnaire_columns();
+[[nodiscard]] const std::vector<CsvColumn>& question_columns();
 [[nodiscard]] const std::vector<CsvColumn>& gap_columns();
 [[nodiscard]] const std::vector<CsvColumn>& codebook_columns();
 
@@ -44,6 +45,12 @@ void write_answers(TableWriter& table, const core::SessionRow& session,
 void write_questionnaire(TableWriter& table, const core::SessionRow& session,
                          const std::vector<core::AnswerRow>& answers,
                          const std::vector<QuestionnaireItem>& questions);
+/// Answers to questions after trials, a row each.
+void write_questions(TableWriter& table, const core::SessionRow& session,
+                     const std::vector<ExportedAnswer>& answers);
+/// The cells of such an answer after those of its owner, the row not ended.
+void write_question_cells(TableWriter& table, const core::SessionRow& session,
+                          const ExportedAnswer& answer);
 void write_gaps(TableWriter& table, const core::SessionRow& session,
                 const ExportedRecording& recording);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "experiments/study/question_answer.h"
+
 namespace jnd::analysis {
 std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,
                                            std::int64_t session) {
@@ -36,6 +38,39 @@ std::vector<ExportedPresentation> exported_presentations(
     presentations.push_back({.row = std::move(row), .excluded = is_excluded});
   }
   return presentations;
+}
+
+std::vector<ExportedAnswer> exported_question_answers(
+    const core::StudyStore& store, std::int64_t session,
+    const std::vector<ExportedTrial>& trials) {
+  std::set<std::int64_t> excluded;
+  for (const ExportedTrial& trial : trials) {
+    if (trial.excluded) excluded.insert(trial.row.trial);
+  }
+  const std::string hash = store.session(session).protocol_sha256;
+  StoredStudies studies(store);
+  std::vector<ExportedAnswer> answers;
+  for (core::QuestionAnswerRow& row : store.question_answers(session, true)) {
+    const experiments::Block& block = studies.block(hash, row.block);
+    const auto asked =
+        std::ranges::find(block.questions, row.question, &experiments::QuestionnaireItem::name);
+    ExportedAnswer answer{.row = std::move(row)};
+    answer.excluded = excluded.contains(answer.row.trial);
+    if (asked != block.questions.end()) {
+      answer.kind = asked->kind;
+      answer.unit = asked->unit;
+      answer.asked = in_english(asked->question);
+      if (asked->kind == "scale") {
+        answer.asked += " From 1, " + in_english(asked->low_label) + ", to " +
+                        std::to_string(asked->num_steps) + ", " + in_english(asked->high_label);
+      }
+      if (asked->kind == "scale" || asked->kind == "number") {
+        answer.value = experiments::number_in(answer.row.answer);
+      }
+    }
+    answers.push_back(std::move(answer));
+  }
+  return answers;
 }
 
 const std::vector<QuestionnaireItem>& StudyQuestions::of(const core::SessionRow& session) {

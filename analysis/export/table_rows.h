@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,19 @@ struct ExportedPresentation {
   bool excluded = false;  ///< Its trial is.
 };
 [[nodiscard]] std::vector<ExportedPresentation> exported_presentations(
+    const core::StudyStore& store, std::int64_t session,
+    const std::vector<ExportedTrial>& trials);
+
+/// An answer to a question after a trial, beside the question.
+struct ExportedAnswer {
+  core::QuestionAnswerRow row;
+  std::string kind, unit;       ///< Of the question; "" for one that the study has not.
+  std::string asked;            ///< What was asked, and what the ends of a scale are.
+  std::optional<double> value;  ///< Of a number or a scale.
+  bool excluded = false;        ///< Its trial is.
+};
+/// Of the trials whose answer stands, in the order in which they were given.
+[[nodiscard]] std::vector<ExportedAnswer> exported_question_answers(
     const core::StudyStore& store, std::int64_t session,
     const std::vector<ExportedTrial>& trials);
 

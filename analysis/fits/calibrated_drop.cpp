@@ -1,6 +1,7 @@
 #include "analysis/fits/calibrated_drop.h"
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "analysis/fits/normal_tail.h"
@@ -10,6 +11,12 @@
 
 namespace jnd::analysis {
 namespace {
+
+/// Likelihood ratios of answers that were drawn anew.
+struct Ratios {
+  bool exist = false;  ///< The redrawn answers rise.
+  double of_slope = 0.0, of_pse = 0.0;
+};
 
 /// Half the 95 % quantile of chi-squared or of the values, whichever is larger.
 double drop_of(std::vector<double> ratios) {
@@ -39,19 +46,40 @@ CalibratedDrops calibrated_drops(const Eigen::MatrixXd& design,
                          normal_tails(design.row(row).dot(coefficients)).lower);
   }
   core::RandomStream random(seed, "calibration of a likelihood ratio");
-  std::vector<double> of_slope, of_pse;
-  Eigen::VectorXd redrawn(design.rows());
-  for (int redraw = 0; redraw < num_redraws; ++redraw) {
-    for (Eigen::Index row = 0; row < design.rows(); ++row) {
-      redrawn(row) = answers[static_cast<std::size_t>(row)].draw(random);
-    }
+  const auto ratios_of = [&](const std::vector<double>& num_yes) {
+    const Eigen::Map<const Eigen::VectorXd> mapped(num_yes.data(), design.rows());
+    const Eigen::VectorXd redrawn = mapped;
+    Ratios ratios;
     const ProbitRegression free = fit_probit(design, redrawn, num_trials);
-    if (!(free.coefficients.size() > 0 && free.coefficients(0) > 0.0)) continue;
+    ratios.exist = free.coefficients.size() > 0 && free.coefficients(0) > 0.0;
+    if (!ratios.exist) return ratios;
     const ProbitRegression at_slope = fit_probit(without_slope, redrawn, num_trials, by_slope);
-    of_slope.push_back(2.0 * (free.log_likelihood - at_slope.log_likelihood));
-    if (!free_pse) continue;
+    ratios.of_slope = 2.0 * (free.log_likelihood - at_slope.log_likelihood);
+    if (!free_pse) return ratios;
     const ProbitRegression at_pse = fit_probit(without_pse, redrawn, num_trials);
-    of_pse.push_back(2.0 * (free.log_likelihood - at_pse.log_likelihood));
+    ratios.of_pse = 2.0 * (free.log_likelihood - at_pse.log_likelihood);
+    return ratios;
+  };
+  // Few answers are often drawn alike; those of many rows never are, and are not kept.
+  constexpr Eigen::Index kMostRowsKept = 32;
+  std::map<std::vector<double>, Ratios> known;
+  std::vector<double> of_slope, of_pse;
+  std::vector<double> redrawn(answers.size());
+  for (int redraw = 0; redraw < num_redraws; ++redraw) {
+    for (std::size_t row = 0; row < answers.size(); ++row) {
+      redrawn[row] = answers[row].draw(random);
+    }
+    Ratios ratios;
+    if (design.rows() > kMostRowsKept) {
+      ratios = ratios_of(redrawn);
+    } else {
+      const auto [found, is_new] = known.try_emplace(redrawn);
+      if (is_new) found->second = ratios_of(redrawn);
+      ratios = found->second;
+    }
+    if (!ratios.exist) continue;
+    of_slope.push_back(ratios.of_slope);
+    if (free_pse) of_pse.push_back(ratios.of_pse);
   }
   return {drop_of(std::move(of_slope)), drop_of(std::move(of_pse))};
 }

@@ -100,4 +100,19 @@ Json to_json(const Comparison& comparison) {
   return json;
 }
 
+Json to_json(const EquivalenceTest& test) {
+  const bool is_ratio = test.margin.scale == EquivalenceMargin::Scale::kRatio;
+  Json json;
+  json["status"] = to_string(test.status);
+  json["reason"] = sentence(test.reason);
+  json["scale"] = is_ratio ? "ratio" : "difference";
+  json["margin"] = test.margin.size;
+  json["estimate"] = number(test.estimate);
+  json["ci90"] = interval(test.ci90);
+  json["degrees_of_freedom"] = number(test.degrees_of_freedom);
+  json["p_value"] = number(test.p_value);
+  json["is_equivalent"] = test.is_equivalent();
+  return json;
+}
+
 }  // namespace jnd::analysis

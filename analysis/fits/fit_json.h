@@ -5,6 +5,7 @@
 #include "analysis/fits/power_fit.h"
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/statistics/comparison.h"
+#include "analysis/statistics/equivalence_test.h"
 
 namespace jnd::analysis {
 
@@ -13,5 +14,6 @@ namespace jnd::analysis {
 [[nodiscard]] nlohmann::ordered_json to_json(const PsychometricFit& fit);
 [[nodiscard]] nlohmann::ordered_json to_json(const PowerFit& fit);
 [[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
+[[nodiscard]] nlohmann::ordered_json to_json(const EquivalenceTest& test);
 
 }  // namespace jnd::analysis

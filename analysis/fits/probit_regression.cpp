@@ -10,44 +10,32 @@
 namespace jnd::analysis {
 namespace {
 
-struct Derivatives {
+/// The log-likelihood and its derivatives at one place.
+struct Likelihood {
+  double value = 0.0;
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;
 };
 
-Derivatives derivatives_at(const Eigen::MatrixXd& design, const Eigen::VectorXd& num_yes,
-                           const Eigen::VectorXd& num_trials, const Eigen::VectorXd& offset,
-                           const Eigen::VectorXd& beta) {
-  Derivatives here{Eigen::VectorXd::Zero(beta.size()),
-                   Eigen::MatrixXd::Zero(beta.size(), beta.size())};
+Likelihood likelihood_at(const Eigen::MatrixXd& design, const Eigen::VectorXd& num_yes,
+                         const Eigen::VectorXd& num_trials, const Eigen::VectorXd& offset,
+                         const Eigen::VectorXd& beta) {
+  Likelihood here{0.0, Eigen::VectorXd::Zero(beta.size()),
+                  Eigen::MatrixXd::Zero(beta.size(), beta.size())};
   Eigen::VectorXd x(beta.size());
   for (Eigen::Index row = 0; row < design.rows(); ++row) {
     x = design.row(row).transpose();
     const double z = offset(row) + x.dot(beta), yes = num_yes(row);
     const double no = num_trials(row) - yes;
     const LogNormalTails tails = log_normal_tails(z);
+    if (yes > 0.0) here.value += yes * tails.log_lower;
+    if (no > 0.0) here.value += no * tails.log_upper;
     here.gradient += (yes * tails.mills_lower - no * tails.mills_upper) * x;
     here.information += (yes * tails.mills_lower * (z + tails.mills_lower) +
                          no * tails.mills_upper * (tails.mills_upper - z)) *
                         x * x.transpose();
   }
   return here;
-}
-
-/// The log-likelihood.
-double value_at(const Eigen::MatrixXd& design, const Eigen::VectorXd& num_yes,
-                const Eigen::VectorXd& num_trials, const Eigen::VectorXd& offset,
-                const Eigen::VectorXd& beta) {
-  double value = 0.0;
-  Eigen::VectorXd x(beta.size());
-  for (Eigen::Index row = 0; row < design.rows(); ++row) {
-    x = design.row(row).transpose();
-    const double yes = num_yes(row), no = num_trials(row) - yes;
-    const LogNormalTails tails = log_normal_tails(offset(row) + x.dot(beta));
-    if (yes > 0.0) value += yes * tails.log_lower;
-    if (no > 0.0) value += no * tails.log_upper;
-  }
-  return value;
 }
 
 }  // namespace
@@ -71,13 +59,15 @@ ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd
     return fit;
   }
   fit.coefficients = Eigen::VectorXd::Zero(design.cols());
-  fit.log_likelihood = value_at(design, num_yes, num_trials, known, fit.coefficients);
+  const auto at = [&](const Eigen::VectorXd& coefficients) {
+    return likelihood_at(design, num_yes, num_trials, known, coefficients);
+  };
+  Likelihood here = at(fit.coefficients);
+  fit.log_likelihood = here.value;
   // A sum of so many terms is no better than that.
   const double rounding = std::max(1e-13, 1e-16 * static_cast<double>(design.rows()));
   double largest = 0.0;
   for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
-    const Derivatives here =
-        derivatives_at(design, num_yes, num_trials, known, fit.coefficients);
     const Eigen::LLT<Eigen::MatrixXd> cholesky(here.information);
     if (cholesky.info() != Eigen::Success) break;
     Eigen::VectorXd step = cholesky.solve(here.gradient);
@@ -88,14 +78,16 @@ ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd
       return fit;
     }
     const double least = fit.log_likelihood - rounding * std::fabs(fit.log_likelihood);
-    double value = 0.0;
+    bool is_higher = false;
     for (int halving = 0; halving < kMaxHalvings; ++halving) {
-      value = value_at(design, num_yes, num_trials, known, fit.coefficients + step);
-      if (value >= least) break;
+      here = at(fit.coefficients + step);
+      is_higher = here.value >= least;
+      if (is_higher) break;
       step *= 0.5;
     }
     fit.coefficients += step;
-    fit.log_likelihood = value;
+    fit.log_likelihood = here.value;
+    if (!is_higher) here = at(fit.coefficients);
   }
   // Answers that are separated send the curve ever further, by a third of z or more a step.
   constexpr double kAtRest = 1e-3;

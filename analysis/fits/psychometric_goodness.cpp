@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "analysis/fits/answer_scatter.h"
 #include "analysis/fits/psychometric_limits.h"
@@ -31,6 +34,11 @@ double deviance_residual(double yes, double trials, double fitted) {
   const double share = 2.0 * (saturated_term(yes, trials) - log_likelihood);
   return std::copysign(std::sqrt(std::max(0.0, share)), yes / trials - fitted);
 }
+
+/// Answers that were drawn anew, beside those that were given.
+struct Judgement {
+  bool is_as_far = false, has_correlation = false, is_as_correlated = false;
+};
 
 struct StandardResiduals {
   std::vector<double> fitted, deviance;  ///< By level.
@@ -146,23 +154,40 @@ PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
   core::RandomStream random(seed, "goodness of fit of a psychometric function");
   PsychometricLevels redrawn = levels;
   int num_as_far = 0, num_as_correlated = 0, num_correlations = 0;
-  for (int draw = 0; draw < num_redraws; ++draw) {
-    redraw.draw(random, redrawn);
+  const auto judged = [&] {
+    Judgement judgement;
     const PsychometricSearchResult found = refit.find(redrawn);
     const bool attained = found.supremum == PsychometricSupremum::kAttained;
     const double value = attained
                              ? log_likelihood(redrawn, found.optimum.curve)
                              : limit_log_likelihood(redrawn, search.free(), found.supremum);
     // Ties are common at few answers: rounding must not break them.
-    if (deviance_of(redrawn, value) >= deviance * (1.0 - 1e-9)) ++num_as_far;
-    if (!attained || !goodness.level_correlation) continue;
+    judgement.is_as_far = deviance_of(redrawn, value) >= deviance * (1.0 - 1e-9);
+    if (!attained || !goodness.level_correlation) return judgement;
     const StandardResiduals of_redrawn = residuals_of(redrawn, found.optimum.curve);
     const auto other = correlation(of_redrawn.fitted, of_redrawn.deviance);
-    if (!other) continue;
-    ++num_correlations;
-    if (std::fabs(*other) >= std::fabs(*goodness.level_correlation) - 1e-12) {
-      ++num_as_correlated;
+    judgement.has_correlation = other.has_value();
+    judgement.is_as_correlated =
+        other && std::fabs(*other) >= std::fabs(*goodness.level_correlation) - 1e-12;
+    return judgement;
+  };
+  // Few answers are often drawn alike; those of many levels never are, and are not kept.
+  constexpr std::size_t kMostLevelsKept = 32;
+  std::map<std::pair<std::vector<double>, double>, Judgement> known;
+  for (int draw = 0; draw < num_redraws; ++draw) {
+    redraw.draw(random, redrawn);
+    Judgement judgement;
+    if (levels.size() > kMostLevelsKept) {
+      judgement = judged();
+    } else {
+      const auto [found, is_new] =
+          known.try_emplace(std::pair(redrawn.num_yes, redrawn.zero_yes));
+      if (is_new) found->second = judged();
+      judgement = found->second;
     }
+    num_as_far += judgement.is_as_far ? 1 : 0;
+    num_correlations += judgement.has_correlation ? 1 : 0;
+    num_as_correlated += judgement.is_as_correlated ? 1 : 0;
   }
   goodness.n = num_redraws;
   goodness.p_value = (1.0 + num_as_far) / (1.0 + num_redraws);

@@ -33,8 +33,9 @@ struct AnswerProbabilities {
   double by_lapse_yes = 0, by_lapse_no = 0;  ///< d ln f / d lapse, d ln g / d lapse
 };
 
-AnswerProbabilities answer_probabilities(double z, double lapse_rate,
-                                         double guess_rate) noexcept {
+/// `has_yes`, `has_no`: whether what belongs to such an answer is wanted; else it may be 0.
+AnswerProbabilities answer_probabilities(double z, double lapse_rate, double guess_rate,
+                                         bool has_yes = true, bool has_no = true) noexcept {
   if (lapse_rate == 0.0 && guess_rate == 0.0) {
     const LogNormalTails tails = log_normal_tails(z);
     return {tails.log_lower, tails.log_upper, tails.mills_lower, tails.mills_upper};
@@ -44,7 +45,19 @@ AnswerProbabilities answer_probabilities(double z, double lapse_rate,
     const double share = 1.0 - 2.0 * lapse_rate;
     const double yes = lapse_rate + share * tails.lower, no = lapse_rate + share * tails.upper;
     const double by_z = share * tails.density, by_lapse = tails.upper - tails.lower;
-    return {std::log(yes), std::log(no), by_z / yes, by_z / no, by_lapse / yes, -by_lapse / no};
+    // Most levels far from the reference have answers of one kind, and logarithms are dear.
+    AnswerProbabilities found{};
+    if (has_yes) {
+      found.log_yes = std::log(yes);
+      found.by_z_yes = by_z / yes;
+      found.by_lapse_yes = by_lapse / yes;
+    }
+    if (has_no) {
+      found.log_no = std::log(no);
+      found.by_z_no = by_z / no;
+      found.by_lapse_no = -by_lapse / no;
+    }
+    return found;
   }
   const double share = 1.0 - guess_rate - lapse_rate;
   const double right = guess_rate + share * tails.lower;
@@ -113,9 +126,9 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
       const double order = has_orders_ ? cell.order[level] : 0.0;
       const Predictor at =
           predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level]);
-      const AnswerProbabilities answer =
-          answer_probabilities(at.z, lapse_rate, structure_.guess_rate);
       const double yes = cell.num_yes[level], no = cell.num_no[level];
+      const AnswerProbabilities answer =
+          answer_probabilities(at.z, lapse_rate, structure_.guess_rate, yes > 0.0, no > 0.0);
       // A zero count contributes nothing, even where its logarithm is infinite.
       if (yes > 0.0) value += yes * answer.log_yes;
       if (no > 0.0) value += no * answer.log_no;
@@ -213,6 +226,9 @@ HierarchicalLikelihood::Mode HierarchicalLikelihood::mode_of(const HierarchicalP
 
 Eigen::VectorXd HierarchicalLikelihood::of_people(const Eigen::VectorXd& parameters,
                                                   Eigen::MatrixXd* scores) const {
+  const bool is_known =
+      last_parameters_.size() == parameters.size() && last_parameters_ == parameters;
+  if (scores == nullptr && is_known) return last_values_;
   const Population population = population_of(parameters);
   const auto num_people = static_cast<Eigen::Index>(people_.size());
   const Eigen::Index num_numbers = population.median.size();
@@ -260,6 +276,8 @@ Eigen::VectorXd HierarchicalLikelihood::of_people(const Eigen::VectorXd& paramet
           by_lapse_rate;
     }
   }
+  last_parameters_ = parameters;
+  last_values_ = values;
   return values;
 }
 

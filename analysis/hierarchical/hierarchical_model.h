@@ -177,6 +177,8 @@ class HierarchicalLikelihood {
   GaussHermiteGrid grid_;
   mutable std::vector<RandomEffects>
       last_;  ///< Modes found last: where the next search starts.
+  /// Where `of_people` was asked last, and what it said: the searches ask again.
+  mutable Eigen::VectorXd last_parameters_, last_values_;
 };
 
 }  // namespace jnd::analysis

@@ -183,13 +183,17 @@ HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
       found.reason = "the likelihood rises without bound: the answers are nearly separated";
       return found;
     }
-    found.log_likelihood = likelihood(found.parameters);
+    // Where the curvature is still known, value and gradient come of one evaluation.
+    Eigen::VectorXd rise;
+    const bool has_rise = inverse.matrix.size() > 0 && likelihood.num_nodes() > 1;
+    found.log_likelihood = likelihood(found.parameters, has_rise ? &rise : nullptr);
     const auto inverse_here = [&] {
       return inverse_of(information_at(likelihood, found.parameters, found.log_likelihood));
     };
     // The curvature anew only while the steps are large.
     if (inverse.matrix.size() == 0) inverse = inverse_here();
-    Eigen::VectorXd step = inverse.matrix * gradient_of(likelihood, found.parameters);
+    if (!has_rise) rise = gradient_of(likelihood, found.parameters);
+    Eigen::VectorXd step = inverse.matrix * rise;
     const double size = step.cwiseAbs().maxCoeff();
     if (!std::isfinite(size)) return found;
     if (size <= kSmallStep) {

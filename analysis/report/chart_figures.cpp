@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "analysis/report/plot_parts.h"
 
@@ -19,6 +21,13 @@ std::string quoted_column(const std::string& column) { return "'" + column + "'"
 std::string column_of(const ChartSeries& series, const std::string& column) {
   return series.series ? if_series(series.series_column, *series.series, column)
                        : quoted_column(column);
+}
+
+/// "'TABLE.csv' using ", or with "every ::20::39 " where the rows are known.
+std::string from_rows(const FigureTable& table, const ChartSeries& series) {
+  if (!series.rows) return from_table(table);
+  const auto& [first, last] = *series.rows;
+  return fmt::format("'{}.csv' every ::{}::{} using ", table.name, first, last);
 }
 
 /// "'intensity':(column('series')==3 ? column('ratio') : NaN)"
@@ -59,7 +68,7 @@ std::string command_of(const ChartSet& set, const ChartSeries& series, bool is_s
       series.legend.empty() ? "" : " title " + gnuplot_quoted(series.legend);
   if (series.look == Look::kIdentity) return "x with lines ls 12" + legend;
   const FigureTable& table = set.tables[series.table];
-  const std::string data = from_table(table) + columns_of(series);
+  const std::string data = from_rows(table, series) + columns_of(series);
   switch (series.look) {
     case Look::kCurve:
       return data + (is_small ? " with lines ls 11 lw 1.3" : " with lines ls 11") + legend;
@@ -73,8 +82,11 @@ std::string command_of(const ChartSet& set, const ChartSeries& series, bool is_s
     case Look::kFaintCurve:
       return data + " with lines ls 10";
     case Look::kBand:
-      return from_table(table) + band_columns(series) +
+      return from_rows(table, series) + band_columns(series) +
              " with filledcurves lc rgb '#56B4E9' fill transparent solid 0.25" + legend;
+    case Look::kSpread:
+      return from_rows(table, series) + band_columns(series) +
+             " with filledcurves lc rgb '#BBBBBB' fill transparent solid 0.5" + legend;
     case Look::kAnswers: {
       const std::string& measured = series.has_bars_along_x ? series.x : series.y;
       return data + ":" + end_of(table, series.low, measured) + ":" +
@@ -175,36 +187,131 @@ std::string panel_title(const Chart& chart) {
   return chart.who + "   " + (chart.value.empty() ? "no value" : chart.value);
 }
 
+/// First and last row of each series of a table, by its number.
+using SeriesRows = std::map<int, std::pair<std::size_t, std::size_t>>;
+
+/// Of those series whose rows stand together.
+SeriesRows series_rows(const FigureTable& table) {
+  const std::size_t at = table.place_of("series");
+  SeriesRows rows;
+  if (at >= table.columns.size()) return rows;
+  std::set<int> scattered;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto& number = table.rows[i][at].number;
+    if (!number) continue;
+    const auto series = static_cast<int>(*number);
+    const auto [found, is_new] = rows.try_emplace(series, i, i);
+    if (!is_new && found->second.second + 1 != i) scattered.insert(series);
+    found->second.second = i;
+  }
+  for (const int series : scattered) rows.erase(series);
+  return rows;
+}
+
+/// Of some of the participants.
+Figure panel_figure(const ChartSet& set, const PanelFigures& layout, std::size_t most_lines) {
+  Figure figure = figure_of(set, layout);
+  const PanelGrid grid{.num_columns = layout.num_columns,
+                       .x_title = set.x.title,
+                       .y_title = set.y.title,
+                       .gap_x_in = layout.num_columns > 3 ? 0.3 : 0.35};
+  std::vector<Panel> panels;
+  for (const Chart& chart : set.participants) {
+    Panel panel{.title = panel_title(chart), .before = lines_of(chart, most_lines)};
+    if (panels.empty()) {
+      panel.before += axis_settings("x", set.x, /*is_small=*/true) +
+                      axis_settings("y", set.y, /*is_small=*/true);
+    }
+    panel.plot = plot_of(set, chart, /*is_small=*/true);
+    panels.push_back(std::move(panel));
+  }
+  figure.height_in = grid_height_in(grid, panels.size(), layout.panel_in);
+  figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
+  const Chart* const charts = set.participants.data();
+  figure.tables = tables_of(set, charts, charts + set.participants.size());
+  return figure;
+}
+
+/// A figure's own people out of many: tables of their rows alone, so that the work of all
+/// figures together grows as the number of people, not as its square. A table that one of the
+/// charts shows whole stays whole.
+class ChartPage {
+ public:
+  ChartPage(const ChartSet& set, std::size_t first, std::size_t end, std::size_t number)
+      : set_(set), number_(number) {
+    page_.section = set.section;
+    page_.x = set.x;
+    page_.y = set.y;
+    page_.tables.resize(set.tables.size());
+    page_.participants.assign(set.participants.begin() + static_cast<std::ptrdiff_t>(first),
+                              set.participants.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+
+  /// `rows`: of each table, by the number of the series; they stand together there.
+  [[nodiscard]] ChartSet made(const std::vector<SeriesRows>& rows) {
+    for (const Chart& chart : page_.participants) {
+      for (const ChartSeries& series : chart.series) {
+        if (series.look != Look::kIdentity && !is_of_some_rows(series, rows)) {
+          whole_.insert(series.table);
+        }
+      }
+    }
+    for (const std::size_t table : whole_) page_.tables[table] = set_.tables[table];
+    for (Chart& chart : page_.participants) {
+      for (ChartSeries& series : chart.series) {
+        if (series.look == Look::kIdentity || whole_.contains(series.table)) continue;
+        take(series, rows[series.table]);
+      }
+    }
+    return std::move(page_);
+  }
+
+ private:
+  static bool is_of_some_rows(const ChartSeries& series, const std::vector<SeriesRows>& rows) {
+    return series.series && series.series_column == "series" &&
+           rows[series.table].contains(*series.series);
+  }
+
+  void take(ChartSeries& series, const SeriesRows& rows) {
+    const FigureTable& from = set_.tables[series.table];
+    FigureTable& to = page_.tables[series.table];
+    const auto [first, last] = rows.at(*series.series);
+    const auto [place, is_new] =
+        places_.try_emplace({series.table, *series.series}, to.rows.size());
+    if (is_new) {
+      to.name = from.name + "_page_" + std::to_string(number_);
+      to.columns = from.columns;
+      to.rows.insert(to.rows.end(), from.rows.begin() + static_cast<std::ptrdiff_t>(first),
+                     from.rows.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    }
+    series.rows = {place->second, place->second + last - first};
+    series.series.reset();
+  }
+
+  const ChartSet& set_;
+  std::size_t number_;
+  ChartSet page_;
+  std::set<std::size_t> whole_;
+  std::map<std::pair<std::size_t, int>, std::size_t> places_;  ///< Of first rows, in the page.
+};
+
 std::vector<Figure> panel_figures(const ChartSet& set, const PanelFigures& layout) {
-  std::vector<Figure> figures;
   std::size_t most_lines = 0;
   for (const Chart& chart : set.participants) {
     most_lines = std::max(most_lines, chart.lines.size());
   }
-  const Chart* const charts = set.participants.data();
+  const std::size_t num = set.participants.size();
   const auto most = static_cast<std::size_t>(layout.most_panels);
-  for (std::size_t first = 0; first < set.participants.size(); first += most) {
-    const std::size_t end = std::min(first + most, set.participants.size());
-    Figure figure = figure_of(set, layout);
-    if (first > 0) figure.name += "_" + std::to_string(first / most + 1);
-    const PanelGrid grid{.num_columns = layout.num_columns,
-                         .x_title = set.x.title,
-                         .y_title = set.y.title,
-                         .gap_x_in = layout.num_columns > 3 ? 0.3 : 0.35};
-    std::vector<Panel> panels;
-    for (std::size_t i = first; i < end; ++i) {
-      Panel panel{.title = panel_title(charts[i]), .before = lines_of(charts[i], most_lines)};
-      if (i == first) {
-        panel.before += axis_settings("x", set.x, /*is_small=*/true) +
-                        axis_settings("y", set.y, /*is_small=*/true);
-      }
-      panel.plot = plot_of(set, charts[i], /*is_small=*/true);
-      panels.push_back(std::move(panel));
-    }
-    figure.height_in = grid_height_in(grid, panels.size(), layout.panel_in);
-    figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
-    figure.tables = tables_of(set, charts + first, charts + end);
-    figures.push_back(std::move(figure));
+  if (num == 0) return {};
+  if (num <= most) return {panel_figure(set, layout, most_lines)};
+  std::vector<SeriesRows> rows;
+  for (const FigureTable& table : set.tables) rows.push_back(series_rows(table));
+  std::vector<Figure> figures;
+  for (std::size_t first = 0; first < num; first += most) {
+    const std::size_t number = first / most + 1;
+    ChartPage page(set, first, std::min(first + most, num), number);
+    figures.push_back(panel_figure(page.made(rows), layout, most_lines));
+    if (number > 1) figures.back().name += "_" + std::to_string(number);
   }
   return figures;
 }

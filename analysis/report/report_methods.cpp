@@ -120,6 +120,15 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
   if (block.counts_in_own_numbers()) words += "; numbers of everybody’s own choice";
   if (!targets.empty()) words += "; set to feel like " + joined(targets, "%");
   if (!starts.empty()) words += "; starting from " + joined(starts, unit);
+  if (block.rates()) {
+    words += "; on a scale from 1, “" + in_english(block.written.low_label) + "”, to " +
+             shortest_words(block.written.settings.number("num_steps", 10.0)) + ", “" +
+             in_english(block.written.high_label) + "”";
+  }
+  for (const experiments::QuestionnaireItem& item : block.written.questions) {
+    words += "; after each trial “" + in_english(item.question) + "”";
+    if (item.kind == "scale") words += " on " + std::to_string(item.num_steps) + " steps";
+  }
   words += "; ";
   if (block.has_fixed_levels()) words += counted_words(repetitions, "repetition") + ", ";
   return words + num_trials_words(data, block) + ".";

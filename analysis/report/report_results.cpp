@@ -276,11 +276,9 @@ ResultsSection primary_comparisons(const StudyResults& results) {
 
 std::string section_title(const StudyTitles& titles, const std::string& name) {
   constexpr std::pair<std::string_view, const char*> kEndings[] = {
-      {"_staircase", ": staircases"},
-      {"_limits", ": method of limits"},
-      {"_quest_plus", ": QUEST+"},
-      {"_intervals", ": order of the intervals"},
-      {"_catch_trials", ": catch trials"}};
+      {"_staircase", ": staircases"},      {"_limits", ": method of limits"},
+      {"_quest_plus", ": QUEST+"},         {"_intervals", ": order of the intervals"},
+      {"_catch_trials", ": catch trials"}, {"_questions", ": questions after each trial"}};
   for (const auto& [ending, title] : kEndings) {
     if (titles.stages.contains(name) || !name.ends_with(ending)) continue;
     return section_title(titles, name.substr(0, name.size() - ending.size())) + title;

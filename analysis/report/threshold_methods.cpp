@@ -59,6 +59,19 @@ void add_threshold_methods(
             "Weber fraction of a comparison with the point of subjective equality at the "
             "reference. Pairs that were the same take part with d = 0.");
   }
+  if (any(data, &BlockDesign::identifies)) {
+    add("Choices among three intervals",
+        "P(right) = g + (1 − g) Φ(ln(d / ln(1 + w)) / s) with d = |ln(x / reference)|, by "
+        "maximum "
+        "likelihood; g is the share of right answers by guessing, 1/3 where any of three "
+        "intervals can be right and 1/2 where it is one of two. w is the Weber fraction at "
+        "which "
+        "the share of right answers is half way from g to 1. No observer model stands behind "
+        "it: "
+        "of the same ability, tasks have different fractions, and none is turned into a d′ (" +
+            cite("Macmillan and Creelman 2005") +
+            "). Right answers less those by guessing are tested by a t test against 0.");
+  }
   std::string with_feedback;
   for (const BlockDesign& block : data.blocks) {
     if (block.written.feedback) {

@@ -139,6 +139,11 @@ void AdaptiveWriter::write_staircase() {
     if (at_bound > 0) tell(*run, "staircase_reversals_at_bound", at_bound, "");
     if (!run->threshold) continue;
     thresholds[run->participant] = *run->threshold;
+    if (block_.identifies()) {
+      const double w = *run->threshold / block_.reference_intensity.value() - 1.0;
+      tell(*run, "staircase_weber_fraction", w, "");
+      fractions[run->participant] = w;
+    }
     if (!block_.compares()) continue;
     const FractionAtTarget w =
         fraction_at_target(*run->threshold, *block_.reference_intensity, target);
@@ -146,7 +151,9 @@ void AdaptiveWriter::write_staircase() {
     if (w.value) fractions[run->participant] = *w.value;
   }
   if (rule.empty()) return;
-  const std::string more = block_.compares() ? "\"more\"" : "\"yes\"";
+  const std::string more = block_.compares()     ? "\"more\""
+                           : block_.identifies() ? "right"
+                                                 : "\"yes\"";
   section_.estimates.push_back(
       {.name = full("staircase_target_probability"),
        .value = target,
@@ -158,6 +165,13 @@ void AdaptiveWriter::write_staircase() {
                 "): mean of the last reversals, then of interleaved staircases; geometric mean "
                 "over participants",
             thresholds);
+  if (block_.identifies()) {
+    add_fraction("staircase_weber_fraction",
+                 "w = threshold / reference - 1, at which so many answers are right; no d' "
+                 "model; median person",
+                 fractions);
+    return;
+  }
   add_fraction("staircase_weber_fraction",
                "w = (threshold / reference)^(1 / z) - 1 with z = " +
                    number_words(core::standard_normal_quantile(target), 4) +
@@ -224,6 +238,13 @@ void AdaptiveWriter::write_quest_plus() {
         ": mean of the posterior at the end, with its central 95 % for "
         "each participant; ";
     if (name == "quest_plus_weber_fraction") {
+      if (block_.identifies()) {
+        add_fraction(name,
+                     "w at which the share of right answers is half way from a guess to 1" +
+                         end + "median person",
+                     own);
+        continue;
+      }
       add_fraction(name,
                    "w of the curve that is 84.13 % at pse (1 + w)" + end + "median person" +
                        of_both_orders(),

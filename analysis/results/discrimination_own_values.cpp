@@ -12,7 +12,9 @@ constexpr int kOwnRedraws = 1000;
 
 void add_own_values(ResultsSection& section, const std::vector<DiscriminationAnswers>& all,
                     const BlockDesign& block, const ResultsOptions& options) {
+  std::size_t num_done = 0;
   for (const DiscriminationAnswers& answers : all) {
+    core::tell(options.on_progress, num_done++, all.size());
     const auto add = [&](const std::string& name, const std::optional<double>& value,
                          const Interval& ci95, const std::string& reason) {
       section.participants.push_back(

@@ -131,7 +131,9 @@ ResultsSection discrimination_results(const StudyData& data, const BlockDesign& 
   if (all.empty()) return section;
   section.own_fractions_free_pse = primary_pse(all) == HierarchicalPse::kPersonal;
   add_group_estimates(section, data, block, options);
-  add_own_values(section, all, block, options);
+  ResultsOptions of_people = options;
+  of_people.on_progress = core::part_of(options.on_progress, 0.5, 1.0);
+  add_own_values(section, all, block, of_people);
   add_individual_fractions(section, all, block, options);
   add_trial_trends(section, all, block, options);
   return section;

@@ -19,6 +19,8 @@ std::vector<std::string> primary_names(const BlockDesign& block) {
     return block.standard_is_of_its_quantity() ? std::vector<std::string>{".ratio_to_standard"}
                                                : std::vector<std::string>{".k", ".a"};
   }
+  if (block.identifies()) return {".weber_fraction"};
+  if (block.rates()) return {".rating.per_doubling"};
   if (block.rule == AdaptiveRule::kLimits && block.compares()) {
     return {".limits_threshold", ".weber_fraction_median_person"};
   }

@@ -29,11 +29,14 @@ void add_threshold_sections(std::vector<ResultsSection>& sections, const StudyDa
                             const BlockDesign& block, const ResultsOptions& options) {
   if (block.detects()) sections.push_back(detection_results(data, block, options));
   if (block.tells_apart()) sections.push_back(same_different_results(data, block));
+  if (block.identifies()) sections.push_back(identification_results(data, block));
   if (block.is_adaptive()) sections.push_back(adaptive_results(data, block));
   if (block.compares() && has_intervals(data, block)) {
     sections.push_back(interval_results(data, block));
   }
-  if (has_catch_trials(data, block)) sections.push_back(catch_results(data, block));
+  // Of three equal intervals none is a false alarm; which are chosen is told anyway.
+  if (!block.identifies() && has_catch_trials(data, block))
+    sections.push_back(catch_results(data, block));
 }
 
 /// The laboratory names an estimate alone, or with its study before a slash where two studies
@@ -101,19 +104,35 @@ StudyResults results_of(const StudyData& data, const Published& published,
   for (const BlockDesign& block : blocks_that(&BlockDesign::matches, data)) {
     results.sections.push_back(matching_results(data, block, options));
   }
+  for (const BlockDesign& block : blocks_that(&BlockDesign::rates, data)) {
+    results.sections.push_back(rating_results(data, block));
+  }
   if (estimations.size() == 1 && productions.size() == 1 &&
       estimations[0].quantity == productions[0].quantity && estimations[0].counts_in_water()) {
     results.sections.push_back(combined_results(data, estimations[0], productions[0], options));
   }
+  // The fits of groups and of everybody in them take nearly all of the time.
+  const std::vector<ComparedBlocks> pairs = compared_blocks(discriminations, options.compared);
+  const auto num_parts = static_cast<double>(2 * discriminations.size() + pairs.size() + 1);
+  double num_done = 0.0;
   for (const BlockDesign& block : discriminations) {
-    results.sections.push_back(discrimination_results(data, block, options));
+    ResultsOptions of_block = options;
+    of_block.on_progress =
+        core::part_of(options.on_progress, num_done / num_parts, (num_done + 2.0) / num_parts);
+    results.sections.push_back(discrimination_results(data, block, of_block));
+    num_done += 2.0;
   }
   for (const BlockDesign& block : data.blocks) {
     add_threshold_sections(results.sections, data, block, options);
   }
+  for (const BlockDesign& block : data.blocks) {
+    if (block.written.questions.empty()) continue;
+    results.sections.push_back(question_results(data, block));
+  }
   add_blocks_set_aside(results.sections, data);
-  for (const ComparedBlocks& pair : compared_blocks(discriminations, options.compared)) {
+  for (const ComparedBlocks& pair : pairs) {
     results.sections.push_back(discrimination_comparison(data, pair));
+    core::tell(options.on_progress, ++num_done, num_parts);
   }
   results.sections.push_back(movement_results(data));
   if (ResultsSection exploratory = exploratory_results(data, results.sections);

@@ -12,6 +12,7 @@
 #include "analysis/results/published.h"
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/fit_status.h"
+#include "core/progress.h"
 
 namespace jnd::analysis {
 
@@ -148,6 +149,7 @@ struct ResultsOptions {
   std::uint64_t seed = 1;    ///< Seed of the resampling.
   /// Blocks whose Weber fractions are compared; none: as `compared_blocks` chooses.
   std::vector<BlockNames> compared{};
+  core::Progress on_progress = {};  ///< Of `results_of`.
 };
 
 /// Group intervals are percentiles over resampled participants: a likelihood interval of pooled
@@ -164,6 +166,12 @@ struct ResultsOptions {
                                                 const ResultsOptions& options);
 [[nodiscard]] ResultsSection matching_results(const StudyData& data, const BlockDesign& design,
                                               const ResultsOptions& options);
+/// Of blocks that rate: mean and median at each stimulus, rank correlation and trend.
+[[nodiscard]] ResultsSection rating_results(const StudyData& data, const BlockDesign& block);
+/// What was answered to the questions after the trials of a block, section BLOCK_questions; see
+/// `add_rated` for scales, numbers and yes or no. Choices have shares of trials, words stand in
+/// `free_answers`. Who left answers out is named.
+[[nodiscard]] ResultsSection question_results(const StudyData& data, const BlockDesign& block);
 [[nodiscard]] ResultsSection combined_results(const StudyData& data,
                                               const BlockDesign& estimation,
                                               const BlockDesign& production,

@@ -29,6 +29,8 @@ inline constexpr char kBesidePlanNote[] =
     "The study file plans contrasts, which stand first; comparisons of every two blocks beside "
     "them are exploratory.";
 inline constexpr char kMovementFamily[] = "exploratory, movement";
+/// What ratings and answers to questions go with.
+inline constexpr char kQuestionsFamily[] = "exploratory, ratings and questions";
 
 /// Puts the paired tests of how people moved into one family; the unpaired ones, of the same
 /// hypotheses, are named sensitivity.

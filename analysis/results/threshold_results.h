@@ -17,6 +17,11 @@ namespace jnd::analysis {
 [[nodiscard]] ResultsSection same_different_results(const StudyData& data,
                                                     const BlockDesign& block);
 
+/// "Which interval?" of three: the Weber fraction at which the share of right answers is half
+/// way from a guess to 1, right answers against guessing, and how often each interval is named.
+[[nodiscard]] ResultsSection identification_results(const StudyData& data,
+                                                    const BlockDesign& block);
+
 /// What the block's own rule comes to, from `StudyData::runs`: section BLOCK_staircase,
 /// BLOCK_limits or BLOCK_quest_plus.
 [[nodiscard]] ResultsSection adaptive_results(const StudyData& data, const BlockDesign& block);

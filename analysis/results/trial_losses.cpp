@@ -44,11 +44,13 @@ ResultsSection section_of(const StudyData& data, const BlockDesign& block,
   if (block.estimates()) return estimation_results(data, block, options);
   if (block.produces()) return production_results(data, block, options);
   if (block.matches()) return matching_results(data, block, options);
+  if (block.rates()) return rating_results(data, block);
   ResultsSection section;
   if (block.compares()) {
     add_primary_estimate(section, data, block, options);
     return section;
   }
+  if (block.identifies()) return identification_results(data, block);
   if (block.detects()) return detection_results(data, block, options);
   return block.tells_apart() ? same_different_results(data, block) : section;
 }

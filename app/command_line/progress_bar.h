@@ -6,8 +6,9 @@
 
 namespace jnd::app {
 
-/// Progress with time left on a terminal's stderr; silent when piped. Safe from several
-/// threads.
+/// Progress with time left on stderr, of work that takes more than two seconds: on a terminal
+/// one line that is drawn anew and goes at the end, elsewhere a line a minute. Safe from
+/// several threads.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string title);

@@ -4,17 +4,20 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/fits/fit_json.h"
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/comparison_data.h"
+#include "analysis/statistics/equivalence_test.h"
 #include "analysis/statistics/multiplicity.h"
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/commands/fit_words.h"
 #include "app/results/statistic_words.h"
+#include "core/error.h"
 
 namespace jnd::app {
 namespace {
@@ -26,6 +29,7 @@ using Json = nlohmann::ordered_json;
 struct CompareOptions {
   std::string csv, test;
   std::vector<std::string> group_by;
+  std::optional<double> margin, margin_ratio;
   bool json = false;
 };
 
@@ -39,6 +43,21 @@ Comparison compared(const std::string& test, const analysis::ComparedColumns& co
   if (test == "ranksum") return analysis::rank_sum_test(a, b);
   if (test == "spearman") return analysis::spearman_correlation(a, b);
   return analysis::paired_t_test(a, b);
+}
+
+std::optional<analysis::EquivalenceMargin> margin_of(const CompareOptions& options) {
+  using Scale = analysis::EquivalenceMargin::Scale;
+  if (!options.margin && !options.margin_ratio) return std::nullopt;
+  if (options.test != "paired" && options.test != "welch") {
+    throw core::Error(
+        "--equivalence-margin and --equivalence-ratio: expected --test paired or "
+        "welch, found " +
+        options.test + "; no other test is one of means");
+  }
+  if (options.margin_ratio) {
+    return analysis::EquivalenceMargin{Scale::kRatio, *options.margin_ratio};
+  }
+  return analysis::EquivalenceMargin{Scale::kDifference, *options.margin};
 }
 
 std::string defined(const std::optional<double>& value) {
@@ -60,6 +79,25 @@ void print_effect(const char* name, const std::optional<double>& value,
   if (!value) return;
   fmt::print("  {:<24} {}\n", name, defined(value));
   print_interval("  95 %", interval);
+}
+
+void print_for_people(const analysis::EquivalenceTest& test) {
+  const bool is_ratio = test.margin.scale == analysis::EquivalenceMargin::Scale::kRatio;
+  const std::string within = is_ratio ? fmt::format("a over b within {:.4g} to {:.4g}",
+                                                    1.0 / test.margin.size, test.margin.size)
+                                      : fmt::format("a - b within {:.4g} to {:.4g}",
+                                                    -test.margin.size, test.margin.size);
+  fmt::print("  equivalence: {} (two one-sided tests)\n", within);
+  if (!test.p_value) {
+    fmt::print("    {}\n", test.reason);
+    return;
+  }
+  fmt::print("    {:<22} {}\n", is_ratio ? "ratio" : "difference", defined(test.estimate));
+  fmt::print("    {:<22} {:.4g} to {:.4g}\n", "90 %", *test.ci90.low, *test.ci90.high);
+  fmt::print("    {:<22} {}\n", "degrees of freedom", defined(test.degrees_of_freedom));
+  fmt::print(
+      "    {:<22} {}, {}\n", "p", p_words(test.p_value),
+      test.is_equivalent() ? "so they are the same within that" : "so that is not shown");
 }
 
 void print_for_people(const Comparison& result) {
@@ -94,6 +132,7 @@ struct Tests {
   std::vector<analysis::ComparedColumns> columns;
   std::vector<Comparison> results;
   std::vector<std::optional<double>> p_values_holm;
+  std::vector<analysis::EquivalenceTest> equivalences;  ///< Where a margin is given.
 };
 
 /// Throws `core::Error` where the table has problems.
@@ -101,12 +140,25 @@ Tests tests_of(const CompareOptions& options) {
   Tests tests{.columns = analysis::read_compared(analysis::CsvTable::read(options.csv),
                                                  options.group_by, is_paired(options.test))};
   std::vector<std::optional<double>> p_values;
+  const std::optional<analysis::EquivalenceMargin> margin = margin_of(options);
   for (const analysis::ComparedColumns& columns : tests.columns) {
     tests.results.push_back(compared(options.test, columns));
     p_values.push_back(tests.results.back().p_value);
+    if (margin) {
+      tests.equivalences.push_back(
+          analysis::equivalence_test(columns.a, columns.b, is_paired(options.test), *margin));
+    }
   }
   tests.p_values_holm = analysis::holm_adjusted(p_values);
   return tests;
+}
+
+Json to_json(const Tests& tests, std::size_t i) {
+  Json json = analysis::to_json(tests.results[i]);
+  if (!tests.equivalences.empty()) {
+    json["equivalence"] = analysis::to_json(tests.equivalences[i]);
+  }
+  return json;
 }
 
 Json to_json(const Tests& tests) {
@@ -114,7 +166,7 @@ Json to_json(const Tests& tests) {
   for (std::size_t i = 0; i < tests.results.size(); ++i) {
     Json json;
     for (const auto& [column, value] : tests.columns[i].key) json["group"][column] = value;
-    json.update(analysis::to_json(tests.results[i]));
+    json.update(to_json(tests, i));
     const std::optional<double>& p_value = tests.p_values_holm[i];
     json["p_value_holm"] = p_value ? Json(*p_value) : Json(nullptr);
     groups.push_back(std::move(json));
@@ -130,6 +182,7 @@ void print_for_people(const Tests& tests) {
     }
     fmt::print("{}\n", heading);
     print_for_people(tests.results[i]);
+    if (!tests.equivalences.empty()) print_for_people(tests.equivalences[i]);
     if (tests.p_values_holm[i]) {
       fmt::print("  {:<24} {}\n", "p adjusted by Holm", p_words(tests.p_values_holm[i]));
     }
@@ -139,10 +192,11 @@ void print_for_people(const Tests& tests) {
 int run_compare(const CompareOptions& options) {
   const Tests tests = tests_of(options);
   if (options.json) {
-    fmt::print("{}\n", json_text(options.group_by.empty() ? analysis::to_json(tests.results[0])
-                                                          : to_json(tests)));
+    fmt::print("{}\n",
+               json_text(options.group_by.empty() ? to_json(tests, 0) : to_json(tests)));
   } else if (options.group_by.empty()) {
     print_for_people(tests.results[0]);
+    if (!tests.equivalences.empty()) print_for_people(tests.equivalences[0]);
   } else {
     print_for_people(tests);
   }
@@ -188,6 +242,21 @@ void add_compare(CLI::App& program, Invocation& invocation) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("COLUMN[,COLUMN,..]");
+  CLI::Option* const difference =
+      compare
+          .add_option(
+              "--equivalence-margin", options->margin,
+              "with paired or welch: also test whether a - b lies within -X to X, by two "
+              "one-sided tests at 5 %")
+          ->check(CLI::PositiveNumber)
+          ->option_text("X");
+  compare
+      .add_option("--equivalence-ratio", options->margin_ratio,
+                  "with paired or welch: also test whether a over b lies within 1 / R to R, by "
+                  "the logarithms; R > 1")
+      ->check(CLI::Range(1.001, 1e6))
+      ->excludes(difference)
+      ->option_text("R");
   compare.add_flag("--json", options->json, "print one JSON document");
   compare.callback(
       [&invocation, options] { invocation.run = [options] { return run_compare(*options); }; });

@@ -40,7 +40,37 @@ std::string unstable(const StabilityCheck& check, const std::string& device) {
       words_of(check.attached.stiffness_n_per_m, "N/m"));
 }
 
+/// Twice the 30 N in all that the simulated devices give.
+constexpr double kHardlyMeant_n = 60.0;
+
 }  // namespace
+
+std::vector<StudyProblem> force_doubts(const std::filesystem::path& study_file,
+                                       double expected_speed_m_per_s) {
+  const experiments::Study study = experiments::read_study(study_file);
+  std::vector<StudyProblem> doubts;
+  std::vector<StudyProblem> problems;
+  const experiments::LocatedJson located(study.text, study_file.string(), problems);
+  const experiments::RangeLimits limits{.max_force_per_point_n = kHardlyMeant_n,
+                                        .max_total_force_n = kHardlyMeant_n,
+                                        .expected_speed_m_per_s = expected_speed_m_per_s};
+  for (const experiments::RangeEntry& entry : experiments::planned_range(study, limits)) {
+    if (entry.fits) continue;
+    const std::string pointer = stimulus_pointer(located.root(), entry.stage, entry.setting);
+    const experiments::TextPosition at = located.value_position(pointer);
+    doubts.push_back(
+        {located.file(), at.line, at.column, pointer,
+         fmt::format("this takes {:.3g} N on the whole hand{}, more than {:g} N; check "
+                     "amount and unit, or by --device NAME whether a device can "
+                     "render it",
+                     entry.total_force_n,
+                     entry.fits_up_to_m_per_s
+                         ? fmt::format(" at {:g} m/s", expected_speed_m_per_s)
+                         : "",
+                     kHardlyMeant_n)});
+  }
+  return doubts;
+}
 
 std::vector<StudyProblem> device_problems(const std::filesystem::path& study_file,
                                           const std::string& device,

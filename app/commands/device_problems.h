@@ -18,4 +18,9 @@ namespace jnd::app {
     const std::filesystem::path& study_file, const std::string& device,
     const std::optional<KnownProfile>& profile, double expected_speed_m_per_s);
 
+/// Stimuli that hardly any device can render, of a study that has no problem. Throws
+/// `core::Error` where it cannot be read.
+[[nodiscard]] std::vector<experiments::StudyProblem> force_doubts(
+    const std::filesystem::path& study_file, double expected_speed_m_per_s);
+
 }  // namespace jnd::app

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
 
 #include "analysis/data/study_data.h"
@@ -9,6 +10,7 @@
 #include "analysis/export/hdf5_export.h"
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
+#include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
 #include "app/results/noted_export.h"
 #include "app/results/results_output.h"
@@ -26,18 +28,27 @@ struct ExportOptions {
 };
 
 /// What `jnd results --json` says; "" if there is no session but pilots.
-std::string results_text(const core::StudyStore& store) {
+std::string results_text(const core::StudyStore& store, const core::Progress& progress) {
   const std::vector<core::SessionRow> sessions = store.sessions();
   const bool any = std::any_of(sessions.begin(), sessions.end(),
                                [](const core::SessionRow& row) { return !row.pilot; });
-  return any ? json_text(results_json(results_of_data(analysis::load_study(store)))) : "";
+  if (!any) return "";
+  return json_text(
+      results_json(results_of_data(analysis::load_study(store), {.on_progress = progress})));
 }
 
+/// `studies`: those that were read, by their hash; reading one for each session would take most
+/// of the time.
 std::vector<std::string> stage_names_of(const core::StudyStore& store,
-                                        const core::SessionRow& session) {
+                                        const core::SessionRow& session,
+                                        std::map<std::string, experiments::Study>& studies) {
+  auto known = studies.find(session.protocol_sha256);
+  if (known == studies.end()) {
+    known =
+        studies.emplace(session.protocol_sha256, stored_study(store, session.session)).first;
+  }
   std::vector<std::string> names;
-  const experiments::Study study = stored_study(store, session.session);
-  for (const experiments::Stage* stage : stages_of_session(study, session.cells)) {
+  for (const experiments::Stage* stage : stages_of_session(known->second, session.cells)) {
     names.push_back(stage->name);
   }
   return names;
@@ -57,8 +68,14 @@ std::string samples_text(const analysis::ExportOutcome& outcome, bool asked) {
 Written export_as(const ExportOptions& options, const core::StudyStore& store) {
   const bool asked = options.data.recordings;
   if (options.format == "bids") {
+    // The results in it take most of the time.
+    constexpr double kComputed = 0.7;
+    const core::Progress& progress = options.data.on_progress;
+    const std::string results = results_text(store, core::part_of(progress, 0.0, kComputed));
+    analysis::ExportOptions data = options.data;
+    data.on_progress = core::part_of(progress, kComputed, 1.0);
     const analysis::ExportOutcome outcome =
-        analysis::export_bids(store, options.out, options.data, results_text(store));
+        analysis::export_bids(store, options.out, data, results);
     if (outcome.samples) return {"a BIDS data set with motion", outcome.problems};
     return {std::string("a BIDS data set without motion") +
                 (asked ? "; the study has no samples of its tasks" : "; --recordings adds it"),
@@ -79,8 +96,9 @@ int run_export(ExportOptions options) {
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
   options.data.program_version = JND_VERSION;
-  options.data.stage_names = [&store](const core::SessionRow& session) {
-    return stage_names_of(store, session);
+  std::map<std::string, experiments::Study> studies;
+  options.data.stage_names = [&](const core::SessionRow& session) {
+    return stage_names_of(store, session, studies);
   };
   options.data.keep_going = [&options] {
     if (!stop_requested()) return;
@@ -88,7 +106,11 @@ int run_export(ExportOptions options) {
   };
   const std::string forgotten =
       noted_export(store, options.out, options.format, options.data.pilot);
-  const Written written = export_as(options, store);
+  const Written written = [&] {
+    ProgressBar bar("export " + options.format);
+    options.data.on_progress = [&bar](double done) { bar.show(done); };
+    return export_as(options, store);
+  }();
   std::printf("%s: written to %s: %s\n", options.folder.c_str(), options.out.c_str(),
               written.what.c_str());
   if (!forgotten.empty()) std::fprintf(stderr, "jnd: %s\n", forgotten.c_str());

@@ -144,6 +144,7 @@ ordered_json to_json(const experiments::PlannedTrial& trial) {
   if (trial.target_percent) json["target_percent"] = *trial.target_percent;
   if (trial.series) json["series"] = *trial.series;
   if (trial.test_interval) json["test_interval"] = *trial.test_interval;
+  if (!trial.intervals.empty()) json["intervals"] = trial.intervals;
   if (trial.is_catch) json["is_catch"] = true;
   return json;
 }

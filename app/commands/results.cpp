@@ -13,6 +13,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
+#include "app/command_line/progress_bar.h"
 #include "app/commands/compare_option.h"
 #include "app/commands/inverted_option.h"
 #include "app/commands/predictive_option.h"
@@ -75,8 +76,13 @@ int run_results(ResultsOptions options) {
   const analysis::DeliveredStudy study = intensities(devices.parts);
   const std::optional<analysis::PredictivePeople> people =
       people_asked_for(options.predictive, store, study.data);
-  analysis::StudyResults results =
-      results_of_data(study.data, options.results, people ? &*people : nullptr);
+  analysis::StudyResults results = [&] {
+    ProgressBar bar("results");
+    options.results.on_progress = [&bar](double done) { bar.show(done); };
+    const analysis::PredictivePeople* const others = people ? &*people : nullptr;
+    return results_of_data(study.data, options.results, others);
+  }();
+  options.results.on_progress = {};
   results.preregistration =
       preregistered_study(store, as_commanded,
                           {.delivered = options.delivered,

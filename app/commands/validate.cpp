@@ -75,8 +75,12 @@ int run_validate(const ValidateOptions& options) {
     if (!options.json && found.empty()) {
       fmt::print("{}: {}\n", name, praise(file, options));
     }
+    const bool is_sound_study = found.empty() && !is_profile(file);
     add(problems, std::move(found));
     if (!is_profile(file)) add(doubts, experiments::study_doubts(file));
+    if (is_sound_study && options.device.empty()) {
+      add(doubts, force_doubts(file, options.speed_m_per_s));
+    }
   }
   if (options.json) {
     nlohmann::ordered_json document = problems_json(problems);
@@ -137,7 +141,7 @@ void add_validate(CLI::App& program, Invocation& invocation) {
       ->needs("--device");
   command
       ->add_option("--speed-m-per-s", options->speed_m_per_s,
-                   "Speed of the hand that forces are expected at, with --device")
+                   "Speed of the hand that forces are expected at")
       ->check(number_between(0.001, 10.0))
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print one JSON document");

@@ -4,6 +4,7 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
+#include "app/command_line/progress_bar.h"
 #include "app/session/replay_check.h"
 #include "core/storage/integrity.h"
 
@@ -39,8 +40,10 @@ void print(const char* title, const std::vector<core::Finding>& findings) {
 /// A database that cannot even be opened is a finding like any other.
 core::Integrity integrity_of(const std::string& folder) try {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
-  core::Integrity integrity = core::verify(store);
-  check_replay(store, integrity);
+  ProgressBar bar("verify");
+  const core::Progress progress = [&bar](double done) { bar.show(done); };
+  core::Integrity integrity = core::verify(store, core::part_of(progress, 0.0, 0.6));
+  check_replay(store, integrity, core::part_of(progress, 0.6, 1.0));
   return integrity;
 } catch (const core::Error& error) {
   return {.complete = false, .problems = {{0, error.what()}}};

@@ -110,6 +110,17 @@ Drawing two_fingers() {
           .creases = {}};
 }
 
+Drawing three_fingers() {
+  const Part palm = {{{{32, 63}, {69.5f, 63}, {64, 82}, {39, 82}}, 11.5f}};
+  return {.parts = {palm,
+                    {{{{74, 45}, {74, 59}}, 7.2f}},
+                    {{{{62, 62}, {72, 17}}, 7.6f}},
+                    {{{{47, 62}, {49, 12}}, 7.9f}},
+                    {{{{30.5f, 64}, {25, 17}}, 8}},
+                    {{{{27, 74}, {54, 68}}, 7.8f}}},
+          .creases = {}};
+}
+
 Drawing okay() {
   const Part palm = {{{{54, 60}, {70, 62}, {64, 82}, {52, 82}}, 11}};
   const Part fingers = {
@@ -164,6 +175,8 @@ Drawing drawing_of(HandSign sign) {
       return one_finger();
     case HandSign::kTwoFingers:
       return two_fingers();
+    case HandSign::kThreeFingers:
+      return three_fingers();
     case HandSign::kReady:
     case HandSign::kMatches:
       return okay();
@@ -218,6 +231,8 @@ const char* words(HandSign sign) noexcept {
       return "one finger";
     case HandSign::kTwoFingers:
       return "two fingers";
+    case HandSign::kThreeFingers:
+      return "three fingers";
     case HandSign::kReady:
       return "okay, ready";
     case HandSign::kRaise:

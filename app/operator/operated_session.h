@@ -103,9 +103,12 @@ class OperatedSession {
   [[nodiscard]] std::string words(const experiments::Text& text) const;
   [[nodiscard]] std::string title_of(std::size_t stage) const;
   [[nodiscard]] std::optional<ItemView> item_view() const;
-  [[nodiscard]] ItemView question_view(const experiments::QuestionnaireItem& question,
-                                       int index) const;
+  [[nodiscard]] ItemView question_view(
+      const experiments::QuestionnaireItem& question, int index,
+      const std::vector<experiments::QuestionnaireItem>& all) const;
   [[nodiscard]] std::vector<ItemView> answered_items() const;
+  [[nodiscard]] std::vector<TrialView::Choice> choices_of(
+      const experiments::Block& block, const experiments::TrialForm& form) const;
   [[nodiscard]] TrialView trial_view(std::int64_t number) const;
   [[nodiscard]] MediumView medium_view(const experiments::Exploration& medium) const;
   [[nodiscard]] std::vector<AnswerLine> answer_lines() const;

@@ -27,6 +27,14 @@ constexpr int kMostFaults = 3;         ///< In one sitting; after them somebody 
 /// Where the trial's intervals have an order of their own, what cannot be asked for by name.
 void require_order(const TrialForm& form, const TrialState& trial,
                    const std::string& interval) {
+  if (form.order_is_drawn && form.num_intervals > 2 && interval == "third" &&
+      !(trial.under_way && felt(trial, "second"))) {
+    refuse(tr("the intervals come in their order"));
+  }
+  if (form.order_is_drawn && interval == "second" &&
+      !(trial.under_way && felt(trial, "first"))) {
+    refuse(tr("the first interval comes first"));
+  }
   const std::string before = first_interval(form);
   if (interval == last_interval(form) && before != interval &&
       !(trial.under_way && felt(trial, before))) {
@@ -64,6 +72,13 @@ struct OperatedSession::Act {
     if (step != Step::kItem && step != Step::kFeeling && step != Step::kStageDone &&
         step != Step::kMedium) {
       refuse(tr("nothing is asked now"));
+    }
+    if (my.block() != nullptr) {
+      const std::optional<OpenQuestion> open = my.session_.open_question();
+      if (!open || open->trial != given.trial || open->item->name != given.item) {
+        refuse(tr("that question is answered already"));
+      }
+      return my.session_.answer_question(given.item, given.answer);
     }
     if (step == Step::kFeeling) my.end_feeling(true);
     my.session_.answer_item(given.item, given.answer);
@@ -116,7 +131,7 @@ struct OperatedSession::Act {
     }
     end_presentation();
     my.presenter_.begin(*my.block(), present.interval);
-    const bool is_pressed = my.block()->is_pressed() && present.interval != "free_space";
+    const bool is_pressed = my.block()->is_pressed_in(present.interval);
     my.move_simulated_hand(is_pressed ? kTouchingM : -0.15);
   }
 
@@ -295,6 +310,8 @@ struct OperatedSession::Act {
     if (my.block() == nullptr || !my.state().stage_open || current != number) {
       refuse(tr("that trial is answered already"));
     }
+    if (my.session_.open_question())
+      refuse(tr("a question after the trial before comes first"));
     return my.state().trial(number);
   }
 

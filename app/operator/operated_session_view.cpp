@@ -10,6 +10,7 @@
 #include "core/safety/fault.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/rating.h"
 #include "experiments/procedures/stimulus.h"
 #include "experiments/procedures/task.h"
 #include "experiments/session/plan.h"
@@ -91,7 +92,7 @@ std::optional<Exploration> OperatedSession::next_medium() const {
 
 bool OperatedSession::stage_is_complete() const {
   if (std::holds_alternative<Break>(stage()->content)) return now_s() >= break_until_s_;
-  if (block() != nullptr) return !state().current_trial();
+  if (block() != nullptr) return !state().current_trial() && !session_.open_question();
   return !item_view() && !next_medium();
 }
 
@@ -109,6 +110,7 @@ Step OperatedSession::step_in_stage() const {
   if (feeling_) return Step::kFeeling;
   if (std::holds_alternative<Break>(stage()->content)) return Step::kBreak;
   if (block() != nullptr) {
+    if (session_.open_question()) return Step::kItem;
     const TrialState* trial = current_state(state());
     if (trial == nullptr) return Step::kStageDone;
     if (presenter_.under_way()) return Step::kPresenting;
@@ -152,17 +154,20 @@ std::optional<ItemView> OperatedSession::item_view() const {
       ++item.index;
     }
   } else if (const auto* form = std::get_if<Questionnaire>(&stage()->content)) {
-    item.count = static_cast<int>(form->items.size());
     for (const QuestionnaireItem& question : form->items) {
-      if (!is_answered(question.name)) return question_view(question, item.index);
+      if (!is_answered(question.name)) return question_view(question, item.index, form->items);
       ++item.index;
     }
+  } else if (const std::optional<OpenQuestion> open = session_.open_question()) {
+    item = question_view(*open->item, open->index, block()->questions);
+    item.trial = open->trial;
+    return item;
   }
   return std::nullopt;
 }
 
-ItemView OperatedSession::question_view(const QuestionnaireItem& question, int index) const {
-  const auto& form = std::get<Questionnaire>(stage()->content);
+ItemView OperatedSession::question_view(const QuestionnaireItem& question, int index,
+                                        const std::vector<QuestionnaireItem>& all) const {
   ItemView item{.stage = state().stage,
                 .name = question.name,
                 .kind = kind_of_item(question.kind),
@@ -175,7 +180,7 @@ ItemView OperatedSession::question_view(const QuestionnaireItem& question, int i
                 .high_label = words(question.high_label),
                 .required = question.required,
                 .index = index,
-                .count = static_cast<int>(form.items.size())};
+                .count = static_cast<int>(all.size())};
   for (const Option& option : question.options) {
     item.options.push_back({option.value, words(option.label)});
   }
@@ -192,7 +197,7 @@ std::vector<ItemView> OperatedSession::answered_items() const {
     ++index;
     const auto answer = state().answers.find({state().stage, question.name});
     if (answer == state().answers.end()) continue;
-    items.push_back(question_view(question, index));
+    items.push_back(question_view(question, index, form->items));
     items.back().answer = answer->second;
   }
   return items;
@@ -252,9 +257,17 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
   const auto [yes, no] = labels_of(*block());
   view.yes_label = yes;
   view.no_label = no;
+  if (form.answer == AnswerKind::kInterval) view.choices = choices_of(*block(), form);
+  view.num_intervals = form.num_intervals;
+  view.next_interval = next_interval(form, trial);
   view.target_percent = trial.planned.target_percent;
   if (form.answer == AnswerKind::kNumber && form.has_reference) {
     view.modulus_value = block()->settings.number("modulus_value");
+  }
+  if (form.answer == AnswerKind::kStep) {
+    view.num_steps = num_steps_of(*block());
+    view.low_label = words(block()->low_label);
+    view.high_label = words(block()->high_label);
   }
   view.level = level_of(trial);
   view.rest_left_s = std::max(0.0, rest_until_s_ - now_s());
@@ -293,15 +306,39 @@ std::pair<std::string, std::string> OperatedSession::labels_of(const Block& bloc
       return {label(block.yes_label, tr("Different")), label(block.no_label, tr("Same"))};
     case Task::kReminder:
     case Task::kYesNo:
+    case Task::kThreeInterval:
+    case Task::kOddity:
+    case Task::kAbx:
+    case Task::kMatchToSample:
       break;
   }
   return {label(block.yes_label, tr("Yes")), label(block.no_label, tr("No"))};
 }
 
+std::vector<TrialView::Choice> OperatedSession::choices_of(const Block& block,
+                                                           const TrialForm& form) const {
+  const std::pair<const Text&, const char*> kNames[] = {{block.first_label, tr("First")},
+                                                        {block.second_label, tr("Second")},
+                                                        {block.third_label, tr("Third")}};
+  std::vector<TrialView::Choice> choices;
+  for (int i = form.first_choice; i < form.first_choice + form.num_choices; ++i) {
+    const auto& [written, otherwise] = kNames[i - 1];
+    choices.push_back({i, written.empty() ? std::string(otherwise) : words(written)});
+  }
+  return choices;
+}
+
 /// As it was given: a chosen interval does not tell which held the test.
 std::string OperatedSession::answer_in_words(const Block& block, AnswerKind kind,
                                              const TrialState& trial) const {
-  const double answer = answer_of(kind, trial.planned, *trial.response);
+  const double answer =
+      answer_of(kind, trial.planned, *trial.response, trial.measures.chosen_interval);
+  if (kind == AnswerKind::kInterval) {
+    for (const TrialView::Choice& choice :
+         choices_of(block, procedure_named(block.procedure).form(block))) {
+      if (answer == choice.interval) return choice.label;
+    }
+  }
   const bool hidden = (hides_levels_ || is_alone()) && kind == AnswerKind::kMatch;
   if (hidden) return tr("set");
   if (kind == AnswerKind::kMatch) return level_words(block.quantity, answer);
@@ -361,7 +398,9 @@ void OperatedSession::describe_loop(SessionView& view) const {
                        .has_walls = parameters_.study.device.wall_stiffness_n_per_m > 0.0};
   view.loop.num_limited_ticks = view.telemetry.num_limited_ticks;
   if (!hides_levels_) {
-    const bool presses = presenter_.under_way() && block() != nullptr && block()->is_pressed();
+    const bool presses =
+        presenter_.under_way() && block() != nullptr &&
+        block()->is_pressed_in(current_state(state())->presentations.back().interval);
     view.surroundings.surface_is_solid =
         presses || (feeling_ && experiments::is_pressed(feeling_->setting.medium));
     return;
@@ -431,7 +470,8 @@ SessionView OperatedSession::view() const {
     }
   }
   if (!state().ended && block() != nullptr && state().stage_open) {
-    view.feedback_right = state().feedback_right;
+    // Told before a question it would decide how sure somebody says to have been.
+    if (!session_.open_question()) view.feedback_right = state().feedback_right;
     if (block()->practice && !view.trial) {
       view.practice = practice_words(
           *block(), practice_state(*block(), state().answered_in(state().stage)));

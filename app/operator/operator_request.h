@@ -24,6 +24,7 @@ struct AnswerItem {
   std::int64_t stage = 0;
   std::string item;
   std::string answer;
+  std::int64_t trial = 0;  ///< Of a question that follows a trial's answer; else 0.
 };
 
 /// Explore, training, post-experiment: feel the medium that waits, or end feeling it.

@@ -35,6 +35,7 @@ enum class HandSign {
   kFist,
   kOneFinger,
   kTwoFingers,
+  kThreeFingers,
   kReady,
   kRaise,
   kLower,
@@ -48,7 +49,7 @@ struct StageLine {
   Status status = Status::kLater;
 };
 
-/// A checklist's item, a consent or a question, waiting for an answer.
+/// A checklist's item, a consent or a question, also one after a trial, waiting for an answer.
 struct ItemView {
   enum class Kind {
     kTick,
@@ -65,7 +66,8 @@ struct ItemView {
     std::string value, label;
   };
   std::int64_t stage = 0;
-  std::string name;  ///< As in `AnswerItem`.
+  std::int64_t trial = 0;  ///< Whose answer the question follows; 0 outside of trials.
+  std::string name;        ///< As in `AnswerItem`.
   Kind kind = Kind::kTick;
   std::string text;                     ///< What to do, or the question.
   std::string say;                      ///< Word for word; may be empty.
@@ -77,7 +79,7 @@ struct ItemView {
   std::string low_label, high_label;
   int num_words = 0;
   bool required = true;
-  int index = 1, count = 1;  ///< "item 2 of 7" of its stage.
+  int index = 1, count = 1;  ///< "item 2 of 7" of its stage, or after its trial.
   std::string answer;        ///< The one that stands; "" for none yet.
 };
 
@@ -93,7 +95,7 @@ struct TrialView {
   bool is_solid = false;        ///< A surface that is pressed, not a fluid.
   bool order_is_drawn = false;  ///< Intervals are "first" and "second"; which is the test is
                                 ///< nowhere in a view.
-  /// Being felt: "test", "reference", "first", "second", "free_space"; "" for none.
+  /// Being felt: "test", "reference", "first", "second", "third", "free_space"; "" for none.
   std::string interval;
   double felt_s = 0.0;                 ///< For how long already.
   int num_strokes = 0;                 ///< Whole ones, in this presentation.
@@ -101,8 +103,18 @@ struct TrialView {
   bool can_answer = false;             ///< What is asked about was felt in this attempt.
   std::string question;
   std::string yes_label, no_label;  ///< What the two answers are called; the intervals.
+  /// The intervals that can be chosen, and what they are called.
+  struct Choice {
+    int interval = 1;
+    std::string label;
+  };
+  std::vector<Choice> choices;
+  int num_intervals = 2;      ///< Where the order is drawn.
+  std::string next_interval;  ///< The first that was not felt yet; "" for none.
   std::optional<double> target_percent;
   std::optional<double> modulus_value;  ///< The number of the standard, where it has one.
+  int num_steps = 0;                    ///< Of a rating: its last step.
+  std::string low_label, high_label;    ///< Of a rating: what stands at its ends.
   std::string level;         ///< "1.65 Pa s, reference 1.85 Pa s"; "" where it is hidden.
   double rest_left_s = 0.0;  ///< Time left of the free space before it.
 };

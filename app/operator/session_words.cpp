@@ -35,8 +35,9 @@ std::string own_words(Own what, const std::string& language) {
 struct TrialSentences {
   const char *present_reference, *present_fluid, *present_surface, *resting;
   const char *while_feeling_reference, *back_to_fluid, *back_to_surface, *production,
-      *estimation, *number;
-  const char *comparison, *present_first, *while_feeling_first, *while_feeling_second;
+      *estimation, *number, *rating;
+  const char *comparison, *present_first, *while_feeling_first, *while_feeling_second,
+      *before_third, *while_feeling_third;
 };
 constexpr TrialSentences kForTwo = {
     .present_reference = tr_later("Show the fist, then present the reference."),
@@ -50,11 +51,15 @@ constexpr TrialSentences kForTwo = {
     .production = tr_later("Follow the participant's signs until it matches."),
     .estimation = tr_later("At the ready sign, ask; type the percent and press Enter."),
     .number = tr_later("At the ready sign, ask; type the number and press Enter."),
+    .rating = tr_later("At the ready sign, ask for a step of the scale:"),
     .comparison = tr_later("Show one finger. At the ready sign, ask:"),
     .present_first = tr_later("Show one finger, then present the first."),
     .while_feeling_first =
         tr_later("When the participant is ready, show two fingers and present the second."),
     .while_feeling_second = tr_later("Show two fingers. At the ready sign, ask:"),
+    .before_third =
+        tr_later("When the participant is ready, show three fingers and present the third."),
+    .while_feeling_third = tr_later("Show three fingers. At the ready sign, ask:"),
 };
 constexpr TrialSentences kForOne = {
     .present_reference = tr_later("Present the reference."),
@@ -67,10 +72,13 @@ constexpr TrialSentences kForOne = {
     .production = tr_later("Lower or raise it until it feels right."),
     .estimation = tr_later("Feel it, type the percent and press Enter."),
     .number = tr_later("Feel it, type the number and press Enter."),
+    .rating = tr_later("Feel it, then choose a step:"),
     .comparison = tr_later("Feel the test, then answer:"),
     .present_first = tr_later("Present the first."),
     .while_feeling_first = tr_later("Feel the first, then present the second."),
     .while_feeling_second = tr_later("Feel the second, then answer:"),
+    .before_third = tr_later("Feel the second, then present the third."),
+    .while_feeling_third = tr_later("Feel the third, then answer:"),
 };
 
 /// What is told of the answer before, in front of what is said anyway.
@@ -128,7 +136,17 @@ void add_trial_words(SessionView& view, std::string_view instruction) {
   } else if (trial.interval == "second") {
     view.heading = tr("Second interval");
     view.sign = HandSign::kTwoFingers;
-    view.sentence = tr(sentences.while_feeling_second);
+    const bool is_last = trial.num_intervals == 2 || trial.can_answer;
+    view.sentence = tr(is_last ? sentences.while_feeling_second : sentences.before_third);
+    if (is_last) {
+      view.say = trial.question;
+    } else {
+      view.participant_text.clear();
+    }
+  } else if (trial.interval == "third") {
+    view.heading = tr("Third interval");
+    view.sign = HandSign::kThreeFingers;
+    view.sentence = tr(sentences.while_feeling_third);
     view.say = trial.question;
   } else if (trial.interval == "free_space") {
     view.heading = tr("Free space");
@@ -145,6 +163,7 @@ void add_trial_words(SessionView& view, std::string_view instruction) {
     view.sign = HandSign::kOneFinger;
     view.sentence = tr(trial.answer == AnswerKind::kPercent  ? sentences.estimation
                        : trial.answer == AnswerKind::kNumber ? sentences.number
+                       : trial.answer == AnswerKind::kStep   ? sentences.rating
                                                              : sentences.comparison);
     view.say = trial.question;
   }
@@ -153,6 +172,7 @@ void add_trial_words(SessionView& view, std::string_view instruction) {
 void add_item_words(SessionView& view) {
   const ItemView& item = *view.item;
   view.sentence = item.text;
+  if (item.trial != 0) view.heading = tr("Question {} of {}", item.index, item.count);
   view.say = item.say;
   if (item.kind == ItemView::Kind::kConsent) {
     view.sentence = tr("Let the participant read this and agree.");
@@ -210,7 +230,9 @@ std::string level_words(const std::string& quantity, double intensity) {
 
 std::string answer_words(AnswerKind kind, double answer) {
   if (kind == AnswerKind::kYesNo) return answer == 1.0 ? tr("yes") : tr("no");
-  if (kind == AnswerKind::kInterval) return answer == 1.0 ? tr("first") : tr("second");
+  if (kind == AnswerKind::kInterval) {
+    return answer == 1.0 ? tr("first") : answer == 2.0 ? tr("second") : tr("third");
+  }
   return number_words(answer) + (kind == AnswerKind::kPercent ? " %" : "");
 }
 

@@ -163,6 +163,11 @@ class Outliner {
     }
     if (block.feedback)
       line.details.emplace_back(tr("right or wrong is told after each answer"));
+    if (!block.questions.empty()) {
+      line.details.push_back(trn("{} more question after each trial",
+                                 "{} more questions after each trial",
+                                 static_cast<std::int64_t>(block.questions.size())));
+    }
     if (hides_) {
       line.details.emplace_back(tr("levels hidden: double-blind"));
       return;

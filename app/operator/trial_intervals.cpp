@@ -8,36 +8,49 @@ using namespace experiments;
 
 namespace {
 
-/// "test" and "reference" are "first" and "second" where the trial has an order drawn.
-std::string name_of(const std::string& stimulus, const PlannedTrial& trial) {
-  if (!trial.test_interval || stimulus == "free_space") return stimulus;
-  return (stimulus == "test") == (*trial.test_interval == 1) ? "first" : "second";
+/// "test" and "reference" are "first" and "second", or "third", where the order is drawn.
+std::string name_of(const PresentationState& presented, const PlannedTrial& trial) {
+  if (presented.place > 0) return interval_name(static_cast<int>(presented.place));
+  if (!trial.test_interval || presented.interval == "free_space") return presented.interval;
+  return interval_name((presented.interval == "test") == (*trial.test_interval == 1) ? 1 : 2);
 }
 
 }  // namespace
+
+const char* interval_name(int place) noexcept {
+  return place == 1 ? "first" : place == 2 ? "second" : "third";
+}
+
+std::string next_interval(const TrialForm& form, const TrialState& trial) {
+  if (!form.order_is_drawn) return "";
+  for (int place = 1; place <= form.num_intervals; ++place) {
+    if (!trial.under_way || !felt(trial, interval_name(place))) return interval_name(place);
+  }
+  return "";
+}
 
 std::string first_interval(const TrialForm& form) {
   return form.order_is_drawn ? "first" : form.has_reference ? "reference" : "test";
 }
 
 std::string last_interval(const TrialForm& form) {
-  return form.order_is_drawn ? "second" : "test";
+  return form.order_is_drawn ? interval_name(form.num_intervals) : "test";
 }
 
 std::string shown_interval(const TrialForm& form, const TrialState& trial) {
   if (trial.presentations.empty()) return "";
-  const std::string& stimulus = trial.presentations.back().interval;
-  return form.order_is_drawn ? name_of(stimulus, trial.planned) : stimulus;
+  const PresentationState& last = trial.presentations.back();
+  return form.order_is_drawn ? name_of(last, trial.planned) : last.interval;
 }
 
 bool felt(const TrialState& trial, const std::string& interval) {
   return std::ranges::any_of(trial.presentations, [&](const PresentationState& presented) {
-    return presented.interval == interval ||
-           name_of(presented.interval, trial.planned) == interval;
+    return presented.interval == interval || name_of(presented, trial.planned) == interval;
   });
 }
 
 bool can_answer(const TrialForm& form, const TrialState& trial) {
+  if (form.order_is_drawn) return trial.under_way && next_interval(form, trial).empty();
   return trial.under_way && felt(trial, first_interval(form)) &&
          felt(trial, last_interval(form));
 }

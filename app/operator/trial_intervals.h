@@ -8,11 +8,17 @@
 namespace jnd::app {
 
 // What the stimuli of a trial are called for those who run it. Where the order is drawn they
-// are "first" and "second", and nobody is told which of them is the test.
+// are "first", "second" and, of three, "third", and nobody is told which of them is the test.
+
+/// Of an interval, from 1.
+[[nodiscard]] const char* interval_name(int place) noexcept;
+/// Of those whose order is drawn, the first that was not felt in this attempt; "" for none.
+[[nodiscard]] std::string next_interval(const experiments::TrialForm& form,
+                                        const experiments::TrialState& trial);
 
 /// What has to be felt first: "reference", "first", or "test" where it stands alone.
 [[nodiscard]] std::string first_interval(const experiments::TrialForm& form);
-/// What the question is about: "test" or "second".
+/// What the question is about: "test", or the last one.
 [[nodiscard]] std::string last_interval(const experiments::TrialForm& form);
 /// The one being felt or felt last, by that name, or "free_space"; "" for none.
 [[nodiscard]] std::string shown_interval(const experiments::TrialForm& form,

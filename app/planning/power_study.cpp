@@ -48,6 +48,7 @@ PlannedQuantity quantity_of(const Block& block) {
                                 : PlannedQuantity::kProductionExponent;
     case AnswerKind::kPercent:
     case AnswerKind::kNumber:
+    case AnswerKind::kStep:
       break;
   }
   return PlannedQuantity::kEstimationExponent;
@@ -94,10 +95,11 @@ PlannedPerson person_of(const PlannedAnalysis& analysis,
   return person;
 }
 
-/// Magnitudes and comparisons; no practice, and none of those that ask whether anything is
-/// there or different.
+/// Magnitudes and comparisons; no practice, no ratings, and none of those that ask whether
+/// anything is there or different.
 bool is_planned_for(const Block& block) {
   if (block.practice) return false;
+  if (procedure_named(block.procedure).measures(block) == Measure::kRating) return false;
   return !block.settings.has("task") || task_of(block) == Task::kReminder ||
          task_of(block) == Task::kTwoInterval;
 }
@@ -128,8 +130,9 @@ std::vector<std::string> left_out_of(const Study& study) {
     for (const StageInstance& instance : stages_of(study, cell)) {
       const auto* block = std::get_if<Block>(&instance.stage->content);
       if (block == nullptr || block->practice || is_planned_for(*block)) continue;
-      const std::string name = instance.stage->name + " (" + block->procedure + ", " +
-                               block->settings.word("task") + ")";
+      const std::string task =
+          block->settings.has("task") ? ", " + block->settings.word("task") : "";
+      const std::string name = instance.stage->name + " (" + block->procedure + task + ")";
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
   }

@@ -15,13 +15,6 @@ namespace {
 
 using analysis::DeliveredReport;
 
-/// A part of the whole, as a whole of its own.
-std::function<void(double)> part(const std::function<void(double)>& whole, double from,
-                                 double to) {
-  if (!whole) return [](double) {};
-  return [&whole, from, to](double done) { whole(from + (to - from) * done); };
-}
-
 /// Where sessions keep what was measured of their devices: what these delivered.
 std::optional<DeliveredReport> delivered_report(const core::StudyStore& store,
                                                 const analysis::StudyData& as_commanded,
@@ -43,26 +36,29 @@ std::optional<DeliveredReport> delivered_report(const core::StudyStore& store,
 }  // namespace
 
 StudyReport write_study_report(const StudyReportRequest& request) {
-  const auto reading = part(request.on_progress, 0.0, 0.3);
+  // Of many people the fits take most of the time, of recordings the movement.
+  constexpr double kRead = 0.05, kComputed = 0.5, kMoved = 0.65;
   const core::StudyStore store(request.folder, core::StudyStore::Mode::kReadOnly);
   require_unblinded(store);
   analysis::require_free_folder(request.out);
-  reading(0.0);
+  core::tell(request.on_progress, 0.0);
   analysis::StudyData data = analysis::load_study(store, request.pilot);
   const std::optional<DeliveredReport> delivered = delivered_report(store, data, request);
   if (request.leaves_out_inverted) analysis::leave_out_inverted(data);
-  reading(0.2);
-  StudyReport report{.results = results_of_data(data, request.results), .outcome = {}};
+  core::tell(request.on_progress, kRead);
+  analysis::ResultsOptions results_options = request.results;
+  results_options.on_progress = core::part_of(request.on_progress, kRead, kComputed);
+  StudyReport report{.results = results_of_data(data, results_options), .outcome = {}};
   report.results.preregistration = preregistered_study(
       store, data, {.inverted_out = request.leaves_out_inverted, .with_pilots = request.pilot});
-  reading(1.0);
-  const analysis::MovementAnalysis movement =
-      analysis::analyse_movement(store, {.pilot = request.pilot,
-                                         .jobs = request.jobs,
-                                         .on_progress = part(request.on_progress, 0.3, 0.6)});
+  core::tell(request.on_progress, kComputed);
+  const analysis::MovementAnalysis movement = analysis::analyse_movement(
+      store, {.pilot = request.pilot,
+              .jobs = request.jobs,
+              .on_progress = core::part_of(request.on_progress, kComputed, kMoved)});
   analysis::ReportOptions options = analysis::installed_report_tools();
   options.jobs = request.jobs;
-  options.on_progress = part(request.on_progress, 0.6, 1.0);
+  options.on_progress = core::part_of(request.on_progress, kMoved, 1.0);
   const std::string forgotten = noted_export(store, request.out, "report", request.pilot);
   report.outcome = analysis::write_report({.store = store,
                                            .data = data,

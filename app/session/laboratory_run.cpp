@@ -139,8 +139,10 @@ class SimulatedSession {
 
   void run_stage(const Block&) {
     const Block block = session_.current_block_as_drawn();
+    player_.answer_questions(block);
     while (session_.state().current_trial()) {
       player_.run_trial(block);
+      player_.answer_questions(block);
       trial_progress();
     }
     const std::string caution =

@@ -1,5 +1,6 @@
 #include "app/session/replay_check.h"
 
+#include <map>
 #include <set>
 #include <string>
 
@@ -24,6 +25,7 @@ class ReplayCheck {
     check_design();
     check_trials();
     check_presentations();
+    check_questions();
   }
 
  private:
@@ -100,6 +102,18 @@ class ReplayCheck {
     }
   }
 
+  void check_questions() {
+    std::map<std::int64_t, std::map<std::string, std::string>> rows;
+    for (const core::QuestionAnswerRow& row :
+         store_.question_answers(session_, /*include_excluded=*/true)) {
+      rows[row.trial][row.question] = row.answer;
+    }
+    for (std::size_t i = 0; i < state_.trials.size(); ++i) {
+      const auto number = static_cast<std::int64_t>(i) + 1;
+      if (rows[number] != state_.trials[i].question_answers) problem(number, "questions");
+    }
+  }
+
   const core::StudyStore& store_;
   std::int64_t session_;
   core::Integrity& integrity_;
@@ -108,8 +122,12 @@ class ReplayCheck {
 
 }  // namespace
 
-void check_replay(const core::StudyStore& store, core::Integrity& integrity) {
-  for (const core::SessionRow& row : store.sessions()) {
+void check_replay(const core::StudyStore& store, core::Integrity& integrity,
+                  const core::Progress& progress) {
+  const std::vector<core::SessionRow> sessions = store.sessions();
+  std::size_t num_done = 0;
+  for (const core::SessionRow& row : sessions) {
+    core::tell(progress, num_done++, sessions.size());
     try {
       ReplayCheck(store, row.session, integrity).run();
     } catch (const core::Error& error) {

@@ -8,6 +8,8 @@ namespace jnd::app {
 /// Plays every session's log again and compares what it comes to with the rows that analyses
 /// read: drawn trials, presentations, answers, exclusions. Adds what does not agree to
 /// `integrity`. Not real time.
-void check_replay(const core::StudyStore& store, core::Integrity& integrity);
+/// `progress`: by sessions.
+void check_replay(const core::StudyStore& store, core::Integrity& integrity,
+                  const core::Progress& progress = {});
 
 }  // namespace jnd::app

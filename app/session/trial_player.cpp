@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/random_stream.h"
 #include "experiments/participants/counting.h"
+#include "experiments/procedures/rating.h"
 #include "experiments/procedures/stimulus.h"
 #include "experiments/procedures/task.h"
 #include "experiments/study/media.h"
@@ -216,13 +217,13 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   attachment_.begin(apparatus_.telemetry());
   stop_if_loose();
   const double surface_m = run_.study.device.immersion.origin_z_m;
-  if (block.is_pressed()) rise_above(surface_m);
+  const bool is_pressed = block.is_pressed_in(interval);
+  if (is_pressed) rise_above(surface_m);
   presenter_.begin(block, interval);
   const std::int64_t number = *session_.state().current_trial();
   const TrialState& trial = session_.state().trial(number);
-  const StrokeIntent intent = block.is_pressed()
-                                  ? participant_.presses(block.procedure, surface_m)
-                                  : participant_.strokes(block.procedure);
+  const StrokeIntent intent = is_pressed ? participant_.presses(block.procedure, surface_m)
+                                         : participant_.strokes(block.procedure);
   apparatus_.begin_strokes(
       plan_of(intent), stroke_stream(number, trial.attempt,
                                      static_cast<std::int64_t>(trial.presentations.size())));
@@ -237,9 +238,8 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   if (const std::string reason = presenter_.missed_reason(felt); !reason.empty()) {
     throw Missed{reason};
   }
-  return {.amount = block.is_pressed()
-                        ? stiffness.stiffness_n_per_m()
-                        : felt.delivered_damping_n_s_per_m + device_damping(felt),
+  return {.amount = is_pressed ? stiffness.stiffness_n_per_m()
+                               : felt.delivered_damping_n_s_per_m + device_damping(felt),
           .last_tick = felt.last_tick,
           .duration_s = felt.duration_s};
 }
@@ -255,15 +255,10 @@ double TrialPlayer::device_damping(const Presenter::Felt& felt) const {
 Moment TrialPlayer::moment(const Block& block) const {
   const std::int64_t number = *session_.state().current_trial();
   const TrialState& trial = session_.state().trial(number);
-  // Adaptive procedures have one repetition, as long as it takes.
-  const std::size_t num_pairs =
-      block.intensities.size() * std::max<std::size_t>(1, block.standards.size());
-  const auto per_repetition = static_cast<std::int64_t>(num_pairs) + num_catch_trials(block);
   return {.trial = number,
           .attempt = trial.attempt,
           .presentation = static_cast<std::int64_t>(trial.presentations.size()),
-          .trial_in_block =
-              (trial.planned.repetition - 1) * per_repetition + trial.planned.position};
+          .trial_in_block = trial_in_block(block, trial.planned)};
 }
 
 double TrialPlayer::read(const Felt& felt, const Block& block) const {
@@ -282,6 +277,19 @@ void TrialPlayer::run_trial(const Block& block) {
     put_fingers_back(off.bits);
   } catch (const Missed& missed) {
     begin_anew(missed.reason);
+  }
+}
+
+void TrialPlayer::answer_questions(const Block& block) {
+  std::optional<TrialFeeling> feeling;
+  while (const std::optional<OpenQuestion> open = session_.open_question()) {
+    stop_if_cancelled(run_);
+    if (!feeling) {
+      const auto map = force_map_of(run_.study.device);
+      feeling = feeling_of(run_.laboratory, participant_, block, open->trial,
+                           session_.state().trial(open->trial), map.get());
+    }
+    session_.answer_question(open->item->name, participant_.answer(*open->item, *feeling));
   }
 }
 
@@ -311,7 +319,12 @@ void TrialPlayer::estimate(const Block& block, const TrialForm& form) {
   }
   const Perceiver& perceiver = participant_.perceiver(block);
   double answer = 0.0;
-  if (form.answer == AnswerKind::kPercent) {
+  if (form.answer == AnswerKind::kStep) {
+    const auto map = force_map_of(run_.study.device);
+    const double ratio =
+        magnitude_ratio(run_.laboratory, participant_, block, sum_ln / looks, map.get());
+    answer = perceiver.rate(ratio, num_steps_of(block), moment(block), previous);
+  } else if (form.answer == AnswerKind::kPercent) {
     answer = perceiver.estimate_percent(sum_ln / looks, moment(block), previous);
   } else {
     std::optional<double> felt_standard_ln;
@@ -356,7 +369,26 @@ void TrialPlayer::compare(const Block& block) {
   session_.answer(thicker ? 1.0 : 0.0, {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 
+/// Of three intervals.
+void TrialPlayer::choose_interval(const Block& block) {
+  const Perceiver& person = participant_.perceiver(block);
+  std::vector<double> readings_ln(3, 0.0);
+  int looks = 0;
+  Felt felt;
+  do {
+    for (std::size_t i = 0; i < readings_ln.size(); ++i) {
+      felt = present(block, std::vector{"first", "second", "third"}[i]);
+      readings_ln[i] += read(felt, block);
+    }
+    ++looks;
+  } while (person.looks_again(moment(block)));
+  for (double& reading : readings_ln) reading /= looks;
+  session_.answer(person.choose_interval(task_of(block), readings_ln, moment(block)),
+                  {.response_time_s = felt.duration_s}, felt.last_tick);
+}
+
 void TrialPlayer::compare_intervals(const Block& block, AnswerKind asked) {
+  if (session_.current_form().num_intervals > 2) return choose_interval(block);
   const Perceiver& person = participant_.perceiver(block);
   double first_ln = 0.0;
   double second_ln = 0.0;
@@ -387,7 +419,10 @@ void TrialPlayer::adjust(const Block& block, std::int64_t trial, bool has_refere
   double standard_ln = 0.0;
   int standard_looks = 0;
   const auto feel_standard = [&] {
-    const double reading_ln = read(present(block, "reference"), block);
+    const Felt reference = present(block, "reference");
+    const double reading_ln = participant_.standard_as_test_ln(
+        block,
+        participant_.perceiver(block, "reference").reading_ln(reference.amount, moment(block)));
     standard_ln += (reading_ln - standard_ln) / ++standard_looks;
   };
   if (has_reference) feel_standard();

@@ -37,6 +37,8 @@ class TrialPlayer {
   /// back, or the loop missed more ticks than the study allows: then it comes again later, see
   /// `Session::put_off_attempt`. Throws `core::Error` where that is so three times in a row.
   void run_trial(const experiments::Block& block);
+  /// Questions that wait after a trial, also of one before an interruption.
+  void answer_questions(const experiments::Block& block);
 
  private:
   struct Felt {
@@ -68,6 +70,7 @@ class TrialPlayer {
   void estimate(const experiments::Block& block, const experiments::TrialForm& form);
   void detect(const experiments::Block& block);
   void compare(const experiments::Block& block);
+  void choose_interval(const experiments::Block& block);
   void compare_intervals(const experiments::Block& block, experiments::AnswerKind asked);
   void adjust(const experiments::Block& block, std::int64_t trial, bool has_reference);
 

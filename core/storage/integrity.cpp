@@ -200,7 +200,7 @@ std::vector<std::filesystem::path> recordings_without_session(const StudyStore& 
 
 }  // namespace
 
-Integrity verify(const StudyStore& store) {
+Integrity verify(const StudyStore& store, const Progress& progress) {
   Integrity integrity;
   // What cannot be read is what is asked about here, so it is found, not thrown.
   const auto check = [&](std::int64_t session, const std::function<void()>& part) {
@@ -255,7 +255,9 @@ Integrity verify(const StudyStore& store) {
     }
   });
   check(0, [&] {
-    for (const SessionRow& session : store.sessions()) {
+    const std::vector<SessionRow> sessions = store.sessions();
+    for (const SessionRow& session : sessions) {
+      tell(progress, integrity.num_sessions, std::ssize(sessions));
       ++integrity.num_sessions;
       check(session.session, [&] { SessionCheck(store, session, integrity).run(); });
     }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/progress.h"
 #include "core/storage/study_store.h"
 
 namespace jnd::core {
@@ -24,6 +25,7 @@ struct Integrity {
 /// Checks every session: the database's own consistency, events without gaps, an answer to
 /// every trial of a completed session, every presentation's ticks in the recording, every
 /// chunk's hash. Reads everything, changes nothing. Not real time.
-[[nodiscard]] Integrity verify(const StudyStore& store);
+/// `progress`: by sessions.
+[[nodiscard]] Integrity verify(const StudyStore& store, const Progress& progress = {});
 
 }  // namespace jnd::core

@@ -62,6 +62,8 @@ struct DesignRow {
   std::optional<std::int64_t> series;         ///< Staircase or series of the block, from 1.
   std::optional<std::int64_t> test_interval;  ///< 1 or 2, where the order is drawn.
   bool is_catch = false;                      ///< Nothing is there to be found.
+  std::string intervals;  ///< What three intervals hold, as in "rtr"; else "".
+  std::optional<std::int64_t> right_interval;  ///< Of three, the right answer, from 1.
 };
 template <>
 inline constexpr auto kColumns<DesignRow> =
@@ -81,7 +83,9 @@ inline constexpr auto kColumns<DesignRow> =
                StoredColumn{&DesignRow::sequence, "sequence"},
                StoredColumn{&DesignRow::series, "series"},
                StoredColumn{&DesignRow::test_interval, "test_interval"},
-               StoredColumn{&DesignRow::is_catch, "is_catch"}};
+               StoredColumn{&DesignRow::is_catch, "is_catch"},
+               StoredColumn{&DesignRow::intervals, "intervals"},
+               StoredColumn{&DesignRow::right_interval, "right_interval"}};
 
 /// How the hand moved in a presentation, and what was delivered.
 struct PresentationMeasures {
@@ -152,9 +156,12 @@ inline constexpr auto kColumns<PresentationRow> = std::tuple{
 /// What is measured of an answer to a trial.
 struct AnswerMeasures {
   std::optional<double> response_time_s;
+  std::optional<std::int64_t> chosen_interval{};
 };
 template <>
 inline constexpr auto kColumns<AnswerMeasures> = std::tuple{
+    StoredColumn{&AnswerMeasures::chosen_interval, "chosen_interval", "",
+                 "Of three intervals the one that was chosen, from 1"},
     StoredColumn{&AnswerMeasures::response_time_s, "response_time_s", "s",
                  "From the start of the last stimulus to the answer; where one is adjusted, "
                  "from the start of that",
@@ -176,6 +183,8 @@ struct TrialRow {
   std::int64_t first_tick = 0, last_tick = 0;
   std::optional<std::int64_t> series, test_interval;
   bool is_catch = false;
+  std::string intervals;
+  std::optional<std::int64_t> right_interval;
 };
 template <>
 inline constexpr auto kColumns<TrialRow> = std::tuple{
@@ -199,6 +208,12 @@ inline constexpr auto kColumns<TrialRow> = std::tuple{
         "Where the order is drawn: interval of the test stimulus, 1 or 2. The interval "
         "that was chosen in a two-interval task is test_interval where response is 1, "
         "else 3 - test_interval"},
+    StoredColumn{&TrialRow::intervals, "intervals", "",
+                 "Of three intervals what each held, in order: r the reference, t the test; "
+                 "empty otherwise"},
+    StoredColumn{&TrialRow::right_interval, "right_interval", "",
+                 "Of three intervals the one that is the right answer, from 1. Where the test "
+                 "equals the reference none is, and it is the one that was drawn"},
     StoredColumn{
         &TrialRow::is_catch, "is_catch", "",
         "1: a catch trial, in which nothing is there or the test equals the reference"},
@@ -211,9 +226,11 @@ inline constexpr auto kColumns<TrialRow> = std::tuple{
                  "Production and matching: where the adjustment began"},
     StoredColumn{&TrialRow::target_percent, "target_percent", "%",
                  "Production: what it should feel like, water being 100"},
-    StoredColumn{&TrialRow::response, "response", "",
-                 "Percent, or a number in another modulus; 1: yes, different, or the interval "
-                 "of the test, 0: otherwise; of an adjustment the value set"},
+    StoredColumn{
+        &TrialRow::response, "response", "",
+        "Percent, or a number in another modulus; a step of a scale; 1: yes, "
+        "different, the interval "
+        "of the test, or of three the right one, 0: otherwise; of an adjustment the value set"},
     StoredPart{&TrialRow::measures},
     StoredColumn{&TrialRow::num_presentations, "num_presentations", "",
                  "Stimuli felt in this attempt"},
@@ -240,6 +257,30 @@ inline constexpr auto kColumns<AnswerRow> = std::tuple{
     StoredColumn{&AnswerRow::item, "item", "", "Name of the question or point of a checklist"},
     StoredColumn{&AnswerRow::answer, "answer", "",
                  "As it was given; the last one if corrected"}};
+
+/// One answer to a question that follows the answer to a trial.
+struct QuestionAnswerRow {
+  std::int64_t session = 0;
+  std::int64_t trial = 0;
+  std::int64_t attempt = 0;
+  std::int64_t sequence = 0;  ///< Sequence number of its event.
+  std::string block;          ///< Name of the block's stage.
+  std::string question;
+  std::string answer;
+};
+template <>
+inline constexpr auto kColumns<QuestionAnswerRow> = std::tuple{
+    StoredColumn{&QuestionAnswerRow::session, "session"},
+    StoredColumn{&QuestionAnswerRow::trial, "trial", "",
+                 "Running number in the session, as in the table of trials"},
+    StoredColumn{&QuestionAnswerRow::attempt, "attempt", "", "Attempt whose answer stands"},
+    StoredColumn{&QuestionAnswerRow::sequence, "sequence"},
+    StoredColumn{&QuestionAnswerRow::block, "block", "", "Name of the block in the study file"},
+    StoredColumn{&QuestionAnswerRow::question, "question", "",
+                 "Name of the question in the study file"},
+    StoredColumn{&QuestionAnswerRow::answer, "answer", "",
+                 "As it was given: a number, the step of a scale, an option, yes or no, words; "
+                 "no_answer where it was left out"}};
 
 struct SessionRow {
   std::int64_t session = 0;

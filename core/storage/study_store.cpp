@@ -56,6 +56,23 @@ std::unique_ptr<Database> opened(const fs::path& file, StudyStore::Mode mode,
   return database;
 }
 
+/// The rows of the view design_in_force, found in an order that the view leaves open: for each
+/// drawn trial first the answers that were taken back, mostly none, by the index of their kind
+/// (hence the +, which forbids the one of sequences: all events of a session), and the trial's
+/// own answers only where it was drawn for such a one.
+constexpr char kDesignInForce[] =
+    "(SELECT d.* FROM design AS d WHERE NOT EXISTS"
+    " (SELECT 1 FROM event AS undone CROSS JOIN design AS its"
+    "  WHERE its.session = undone.session AND its.trial = undone.trial"
+    "   AND undone.session = d.session AND undone.kind = 'answer_undone'"
+    "   AND +undone.sequence > d.sequence"
+    "   AND CASE WHEN its.sequence < d.sequence THEN NOT EXISTS"
+    "    (SELECT 1 FROM trial AS t"
+    "     WHERE t.session = d.session AND t.trial = d.trial AND t.sequence < undone.sequence"
+    "      AND NOT EXISTS (SELECT 1 FROM event AS later"
+    "       WHERE later.session = t.session AND later.supersedes = t.sequence"
+    "        AND later.sequence < undone.sequence)) END))";
+
 }  // namespace
 
 struct StudyStore::Implementation {
@@ -71,6 +88,7 @@ struct StudyStore::Implementation {
     insert_presentation.emplace(database, insert_into<PresentationRow>("presentation"));
     insert_trial.emplace(database, insert_into<TrialRow>("trial"));
     insert_answer.emplace(database, insert_into<AnswerRow>("answer"));
+    insert_question_answer.emplace(database, insert_into<QuestionAnswerRow>("question_answer"));
     last_sequence.emplace(database,
                           "SELECT COALESCE(MAX(sequence), 0) FROM event WHERE session = ?");
   }
@@ -82,7 +100,7 @@ struct StudyStore::Implementation {
   std::unique_ptr<Database> owner;
   Database& database;
   std::optional<Statement> insert_event, insert_design, insert_presentation, insert_trial,
-      insert_answer, last_sequence;
+      insert_answer, insert_question_answer, last_sequence;
 };
 
 StudyStore::StudyStore(fs::path folder, Mode mode, Durability durability)
@@ -218,6 +236,9 @@ void StudyStore::append(const Commit& commit) {
   for (const AnswerRow& row : commit.answers) {
     insert(row, *my.insert_answer);
   }
+  if (commit.question_answer) {
+    insert(*commit.question_answer, *my.insert_question_answer);
+  }
   transaction.commit();
 }
 
@@ -242,15 +263,19 @@ std::vector<SessionOverview> StudyStore::overview() const {
   Statement rows(
       implementation_->database,
       "SELECT session,"
-      " (SELECT COUNT(*) FROM design_in_force AS d WHERE d.session = s.session),"
-      " (SELECT COUNT(DISTINCT trial) FROM trial_in_force AS t WHERE t.session = s.session),"
-      " (SELECT time_ns FROM event AS e WHERE e.session = s.session AND e.kind NOT IN"
-      "   ('trial_excluded', 'trial_included', 'unblinded') ORDER BY sequence DESC LIMIT 1),"
-      " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
-      "         AND e.kind = 'session_completed'),"
-      " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
-      "         AND e.kind = 'session_ended_early')"
-      " FROM session AS s ORDER BY session");
+      " (SELECT COUNT(*) FROM " +
+          std::string(kDesignInForce) +
+          " AS d WHERE d.session = s.session),"
+          " (SELECT COUNT(DISTINCT trial) FROM trial_in_force AS t WHERE t.session = "
+          "s.session),"
+          " (SELECT time_ns FROM event AS e WHERE e.session = s.session AND e.kind NOT IN"
+          "   ('trial_excluded', 'trial_included', 'unblinded') ORDER BY sequence DESC LIMIT "
+          "1),"
+          " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
+          "         AND e.kind = 'session_completed'),"
+          " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
+          "         AND e.kind = 'session_ended_early')"
+          " FROM session AS s ORDER BY session");
   std::vector<SessionOverview> all;
   while (rows.step()) {
     all.push_back({.session = rows.integer(0),
@@ -274,7 +299,7 @@ std::vector<EventRow> StudyStore::events(std::int64_t session) const {
 std::vector<DesignRow> StudyStore::design(std::int64_t session, bool include_voided) const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
-                 select_from<DesignRow>(include_voided ? "design" : "design_in_force") +
+                 select_from<DesignRow>(include_voided ? "design" : kDesignInForce) +
                      " WHERE session = ? ORDER BY trial");
   rows.bind(session);
   return read_rows<DesignRow>(rows);
@@ -311,6 +336,19 @@ std::vector<AnswerRow> StudyStore::answers(std::int64_t session) const {
                                                 " WHERE session = ? ORDER BY sequence, item");
   rows.bind(session);
   return read_rows<AnswerRow>(rows);
+}
+
+std::vector<QuestionAnswerRow> StudyStore::question_answers(std::int64_t session,
+                                                            bool include_excluded) const {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement rows(implementation_->database,
+                 select_from<QuestionAnswerRow>("question_answer") +
+                     // As in question_answer_in_force, the trials listed once.
+                     " WHERE session = ?1 AND (trial, attempt) IN"
+                     " (SELECT trial, attempt FROM trial_in_force WHERE session = ?1" +
+                     (include_excluded ? "" : " AND NOT excluded") + ") ORDER BY sequence");
+  rows.bind(session);
+  return read_rows<QuestionAnswerRow>(rows);
 }
 
 bool StudyStore::completed(std::int64_t session) const {

@@ -67,6 +67,7 @@ struct Commit {
   std::optional<PresentationRow> presentation;
   std::optional<TrialRow> trial;
   std::vector<AnswerRow> answers;
+  std::optional<QuestionAnswerRow> question_answer{};
 };
 
 /// How soon a commit is safe from a power cut.
@@ -134,6 +135,10 @@ class StudyStore {
                                                            bool include_excluded = false) const;
   /// Answers that count: the last one given to each item.
   [[nodiscard]] std::vector<AnswerRow> answers(std::int64_t session) const;
+  /// Answers to questions after trials whose answer stands, in the order in which they were
+  /// given. With `include_excluded`, of trials that were set aside as well.
+  [[nodiscard]] std::vector<QuestionAnswerRow> question_answers(
+      std::int64_t session, bool include_excluded = false) const;
   /// Whether the session was completed.
   [[nodiscard]] bool completed(std::int64_t session) const;
   /// Whether it was completed or ended early: nothing is left to resume.

@@ -81,7 +81,7 @@ void delete_rows(Database& database, const std::string& participant,
   for (const std::int64_t session : sessions) {
     leave_tombstone(database, session, time_ns);
     for (const char* table :
-         {"answer", "presentation", "trial", "design", "event", "session"}) {
+         {"question_answer", "answer", "presentation", "trial", "design", "event", "session"}) {
       Statement(database, std::string("DELETE FROM ") + table + " WHERE session = ?")
           .bind(session)
           .run();

@@ -116,6 +116,19 @@ QuestPlusModel gauss_model(const ThresholdGrids& grids) {
           }};
 }
 
+QuestPlusModel identification_model(const ThresholdGrids& grids, double reference) {
+  require(reference > 0.0, "quest_plus.reference", "a number > 0", reference);
+  QuestPlusModel model{
+      parameters_of(grids),
+      [reference](bool yes, double intensity, std::span<const double> values) {
+        const double distance = std::abs(std::log(intensity / reference));
+        const double z = values[1] * std::log(distance / std::log1p(values[0]));
+        return with_rates(yes, core::standard_normal_cdf(yes ? z : -z), values[2], values[3]);
+      }};
+  model.parameters.front().name = "weber_fraction";
+  return model;
+}
+
 QuestPlusModel weibull_model(const ThresholdGrids& grids) {
   return {parameters_of(grids), [](bool yes, double intensity, std::span<const double> values) {
             const double decay = -std::pow(intensity / values[0], values[1]);

@@ -62,6 +62,11 @@ void require_model(const QuestPlusModel& model);
 [[nodiscard]] QuestPlusModel weber_model(const WeberGrids& grids);
 /// F = Phi( slope ln(x / threshold) ): 0.5 at the threshold.
 [[nodiscard]] QuestPlusModel gauss_model(const ThresholdGrids& grids);
+/// Of right answers among some: x is a distance, d = |ln(x / reference)|, and F = Phi( slope
+/// ln(d / ln(1 + weber_fraction)) ), so that it is 0.5 at reference (1 + weber_fraction).
+/// `grids.threshold` is that Weber fraction; the parameter is called so.
+[[nodiscard]] QuestPlusModel identification_model(const ThresholdGrids& grids,
+                                                  double reference);
 /// F = 1 - exp( -(x / threshold)^slope ) (Weibull 1951): 1 - 1/e at the threshold.
 [[nodiscard]] QuestPlusModel weibull_model(const ThresholdGrids& grids);
 

@@ -21,7 +21,8 @@ void require_abilities(const Laboratory& laboratory, const Study& study) {
   for_each_stage(study.stages, [&](const Stage& stage) {
     const auto* block = std::get_if<Block>(&stage.content);
     if (block == nullptr) return;
-    if (block->is_pressed() && !laboratory.pressing) {
+    const bool presses = block->is_pressed() || block->is_pressed_in("reference");
+    if (presses && !laboratory.pressing) {
       lacks(laboratory, "/pressing", "the solid", stage.name);
     }
     if (modulus_of(*block) == Modulus::kFree && !laboratory.perceiver.free_modulus) {

@@ -12,6 +12,7 @@
 #include "experiments/procedures/adjustment.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/rating.h"
 #include "experiments/procedures/stimulus.h"
 #include "experiments/procedures/task.h"
 #include "experiments/study/stage_walk.h"
@@ -34,6 +35,7 @@ class BlockPlayer {
         strokes_(block.is_pressed()
                      ? participant.presses(block.procedure, device.immersion.origin_z_m)
                      : participant.strokes(block.procedure)),
+        stroking_(participant.strokes(block.procedure)),
         presentation_s_(device.ramp_s + strokes_.duration_s()),
         perceiver_(participant.perceiver(block)) {}
 
@@ -59,14 +61,19 @@ class BlockPlayer {
     felt_s_ += presentation_s_;
     const core::MediumAmounts medium = amounts_of(setting_of(block_, interval, intensity));
     double delivered = medium.damping_n_s_per_m;
-    if (!medium.is_plain_damping() && !block_.is_pressed()) {
-      delivered = calculated_stroke(laboratory_, strokes_.amplitude_m, drawn_speed_m_per_s(),
+    const bool is_pressed = block_.is_pressed_in(interval);
+    if (!medium.is_plain_damping() && !is_pressed) {
+      delivered = calculated_stroke(laboratory_, stroking_.amplitude_m, drawn_speed_m_per_s(),
                                     medium, map_)
                       .delivered_damping_n_s_per_m;
     }
-    felt_ = block_.is_pressed() ? medium.plane_stiffness_n_per_m
-                                : delivered + laboratory_.device.mechanical_viscosity_n_s_per_m;
-    return perceiver_.reading_ln(felt_, moment_);
+    felt_ = is_pressed ? medium.plane_stiffness_n_per_m
+                       : delivered + laboratory_.device.mechanical_viscosity_n_s_per_m;
+    const double reading_ln =
+        participant_.perceiver(block_, interval).reading_ln(felt_, moment_);
+    return std::string_view(interval) == "reference"
+               ? participant_.standard_as_test_ln(block_, reading_ln)
+               : reading_ln;
   }
 
   /// Mean of this presentation's strokes, each a little faster or slower.
@@ -78,7 +85,7 @@ class BlockPlayer {
       sum += 1.0 + laboratory_.movement.stroke_speed_sd_ratio *
                        std::clamp(random.normal(), -2.5, 2.5);
     }
-    return strokes_.max_speed_m_per_s * sum / strokes_.num_strokes;
+    return stroking_.max_speed_m_per_s * sum / strokes_.num_strokes;
   }
 
   [[nodiscard]] bool looks_again() const { return perceiver_.looks_again(moment_); }
@@ -96,6 +103,11 @@ class BlockPlayer {
     std::optional<double> previous, felt_standard_ln;
     if (!answered.empty()) previous = answered.back().response;
     if (planned.reference_intensity) felt_standard_ln = standard_ln / looks;
+    if (form_.answer == AnswerKind::kStep) {
+      const double ratio =
+          magnitude_ratio(laboratory_, participant_, block_, sum_ln / looks, map_);
+      return perceiver_.rate(ratio, num_steps_of(block_), moment_, previous);
+    }
     if (form_.answer == AnswerKind::kPercent) {
       return perceiver_.estimate_percent(sum_ln / looks, moment_, previous);
     }
@@ -127,7 +139,25 @@ class BlockPlayer {
     return perceiver_.says_thicker(test_ln / looks, reference_ln / looks, moment_) ? 1.0 : 0.0;
   }
 
+  double choose_interval(const PlannedTrial& planned) {
+    std::vector<double> sums_ln(planned.intervals.size(), 0.0);
+    int looks = 0;
+    do {
+      for (std::size_t i = 0; i < sums_ln.size(); ++i) {
+        const double intensity = planned.intervals[i] == 't'
+                                     ? planned.intensity.value()
+                                     : planned.reference_intensity.value();
+        sums_ln[i] += present("interval", intensity);
+      }
+      ++looks;
+    } while (looks_again());
+    for (double& sum : sums_ln) sum /= looks;
+    return response_of(form_.answer, planned,
+                       perceiver_.choose_interval(task_of(block_), sums_ln, moment_));
+  }
+
   double compare_intervals(const PlannedTrial& planned) {
+    if (!planned.intervals.empty()) return choose_interval(planned);
     const double test = planned.intensity.value();
     const double reference = planned.reference_intensity.value();
     const bool test_first = planned.test_interval.value() == 1;
@@ -210,6 +240,7 @@ class BlockPlayer {
   const Block& block_;
   TrialForm form_;
   StrokeIntent strokes_;
+  StrokeIntent stroking_;  ///< Through a fluid, where `strokes_` press.
   double presentation_s_;
   const Perceiver perceiver_;
   Moment moment_;
@@ -226,7 +257,8 @@ void require_answerable(const Stage& stage) {
                      : form.answer == AnswerKind::kPercent
                          ? !form.has_reference
                          : form.answer == AnswerKind::kYesNo ||
-                               form.answer == AnswerKind::kNumber || form.order_is_drawn;
+                               form.answer == AnswerKind::kNumber ||
+                               form.answer == AnswerKind::kStep || form.order_is_drawn;
   if (!known) {
     throw core::Error("block " + stage.name +
                       ": expected a procedure that simulated participants answer without a "

@@ -299,6 +299,24 @@ void read_effects(const json& file, std::vector<Laboratory::Effect>& effects,
   }
 }
 
+/// A laboratory need not know of any.
+void read_questions(const json& file, std::map<std::string, Laboratory::Question>& questions,
+                    std::vector<std::string>& problems) {
+  if (!file.contains("questions")) return;
+  if (!file.at("questions").is_object()) {
+    problems.emplace_back("/questions: expected an object, found something else");
+    return;
+  }
+  for (const auto& [name, value] : file.at("questions").items()) {
+    if (name == "comment") continue;
+    Section in(file.at("questions"), name, "/questions/" + shown_text(name), problems);
+    Laboratory::Question& read = questions[name];
+    in.word("follows", read.follows, {"certainty", "magnitude"});
+    in.number("noise_sd_ratio", read.noise_sd_ratio, 0.0, 10.0);
+    in.finish();
+  }
+}
+
 /// A list of names of estimates, empty if there is none.
 void read_names(const json& file, const char* key, std::vector<std::string>& names,
                 std::vector<std::string>& problems) {
@@ -334,7 +352,8 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
   Laboratory laboratory{.text = text};
   static const std::set<std::string> kKeys = {
       "format",   "name",    "title",     "comment",  "calibrated_on", "device",  "arm",
-      "movement", "strokes", "perceiver", "pressing", "answers",       "implied", "effects"};
+      "movement", "strokes", "perceiver", "pressing", "answers",       "implied", "effects",
+      "questions"};
   for (const auto& [key, value] : file.items()) {
     if (!kKeys.contains(key)) problems.push_back("/" + shown_text(key) + ": unknown key");
   }
@@ -359,6 +378,7 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
   read_pressing(file, laboratory.pressing, problems);
   read_answers(file, laboratory.answers, problems);
   read_effects(file, laboratory.effects, problems);
+  read_questions(file, laboratory.questions, problems);
   if (!problems.empty()) {
     std::string message = place + ": " + std::to_string(problems.size()) + " problem(s)";
     constexpr std::size_t kMostTold = 100;

@@ -91,6 +91,14 @@ struct Laboratory {
     double sideways_m;  ///< Half the way to and fro along the surface meanwhile, > 0.
   };
 
+  /// How persons answer a question that follows trials: what their answer goes with, and with
+  /// how much scatter. A question without an entry is answered as a questionnaire is, whatever
+  /// was felt.
+  struct Question {
+    std::string follows;          ///< "certainty" or "magnitude"; see trial_feeling.h.
+    double noise_sd_ratio = 0.0;  ///< Of the answer, over the length of its scale, >= 0.
+  };
+
   /// What persons say of themselves and on paper.
   struct Answers {
     double age_years = 0.0, age_sd_years = 0.0;
@@ -123,6 +131,7 @@ struct Laboratory {
   std::optional<Pressing> pressing;  ///< None: nobody is asked about solids.
   Answers answers;
   std::vector<Effect> effects;  ///< None where conditions do nothing of themselves.
+  std::map<std::string, Question> questions;  ///< By their names in study files.
   /// Names of estimates, as in results, that parameters were fitted to.
   std::vector<std::string> calibrated_on;
   /// Names of estimates that follow from those, nearly or wholly.

@@ -129,10 +129,58 @@ bool Perceiver::says_different(double first_ln, double second_ln, const Moment& 
   return says_present(std::abs(second_ln - first_ln), 0.0, moment);
 }
 
+int Perceiver::choose_interval(Task task, std::span<const double> readings_ln,
+                               const Moment& moment) const {
+  if (!lapses(moment)) return chosen_interval(task, readings_ln).interval;
+  const TrialForm form = form_of(task);
+  RandomStream stream(seed_, "guess", {moment.trial, moment.attempt});
+  return form.first_choice +
+         static_cast<int>(stream.below(static_cast<std::uint64_t>(form.num_choices)));
+}
+
+double Perceiver::certainty_of_choice(Task task, std::span<const double> readings_ln,
+                                      int num_looks, const Moment& moment) const {
+  return certainty(chosen_interval(task, readings_ln).margin, std::log1p(weber_fraction_),
+                   num_looks, moment);
+}
+
+double Perceiver::certainty(double distance_ln, double noise_sd_ln, int num_looks,
+                            const Moment& moment) const {
+  if (lapses(moment)) return 0.0;
+  const double z = std::abs(distance_ln) * std::sqrt(num_looks) / noise_sd_ln;
+  return std::erf(z / std::numbers::sqrt2);  // 2 Phi(z) - 1
+}
+
+double Perceiver::certainty_of_thicker(double test_ln, double reference_ln, int num_looks,
+                                       const Moment& moment) const {
+  return certainty(test_ln - reference_ln - criterion_ln(moment), std::log1p(weber_fraction_),
+                   num_looks, moment);
+}
+
+double Perceiver::certainty_of_present(double test_ln, double free_space_ln, int num_looks,
+                                       const Moment& moment) const {
+  const double jnd_ln = std::log1p(weber_fraction_);
+  return certainty(test_ln - free_space_ln - jnd_ln, jnd_ln / std::numbers::sqrt2, num_looks,
+                   moment);
+}
+
+double Perceiver::certainty_of_different(double first_ln, double second_ln, int num_looks,
+                                         const Moment& moment) const {
+  const double jnd_ln = std::log1p(weber_fraction_);
+  return certainty(std::abs(second_ln - first_ln) - jnd_ln, jnd_ln, num_looks, moment);
+}
+
 double Perceiver::magnitude_ln(double reading_ln) const {
   const double excess = std::exp(reading_ln) - free_space_;
   if (!(excess > 0.0)) return -INFINITY;
   return std::log(person_.unit) + person_.exponent * std::log(excess / standard_);
+}
+
+double Perceiver::reading_of_magnitude_ln(double magnitude_ln) const {
+  if (!std::isfinite(magnitude_ln)) return free_space_ln();
+  const double excess =
+      standard_ * std::exp((magnitude_ln - std::log(person_.unit)) / person_.exponent);
+  return std::log(std::max(free_space_ + excess, threshold_));
 }
 
 double Perceiver::centre_ln() const {
@@ -177,6 +225,20 @@ double Perceiver::estimate_number(double reading_ln, const Moment& moment,
   const double ratio = ratio_ln ? std::max(kLeastRatio, std::exp(*ratio_ln)) : kLeastRatio;
   if (!counting.in_round_numbers) return to_two_digits(counting.number * ratio);
   return counting.number * std::max(kLeastRatio, rounded_percent(100.0 * ratio) / 100.0);
+}
+
+double Perceiver::rate(double magnitude_ratio, int num_steps, const Moment& moment,
+                       std::optional<double> previous_step) const {
+  if (lapses(moment)) {
+    RandomStream stream(seed_, "guess", {moment.trial, moment.attempt});
+    return 1.0 + static_cast<double>(stream.below(static_cast<std::size_t>(num_steps)));
+  }
+  const double last = num_steps - 1;
+  double ratio = 0.5 + person_.shrink * (magnitude_ratio - 0.5);
+  if (previous_step) {
+    ratio += laboratory_.perceiver.assimilation_ratio * ((*previous_step - 1.0) / last - ratio);
+  }
+  return 1.0 + std::round(last * std::clamp(ratio, 0.0, 1.0));
 }
 
 Perceiver::Wish Perceiver::wish(double reading_ln, double first_reading_ln,

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "experiments/participants/laboratory.h"
+#include "experiments/procedures/task.h"
 
 namespace jnd::experiments {
 
@@ -96,6 +98,41 @@ class Perceiver {
                                        std::optional<double> previous,
                                        const Counting& counting) const;
 
+  /// The interval that is chosen of three, from 1, by `chosen_interval` of the task; the
+  /// criterion has no part in it. Who lapses takes any that can be chosen.
+  [[nodiscard]] int choose_interval(Task task, std::span<const double> readings_ln,
+                                    const Moment& moment) const;
+  /// As `certainty_of_thicker`, of such a choice: z is its margin over that of a comparison.
+  [[nodiscard]] double certainty_of_choice(Task task, std::span<const double> readings_ln,
+                                           int num_looks, const Moment& moment) const;
+
+  /// How sure somebody is of an answer: 2 P - 1 of the probability P = Phi(z) that it is right,
+  /// z being how far what was felt lies from where another answer begins, over the standard
+  /// deviation of its noise (Clarke, Birdsall and Tanner 1959, Galvin et al. 2003). From 0 of a
+  /// guess to 1. Each of `num_looks` (>= 1) makes the noise of the means smaller; who lapses
+  /// guesses, and knows it. A lapse apart, the answers are those of `says_thicker`,
+  /// `says_present` and `says_different`.
+  [[nodiscard]] double certainty_of_thicker(double test_ln, double reference_ln, int num_looks,
+                                            const Moment& moment) const;
+  [[nodiscard]] double certainty_of_present(double test_ln, double free_space_ln, int num_looks,
+                                            const Moment& moment) const;
+  [[nodiscard]] double certainty_of_different(double first_ln, double second_ln, int num_looks,
+                                              const Moment& moment) const;
+
+  /// A step from 1 to `num_steps` for a stimulus that is felt this part of the way from the
+  /// weakest to the strongest one (`magnitude_ratio` of trial_feeling.h), drawn toward the
+  /// middle by the person's `shrink`, and by the laboratory's assimilation toward the step
+  /// before. Who lapses takes any step.
+  [[nodiscard]] double rate(double magnitude_ratio, int num_steps, const Moment& moment,
+                            std::optional<double> previous_step) const;
+
+  /// ln of the magnitude that such a reading feels like, 0 being the standard's; -infinity
+  /// where nothing is felt. And back, to the reading of free space.
+  [[nodiscard]] double magnitude_of_reading_ln(double reading_ln) const {
+    return magnitude_ln(reading_ln);
+  }
+  [[nodiscard]] double reading_of_magnitude_ln(double magnitude_ln) const;
+
   enum class Wish { kMatches, kRaiseFine, kRaiseCoarse, kLowerFine, kLowerCoarse };
 
   /// What the person signals in production. `first_reading_ln` is that of the starting value.
@@ -110,6 +147,8 @@ class Perceiver {
   [[nodiscard]] bool looks_again(const Moment& moment) const;
 
  private:
+  [[nodiscard]] double certainty(double distance_ln, double noise_sd_ln, int num_looks,
+                                 const Moment& moment) const;
   [[nodiscard]] Wish step_for(double difference_ln) const;
   [[nodiscard]] double criterion_ln(const Moment& moment) const;
   [[nodiscard]] double magnitude_ln(double reading_ln) const;

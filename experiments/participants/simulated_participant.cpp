@@ -34,12 +34,19 @@ SimulatedParticipant::SimulatedParticipant(const Laboratory& laboratory,
   }
 }
 
-Perceiver SimulatedParticipant::perceiver(const Block& block) const {
+Perceiver SimulatedParticipant::perceiver(const Block& block, std::string_view interval) const {
+  const bool is_pressed = block.is_pressed_in(interval);
   if (laboratory_.effects.empty()) {
-    return block.is_pressed() ? pressing_perceiver_.value() : perceiver_;
+    return is_pressed ? pressing_perceiver_.value() : perceiver_;
   }
   return {laboratory_, affected(laboratory_, person_, seed_, block.levels), seed_,
-          block.is_pressed() ? Perceiver::Feels::kStiffness : Perceiver::Feels::kDamping};
+          is_pressed ? Perceiver::Feels::kStiffness : Perceiver::Feels::kDamping};
+}
+
+double SimulatedParticipant::standard_as_test_ln(const Block& block, double standard_ln) const {
+  if (block.is_pressed_in("reference") == block.is_pressed()) return standard_ln;
+  return perceiver(block).reading_of_magnitude_ln(
+      perceiver(block, "reference").magnitude_of_reading_ln(standard_ln));
 }
 
 double SimulatedParticipant::home_height_m() const {
@@ -109,6 +116,40 @@ std::string SimulatedParticipant::answer(const QuestionnaireItem& item) const {
     const bool goes_up = item.high_is_good.value_or(true);
     return std::to_string(goes_up ? clamped : item.num_steps + 1 - clamped);
   }
+  return "a simulated answer";
+}
+
+std::string SimulatedParticipant::answer(const QuestionnaireItem& item,
+                                         const TrialFeeling& feeling) const {
+  core::RandomStream stream(seed_, "question/" + item.name,
+                            {feeling.moment.trial, feeling.moment.attempt});
+  double ratio = 0.0;
+  const auto known = laboratory_.questions.find(item.name);
+  if (known == laboratory_.questions.end()) {
+    const Laboratory::Answers& habit = laboratory_.answers;
+    ratio = stream.normal(habit.scale_step_ratio, habit.scale_step_sd_ratio);
+  } else {
+    const Laboratory::Question& habit = known->second;
+    ratio = (habit.follows == "certainty" ? feeling.certainty_ratio : feeling.magnitude_ratio) +
+            habit.noise_sd_ratio * stream.normal();
+  }
+  ratio = std::clamp(ratio, 0.0, 1.0);
+  if (item.kind == "scale") {
+    return std::to_string(1 + std::lround(ratio * (item.num_steps - 1)));
+  }
+  if (item.kind == "number") {
+    const double least = item.minimum.value_or(std::min(0.0, item.maximum.value_or(0.0)));
+    const double greatest = item.maximum.value_or(least + 100.0);
+    return two_decimals(std::clamp(
+        std::round(100.0 * (least + ratio * (greatest - least))) / 100.0, least, greatest));
+  }
+  if (item.kind == "choice") {
+    const auto count = static_cast<double>(item.options.size());
+    const auto place = static_cast<std::size_t>(std::min(ratio * count, count - 1.0));
+    return item.options.at(place).value;
+  }
+  if (item.kind == "yes_no") return ratio >= 0.5 ? "yes" : "no";
+  if (item.kind == "yes_no_which") return ratio >= 0.5 ? "yes: a simulated answer" : "no";
   return "a simulated answer";
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/participants/perceiver.h"
+#include "experiments/participants/trial_feeling.h"
 #include "experiments/study/study.h"
 
 namespace jnd::experiments {
@@ -40,7 +41,11 @@ class SimulatedParticipant {
   [[nodiscard]] const Person& person() const noexcept { return person_; }
   /// In this block: of a solid what is felt is its stiffness, else a damping.
   /// The laboratory's effects of the block's levels are in it.
-  [[nodiscard]] Perceiver perceiver(const Block& block) const;
+  [[nodiscard]] Perceiver perceiver(const Block& block,
+                                    std::string_view interval = "test") const;
+  /// A reading of the standard as one of the test: what feels as strong, where one of them is
+  /// pressed and the other is stroked through; else the reading itself.
+  [[nodiscard]] double standard_as_test_ln(const Block& block, double standard_ln) const;
 
   /// Where the hand rests, workspace frame.
   [[nodiscard]] double home_height_m() const;
@@ -56,6 +61,10 @@ class SimulatedParticipant {
   /// Answers to questions on paper.
   [[nodiscard]] std::string answer(const QuestionnaireItem& item) const;
   [[nodiscard]] std::string answer(const PostExperimentItem& item) const;
+  /// To a question after a trial that was felt so, as the laboratory's `Question` of its name
+  /// has it: the share of the way from its least to its greatest answer.
+  [[nodiscard]] std::string answer(const QuestionnaireItem& item,
+                                   const TrialFeeling& feeling) const;
 
  private:
   const Laboratory& laboratory_;

@@ -15,7 +15,7 @@ PlannedTrial adaptive_trial(const Block& block, const std::vector<AnsweredTrial>
   if (catch_probability > 0.0 && stream.with_probability(catch_probability)) {
     make_catch_trial(trial, task_of(block));
   }
-  trial.test_interval = next_test_interval(block, answered, stream);
+  draw_intervals(trial, block, answered, stream);
   return trial;
 }
 

@@ -78,18 +78,25 @@ BlockKey stimuli_key() {
 }
 
 BlockKey task_key() {
-  return {.parameter = {.key = "task",
-                        .kind = ValueKind::kString,
-                        .meaning =
-                            "`reminder`: the reference first, then the test, and a question "
-                            "that compares them. `yes_no`: the test alone, and whether it is "
-                            "felt, for absolute thresholds. `two_interval`: reference and "
-                            "test in drawn order, and in which interval there was more. "
-                            "`same_different`: likewise, or the reference twice, and whether "
-                            "they differed.",
-                        .required = false,
-                        .default_json = R"("reminder")",
-                        .allowed = {"reminder", "yes_no", "two_interval", "same_different"}}};
+  return {.parameter = {
+              .key = "task",
+              .kind = ValueKind::kString,
+              .meaning = "`reminder`: the reference first, then the test, and a question "
+                         "that compares them. `yes_no`: the test alone, and whether it is "
+                         "felt, for absolute thresholds. `two_interval`: reference and "
+                         "test in drawn order, and in which interval there was more. "
+                         "`same_different`: likewise, or the reference twice, and whether "
+                         "they differed. `three_interval`: the test and the reference "
+                         "twice, and which had more. `oddity`: one of the two once and the "
+                         "other twice, and which was the odd one. `abx`: both, then one of "
+                         "them again, and which of the two it was. `match_to_sample`: one of "
+                         "them, then both, and which of the two it was. In these four every "
+                         "order comes equally often, and what is measured is the share of "
+                         "right answers, 1/3 or 1/2 by guessing.",
+              .required = false,
+              .default_json = R"("reminder")",
+              .allowed = {"reminder", "yes_no", "two_interval", "same_different",
+                          "three_interval", "oddity", "abx", "match_to_sample"}}};
 }
 
 BlockKey reference_key() {
@@ -97,10 +104,13 @@ BlockKey reference_key() {
       amount_key("reference",
                  "The stimulus that every test stimulus is compared with; of "
                  "`constant_stimuli` between the smallest and the largest of them, of "
-                 "`quest_plus` not beyond either, in `same_different` none of them. Of a "
+                 "`quest_plus` not beyond either, in `same_different`, `oddity`, `abx` and "
+                 "`match_to_sample` none of them, in `three_interval` below all. Of a "
                  "`staircase` that aims at more "
                  "than 50 %, levels may all lie above it.");
-  key.parameter.only_where = {{"task", {"reminder", "two_interval", "same_different"}}};
+  key.parameter.only_where = {{"task",
+                               {"reminder", "two_interval", "same_different", "three_interval",
+                                "oddity", "abx", "match_to_sample"}}};
   return key;
 }
 
@@ -152,8 +162,8 @@ std::vector<BlockKey> right_answer_keys() {
                          "Whether participant and experimenter are told after each answer "
                          "if it was right. Where test and reference are equal, so that a "
                          "trial without feedback would be found out, \"not more\" is called "
-                         "right in `reminder`, and in `two_interval` the interval that was "
-                         "drawn for the test. Not in a double-blind study.",
+                         "right in `reminder`, and of intervals the one that was drawn for "
+                         "the answer. Not in a double-blind study.",
                      .required = false,
                      .default_json = "false"}},
       {.parameter = {.key = "practice",
@@ -170,7 +180,8 @@ std::vector<BlockKey> standard_keys() {
                                 .meaning =
                                     "What is felt as the standard: in `matching` always, "
                                     "in `magnitude_estimation` where `modulus` is "
-                                    "`standard`. It may be the medium of the block; how "
+                                    "`standard`. It may be the medium of the block, or in "
+                                    "`matching` a solid where the block's is a fluid; how "
                                     "far matches then lie from it is the constant "
                                     "error.",
                                 .required = false,
@@ -208,15 +219,19 @@ BlockKey order_key() {
 
 std::vector<BlockKey> answer_label_keys() {
   const std::vector<std::string> one_question = {"reminder", "yes_no", "same_different"};
-  const std::vector<std::string> choice = {"two_interval"};
+  const std::vector<std::string> first = {"two_interval", "three_interval", "oddity", "abx"};
+  const std::vector<std::string> second = {"two_interval", "three_interval", "oddity", "abx",
+                                           "match_to_sample"};
+  const std::vector<std::string> third = {"three_interval", "oddity", "match_to_sample"};
   return {
       answer_label("yes_label", "What the answer that is stored as 1 is called: \"Thicker\".",
                    one_question),
       answer_label("no_label",
                    "What the answer that is stored as 0 is called: \"Not thicker\".",
                    one_question),
-      answer_label("first_label", "What the first interval is called as an answer.", choice),
-      answer_label("second_label", "What the second interval is called as an answer.", choice)};
+      answer_label("first_label", "What the first interval is called as an answer.", first),
+      answer_label("second_label", "What the second interval is called as an answer.", second),
+      answer_label("third_label", "What the third interval is called as an answer.", third)};
 }
 
 std::vector<BlockKey> step_keys() {

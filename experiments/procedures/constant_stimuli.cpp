@@ -45,10 +45,31 @@ std::vector<PlannedTrial> with_catch_trials(const Block& block, std::vector<Plan
   return trials;
 }
 
+/// Every stimulus, and the catch trials, have each order of three intervals equally often, or
+/// once more.
+void draw_interval_orders(Task task, std::vector<PlannedTrial>& trials,
+                          core::RandomStream& stream) {
+  std::map<std::pair<bool, double>, std::vector<PlannedTrial*>> by_stimulus;
+  for (PlannedTrial& trial : trials) {
+    by_stimulus[{trial.is_catch, trial.intensity.value_or(0.0)}].push_back(&trial);
+  }
+  for (auto& [stimulus, same] : by_stimulus) {
+    stream.shuffle(same);
+    std::vector<std::string> orders = interval_orders(task);
+    stream.shuffle(orders);
+    for (std::size_t i = 0; i < same.size(); ++i) {
+      same[i]->intervals = orders[i % orders.size()];
+      same[i]->right_interval = right_interval(task, same[i]->intervals);
+    }
+  }
+}
+
 /// Balanced: every stimulus, and the catch trials, have the test first as often as second.
 void draw_test_intervals(const Block& block, std::vector<PlannedTrial>& trials,
                          core::RandomStream& stream) {
-  if (!form_of(task_of(block)).order_is_drawn) return;
+  const Task task = task_of(block);
+  if (!form_of(task).order_is_drawn) return;
+  if (num_choices_to_guess(task) > 0) return draw_interval_orders(task, trials, stream);
   if (block.settings.word("interval_order") != "balanced") {
     for (PlannedTrial& trial : trials)
       trial.test_interval = stream.with_probability(0.5) ? 1 : 2;
@@ -91,7 +112,7 @@ std::vector<PlannedTrial> practice_trial(const Block& block,
   PlannedTrial next = left[stream.below(left.size())];
   next.repetition = repetition;
   next.position = static_cast<int>(num_done) + 1;
-  next.test_interval = next_test_interval(block, answered, stream);
+  draw_intervals(next, block, answered, stream);
   return {next};
 }
 

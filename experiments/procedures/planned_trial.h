@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <tuple>
 
 #include "core/stored_column.h"
@@ -18,6 +19,9 @@ struct PlannedTrial {
   std::optional<int> series;                  ///< Staircase or series it is of, from 1.
   std::optional<int> test_interval;           ///< 1 or 2, where the order is drawn.
   bool is_catch = false;                      ///< Nothing is there to be found.
+  /// Of three intervals what each holds, as in "rtr": 'r' the reference, 't' the test. Else "".
+  std::string intervals{};
+  std::optional<int> right_interval{};  ///< Of three intervals the right answer, from 1.
 };
 
 }  // namespace jnd::experiments
@@ -39,7 +43,9 @@ inline constexpr auto kColumns<experiments::PlannedTrial> = [] {
       StoredColumn{&PlannedTrial::target_percent, "target_percent", "", "", kAlways},
       StoredColumn{&PlannedTrial::series, "series"},
       StoredColumn{&PlannedTrial::test_interval, "test_interval"},
-      StoredColumn{&PlannedTrial::is_catch, "is_catch"}};
+      StoredColumn{&PlannedTrial::is_catch, "is_catch"},
+      StoredColumn{&PlannedTrial::intervals, "intervals"},
+      StoredColumn{&PlannedTrial::right_interval, "right_interval"}};
 }();
 
 }  // namespace jnd::core

@@ -21,9 +21,10 @@ struct AnsweredTrial {
 enum class AnswerKind {
   kPercent,   ///< A number >= 0, water being 100.
   kYesNo,     ///< 1 is yes, or different; 0 is no, or the same.
-  kInterval,  ///< In which interval there was more, 1 or 2; stored is 1 for the test's, else 0.
+  kInterval,  ///< An interval. Stored is 1 for that of the test, or the right one, else 0.
   kMatch,     ///< "It matches"; the answer is the intensity that was set.
   kNumber,    ///< A number > 0, in the unit of a standard or of one's own.
+  kStep,      ///< A step of a scale, counted from 1; the block's `num_steps` is the last.
 };
 
 /// What the experimenter can do in a trial of this procedure.
@@ -32,7 +33,10 @@ struct TrialForm {
   bool has_reference = false;  ///< The reference comes first; free switching back and forth.
   bool adjustable = false;     ///< The intensity moves by steps until it matches.
   /// Two intervals instead, "first" and "second"; the trial's `test_interval` holds the test.
+  /// Or three, with a "third"; `intervals` of the trial says what they hold.
   bool order_is_drawn = false;
+  int num_intervals = 2;                  ///< Where the order is drawn.
+  int first_choice = 1, num_choices = 2;  ///< Which intervals an answer chooses among.
 };
 
 /// What the answers of a block are about, which decides how they are analysed.
@@ -40,9 +44,11 @@ enum class Measure {
   kMagnitude,          ///< How strong each stimulus feels, in numbers: a power law.
   kProducedMagnitude,  ///< How strong a stimulus has to be for each number: a power law.
   kMatch,              ///< How strong it has to be to equal a standard: points of equality.
+  kRating,             ///< On which step of a scale each stimulus is: means, and a trend.
   kComparison,         ///< Whether it is more than a reference: a psychometric function.
   kDetection,          ///< Whether it is felt at all: an absolute threshold.
   kDifference,         ///< Whether it differs from a reference: how far the two must be apart.
+  kIdentification,  ///< Which of several intervals is the right one: the share of right ones.
 };
 
 /// By which rule answers decide what is presented next.

@@ -9,6 +9,7 @@
 #include "experiments/procedures/magnitude_production.h"
 #include "experiments/procedures/matching.h"
 #include "experiments/procedures/quest_plus_procedure.h"
+#include "experiments/procedures/rating.h"
 #include "experiments/procedures/staircase_procedure.h"
 
 namespace jnd::experiments {
@@ -17,6 +18,7 @@ const std::vector<const Procedure*>& procedures() {
   static const MagnitudeEstimation kMagnitudeEstimation;
   static const MagnitudeProduction kMagnitudeProduction;
   static const Matching kMatching;
+  static const Rating kRating;
   static const ConstantStimuli kConstantStimuli;
   static const LimitsProcedure kLimits;
   static const StaircaseProcedure kStaircase;
@@ -24,6 +26,7 @@ const std::vector<const Procedure*>& procedures() {
   static const std::vector<const Procedure*> kAll = {&kMagnitudeEstimation,
                                                      &kMagnitudeProduction,
                                                      &kMatching,
+                                                     &kRating,
                                                      &kConstantStimuli,
                                                      &kLimits,
                                                      &kStaircase,

@@ -19,6 +19,15 @@ namespace {
 std::vector<std::string> comparisons() { return {"reminder", "two_interval"}; }
 /// Of which it is that of an absolute threshold.
 std::vector<std::string> detections() { return {"yes_no"}; }
+/// Of which it rises from a guess.
+std::vector<std::string> identifications() {
+  return {"three_interval", "oddity", "abx", "match_to_sample"};
+}
+std::vector<std::string> joined(std::vector<std::string> first,
+                                const std::vector<std::string>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
 
 /// The values that a parameter of the curve may have: the ends of a grid, evenly in ln.
 BlockKey grid(const char* key, const char* meaning, const std::vector<std::string>& tasks,
@@ -65,6 +74,19 @@ std::string range_words(const ParameterGrid& grid) {
                           : plain_number(least) + " to " + plain_number(largest);
 }
 
+/// `shown`: the largest fraction that there is a stimulus for.
+void check_fraction(const Block& block, double shown, const std::string& tests) {
+  const ParameterGrid fraction = grid_of(block, "weber_fraction");
+  constexpr double kShortest = 1000.0;
+  if (fraction.values.front() <= shown) return;
+  throw core::Error("quest_plus.weber_fraction: expected a range that begins at no more than " +
+                    plain_number(std::round(kShortest * shown) / kShortest) +
+                    ", the largest fraction that the test stimuli (" + tests +
+                    ") show around the reference (" +
+                    plain_number(block.reference_intensity.value()) + "), found " +
+                    range_words(fraction));
+}
+
 /// A grid that leaves out what the block asks for ends at its edge, whatever is answered.
 void check_grids(const Block& block, double lowest, double highest) {
   const std::string tests = plain_number(lowest) + " to " + plain_number(highest);
@@ -76,6 +98,8 @@ void check_grids(const Block& block, double lowest, double highest) {
         "), which are all felt or all not felt otherwise, found " + range_words(threshold));
   }
   const double reference = *block.reference_intensity;
+  const double shown = std::max(highest / reference, reference / lowest) - 1.0;
+  if (num_choices_to_guess(task_of(block)) > 0) return check_fraction(block, shown, tests);
   const ParameterGrid pse = grid_of(block, "pse");
   const bool is_known = pse.values.size() == 1;
   const double least = pse.values.front(), largest = pse.values.back();
@@ -85,17 +109,7 @@ void check_grids(const Block& block, double lowest, double highest) {
         plain_number(reference) + "), for the point of subjective equality lies about there, " +
         "found " + range_words(pse));
   }
-  const ParameterGrid fraction = grid_of(block, "weber_fraction");
-  const double shown = std::max(highest / reference, reference / lowest) - 1.0;
-  constexpr double kShortest = 1000.0;
-  if (fraction.values.front() > shown) {
-    throw core::Error(
-        "quest_plus.weber_fraction: expected a range that begins at no more than " +
-        plain_number(std::round(kShortest * shown) / kShortest) +
-        ", the largest fraction that the test stimuli (" + tests +
-        ") show around the reference (" + plain_number(reference) + "), found " +
-        range_words(fraction));
-  }
+  check_fraction(block, shown, tests);
 }
 
 }  // namespace
@@ -113,12 +127,14 @@ std::vector<BlockKey> QuestPlusProcedure::keys() const {
            "reference lies between them. Where answers take the posterior to an end, no "
            "interval is told, so better too wide than too narrow.",
            comparisons(), true, ""),
-      grid("weber_fraction", "Least and largest Weber fraction that is thought possible.",
-           comparisons(), false, "[0.05, 2.0]"),
+      grid("weber_fraction",
+           "Least and largest Weber fraction that is thought possible; of tasks with three "
+           "intervals that at which the share of right answers is half way from a guess to 1.",
+           joined(comparisons(), identifications()), false, "[0.05, 2.0]"),
       grid("threshold", "Least and largest threshold that is thought possible.", detections(),
            true, ""),
       grid("slope", "Least and largest slope at the threshold, per ln, thought possible.",
-           detections(), false, "[0.5, 10.0]"),
+           joined(detections(), identifications()), false, "[0.5, 10.0]"),
       whole_number_key("grid_values", "Values of each of them, evenly in ln.", {2, 200}, "30"),
       {.parameter = {.key = "lapse_rate",
                      .kind = ValueKind::kNumber,
@@ -161,15 +177,23 @@ std::optional<double> QuestPlusProcedure::feedback_response(const Block& block,
 QuestPlusRule quest_plus_rule_of(const Block& block) {
   const Settings& given = block.settings;
   const ParameterGrid lapse{{given.number("lapse_rate")}};
-  const bool compares = task_of(block) != Task::kYesNo;
+  const Task task = task_of(block);
+  const bool compares = task != Task::kYesNo;
+  const int num_choices = num_choices_to_guess(task);
   QuestPlusRule rule{
-      .model = compares ? weber_model({.pse = grid_of(block, "pse"),
-                                       .weber_fraction = grid_of(block, "weber_fraction"),
-                                       .lapse_rate = lapse})
-                        : gauss_model({.threshold = grid_of(block, "threshold"),
-                                       .slope = grid_of(block, "slope"),
-                                       .guess_rate = lapse,
-                                       .lapse_rate = lapse}),
+      .model = num_choices > 0
+                   ? identification_model({.threshold = grid_of(block, "weber_fraction"),
+                                           .slope = grid_of(block, "slope"),
+                                           .guess_rate = {{1.0 / num_choices}},
+                                           .lapse_rate = lapse},
+                                          block.reference_intensity.value())
+               : compares ? weber_model({.pse = grid_of(block, "pse"),
+                                         .weber_fraction = grid_of(block, "weber_fraction"),
+                                         .lapse_rate = lapse})
+                          : gauss_model({.threshold = grid_of(block, "threshold"),
+                                         .slope = grid_of(block, "slope"),
+                                         .guess_rate = lapse,
+                                         .lapse_rate = lapse}),
       .intensities = block.intensities,
       .num_best =
           std::min(given.integer("num_best"), static_cast<int>(block.intensities.size())),

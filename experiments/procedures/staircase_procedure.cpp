@@ -22,7 +22,9 @@ std::vector<BlockKey> step_size_keys() {
                   .is_positive = true};
   BlockKey ratio{.parameter = {.key = "step_ratio",
                                .kind = ValueKind::kNumbers,
-                               .meaning = "The same as factors: 1.2 is a step of 20 percent.",
+                               .meaning = "Steps upwards as factors, one for each "
+                                          "reversal as in `step`: 1.2 is a step of 20 "
+                                          "percent.",
                                .range = {1.0, 100.0, true},
                                .max_items = 20,
                                .only_where = {{"level_scale", {"logarithmic"}}}}};
@@ -55,6 +57,27 @@ void check_side(double target, double reference, const StaircaseRule& rule) {
   }
   if (target < 0.5 + kRounding && rule.lowest >= reference) {
     refuse("lowest", "below", rule.lowest);
+  }
+}
+
+/// Where the right one is found by guessing as well, a rule has to aim higher than that, and
+/// a higher level has to be an easier one.
+void check_identification(double target, double reference, const StaircaseRule& rule,
+                          int num_choices) {
+  constexpr double kRounding = 1e-9;
+  const auto percent = [](double share) {
+    return plain_number(std::round(1000.0 * share) / 10.0) + " %";
+  };
+  if (target < 1.0 / num_choices + kRounding) {
+    throw core::Error("staircase.num_down: expected a rule that aims above " +
+                      percent(1.0 / num_choices) +
+                      ", the share of right answers by guessing, found " + up_down_words(rule) +
+                      ", which aim at " + percent(target) + "; 1 up and 2 down aim at 70.7 %");
+  }
+  if (rule.lowest <= reference) {
+    throw core::Error(
+        "staircase.lowest: expected a level above the reference (" + plain_number(reference) +
+        "), as a lower level has to be a harder one, found " + plain_number(rule.lowest));
   }
 }
 
@@ -192,6 +215,9 @@ void StaircaseProcedure::check(const Block& block) const {
         "staircase.num_down: expected a rule that aims above or below 50 %, as by chance the "
         "test is chosen in 50 % of two-interval trials, found " +
         up_down_words(rule) + "; 1 up and 2 down aim at 70.7 %");
+  }
+  if (const int num_choices = num_choices_to_guess(task_of(block)); num_choices > 0) {
+    return check_identification(target, *block.reference_intensity, rule, num_choices);
   }
   if (block.reference_intensity) check_side(target, *block.reference_intensity, rule);
 }

@@ -113,6 +113,17 @@ const ParameterTable& block_table() {
     own.push_back({.key = "question",
                    .kind = ValueKind::kText,
                    .meaning = "What the participant is asked in every trial."});
+    own.push_back({.key = "questions",
+                   .kind = ValueKind::kObjects,
+                   .meaning =
+                       "What is asked besides, after the answer to every trial and before "
+                       "the next one: how sure somebody is, how pleasant it felt. They "
+                       "are answered in this order, each is on disk before the next, and "
+                       "feedback is told after the last. An answer to the trial that is "
+                       "taken back takes them with it.",
+                   .required = false,
+                   .max_items = 20,
+                   .nested = &questionnaire_item_table()});
     own.push_back({.key = "free_space_between_s",
                    .kind = ValueKind::kNumber,
                    .meaning = "Free space before each trial.",
@@ -120,13 +131,15 @@ const ParameterTable& block_table() {
                    .default_json = "0.0",
                    .unit = "s",
                    .range = {0.0, 600.0}});
-    own.push_back({.key = "expected_trial_s",
-                   .kind = ValueKind::kNumber,
-                   .meaning = "How long a trial is expected to take, free space not counted. "
-                              "Only for planning the length of a session; `jnd plan` counts "
-                              "no less than simulated participants feel stimuli.",
-                   .unit = "s",
-                   .range = {0.0, 3600.0, true}});
+    own.push_back(
+        {.key = "expected_trial_s",
+         .kind = ValueKind::kNumber,
+         .meaning =
+             "How long a trial is expected to take, its `questions` counted and "
+             "free space not. Only for planning the length of a session; `jnd plan` counts "
+             "no less than simulated participants feel stimuli.",
+         .unit = "s",
+         .range = {0.0, 3600.0, true}});
     return ParameterTable{
         .name = "block",
         .meaning =

@@ -20,8 +20,14 @@ class LabelRules : StudyCheck {
   void run() {
     for_each_written_stage(file_.root(), [&](const json& stage, const std::string& pointer) {
       check_pair(stage, pointer, "yes_label", "no_label");
-      check_pair(stage, pointer, "first_label", "second_label");
-      check_items(list(stage, "items"), pointer + "/items");
+      Labels intervals;
+      for (const char* const key : {"first_label", "second_label", "third_label"}) {
+        add(intervals, object_at(stage, key), pointer + '/' + key);
+      }
+      check_pair(stage, pointer, "low_label", "high_label");
+      for (const char* const key : {"items", "questions"}) {
+        check_items(list(stage, key), pointer + '/' + key);
+      }
     });
   }
 

@@ -1,19 +1,19 @@
 #include "experiments/protocol/stage_tables.h"
 
 namespace jnd::experiments {
-namespace {
 
 const ParameterTable& questionnaire_item_table() {
   static const std::vector<Condition> kOnlyScale = {{"kind", {"scale"}}};
   static const std::vector<Condition> kOnlyNumber = {{"kind", {"number"}}};
   static const ParameterTable kTable = {
       .name = "questionnaire_item",
-      .meaning = "One question.",
+      .meaning = "One question: of a questionnaire, or after every trial of a block.",
       .parameters = {
           {.key = "name",
            .kind = ValueKind::kName,
-           .meaning = "Name of the answer in the data, unique in the study. A number's name "
-                      "ends in its unit: `body_height_m`."},
+           .meaning = "Name of the answer in the data, unique in the study; of a question "
+                      "after trials unique in its block, so that blocks can ask the same one. "
+                      "A number's name ends in its unit: `body_height_m`."},
           {.key = "kind",
            .kind = ValueKind::kString,
            .meaning =
@@ -25,7 +25,8 @@ const ParameterTable& questionnaire_item_table() {
            .meaning = "What the participant is asked."},
           {.key = "required",
            .kind = ValueKind::kBoolean,
-           .meaning = "Whether the questionnaire waits for an answer.",
+           .meaning = "Whether an answer is waited for; else it can be left out, which is "
+                      "stored as `no_answer`.",
            .required = false,
            .default_json = "true"},
           {.key = "unit",
@@ -75,8 +76,6 @@ const ParameterTable& questionnaire_item_table() {
       }};
   return kTable;
 }
-
-}  // namespace
 
 const ParameterTable& questionnaire_table() {
   static const ParameterTable kTable = {

@@ -242,7 +242,8 @@ std::vector<Parameter> stage_parameters(const std::string& kind, std::vector<Par
         {.key = "only_for",
          .kind = ValueKind::kArms,
          .meaning = "Runs only for participants of this arm: name of a `one_of` counterbalance "
-                    "and name of its arm. Absent: runs for everyone.",
+                    "and name of its arm. With several counterbalances only for those who have "
+                    "every one of these arms. Absent: runs for everyone.",
          .required = false});
   }
   return joined(std::move(parameters), std::move(own));

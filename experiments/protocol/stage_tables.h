@@ -21,6 +21,8 @@ namespace jnd::experiments {
 /// One alternative of a counterbalance.
 [[nodiscard]] const ParameterTable& arm_table();
 [[nodiscard]] const ParameterTable& questionnaire_table();
+/// One question: of a questionnaire, or after every trial of a block.
+[[nodiscard]] const ParameterTable& questionnaire_item_table();
 /// One answer to choose from.
 [[nodiscard]] const ParameterTable& option_table();
 /// What a participant brings.

@@ -83,18 +83,26 @@ class StandardRules : StudyCheck {
     }
   }
 
-  /// A solid is pressed and a fluid stroked through, so that neither feels like the other.
+  /// A solid is pressed and a fluid stroked through. How strong the one feels can be set to how
+  /// strong the other does; a number for the ratio of a stiffness to a damping means nothing.
   void check_touch() {
+    if (word(block_, "procedure") == "matching") return;
     const std::string medium = word(block_, "medium");
     const std::string standard = word(block_, "standard_medium");
     if (find_medium(medium) == nullptr || find_medium(standard) == nullptr) return;
     if (is_pressed(standard) && !is_pressed(medium)) {
-      report("standard_medium", "expected a fluid, as the block's medium is one, found `" +
-                                    shown_text(standard) + "`");
+      report(
+          "standard_medium",
+          "expected a fluid, as numbers are ratios to the standard and the block's medium is "
+          "one, found `" +
+              shown_text(standard) + "`; `matching` compares both");
     }
     if (is_pressed(medium) && has_standard() && !is_pressed(standard)) {
-      report("standard_medium", "expected a solid, as the block's medium is one, found `" +
-                                    shown_text(standard) + "`");
+      report(
+          "standard_medium",
+          "expected a solid, as numbers are ratios to the standard and the block's medium is "
+          "one, found `" +
+              shown_text(standard) + "`; `matching` compares both");
     }
   }
 

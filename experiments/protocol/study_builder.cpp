@@ -192,6 +192,35 @@ StimulusOrder stimulus_order(const ObjectReader& in) {
   return order;
 }
 
+std::vector<Option> options(const ObjectReader& in) {
+  std::vector<Option> found;
+  in.each_object("options", [&](const ObjectReader& option, std::size_t) {
+    found.push_back({.value = option.string("value"), .label = option.text("label")});
+  });
+  return found;
+}
+
+std::vector<QuestionnaireItem> questions(const ObjectReader& in, const std::string& key) {
+  std::vector<QuestionnaireItem> found;
+  in.each_object(key, [&](const ObjectReader& item, std::size_t) {
+    QuestionnaireItem read;
+    read.name = item.string("name");
+    read.kind = item.string("kind");
+    read.question = item.text("question");
+    read.required = item.boolean("required");
+    read.unit = item.string("unit");
+    read.minimum = item.optional_number("minimum");
+    read.maximum = item.optional_number("maximum");
+    read.options = options(item);
+    read.num_steps = item.integer("num_steps");
+    read.low_label = item.text("low_label");
+    read.high_label = item.text("high_label");
+    if (item.has("high_is_good")) read.high_is_good = item.boolean("high_is_good");
+    found.push_back(std::move(read));
+  });
+  return found;
+}
+
 Block block(const ObjectReader& in) {
   Block block;
   block.procedure = in.string("procedure");
@@ -206,6 +235,9 @@ Block block(const ObjectReader& in) {
   block.no_label = in.text("no_label");
   block.first_label = in.text("first_label");
   block.second_label = in.text("second_label");
+  block.third_label = in.text("third_label");
+  block.low_label = in.text("low_label");
+  block.high_label = in.text("high_label");
   const std::vector<BlockKey> keys = procedure_named(block.procedure).keys();
   if (std::ranges::any_of(keys, &BlockKey::of_standard)) {
     block.standard_medium = in.string("standard_medium");
@@ -235,6 +267,7 @@ Block block(const ObjectReader& in) {
   block.feedback = in.boolean("feedback");
   if (in.has("practice")) block.practice = practice(in.object("practice"));
   block.levels = in.names("levels");
+  block.questions = questions(in, "questions");
   return block;
 }
 
@@ -251,33 +284,8 @@ PostExperiment post_experiment(const ObjectReader& in) {
   return stage;
 }
 
-std::vector<Option> options(const ObjectReader& in) {
-  std::vector<Option> found;
-  in.each_object("options", [&](const ObjectReader& option, std::size_t) {
-    found.push_back({.value = option.string("value"), .label = option.text("label")});
-  });
-  return found;
-}
-
 Questionnaire questionnaire(const ObjectReader& in) {
-  Questionnaire stage = {.instruction = in.text("instruction"), .items = {}};
-  in.each_object("items", [&](const ObjectReader& item, std::size_t) {
-    QuestionnaireItem read;
-    read.name = item.string("name");
-    read.kind = item.string("kind");
-    read.question = item.text("question");
-    read.required = item.boolean("required");
-    read.unit = item.string("unit");
-    read.minimum = item.optional_number("minimum");
-    read.maximum = item.optional_number("maximum");
-    read.options = options(item);
-    read.num_steps = item.integer("num_steps");
-    read.low_label = item.text("low_label");
-    read.high_label = item.text("high_label");
-    if (item.has("high_is_good")) read.high_is_good = item.boolean("high_is_good");
-    stage.items.push_back(std::move(read));
-  });
-  return stage;
+  return {.instruction = in.text("instruction"), .items = questions(in, "items")};
 }
 
 class StageBuilder {

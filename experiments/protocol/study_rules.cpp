@@ -160,8 +160,12 @@ class Rules : StudyCheck {
     if (kind == "block") {
       check_block(stage, pointer);
       check_standard(file_, stage, pointer, problems_);
+      std::map<std::string, std::string> names;  // Another block may ask the same.
+      check_items(list(stage, "questions"), pointer + "/questions", names);
     }
-    if (kind == "questionnaire" || kind == "post_experiment") check_items(stage, pointer);
+    if (kind == "questionnaire" || kind == "post_experiment") {
+      check_items(list(stage, "items"), pointer + "/items", item_names_);
+    }
     if (kind != "counterbalance") return;
     if (inside) {
       report(pointer + "/kind",
@@ -225,12 +229,13 @@ class Rules : StudyCheck {
     }
   }
 
-  void check_items(const json& stage, const std::string& pointer) {
-    const json& items = list(stage, "items");
+  /// `names`: of the items that there were before, to their pointers.
+  void check_items(const json& items, const std::string& pointer,
+                   std::map<std::string, std::string>& names) {
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (!items[i].is_object()) continue;
-      const std::string item = pointer + "/items/" + std::to_string(i);
-      check_unique(item_names_, word(items[i], "name"), item + "/name");
+      const std::string item = pointer + '/' + std::to_string(i);
+      check_unique(names, word(items[i], "name"), item + "/name");
       std::map<std::string, std::string> values;
       const json& options = list(items[i], "options");
       for (std::size_t j = 0; j < options.size(); ++j) {
@@ -299,7 +304,9 @@ class Rules : StudyCheck {
                        const std::map<double, std::size_t>& seen) {
     const std::string key = "reference_" + quantity;
     const json* reference = number(block, key);
-    if (reference == nullptr || word(block, "task") == "same_different") return;
+    const std::string task = word(block, "task");
+    const bool lies_between = task.empty() || task == "reminder" || task == "two_interval";
+    if (reference == nullptr || !lies_between) return;
     const double value = reference->get<double>();
     if (!(value > seen.begin()->first && value < seen.rbegin()->first)) {
       report(at + key,

@@ -12,6 +12,12 @@ namespace {
 
 using nlohmann::json;
 
+/// Among how many intervals the right one is chosen; 0 where that is not asked.
+int num_choices_of(const std::string& task) {
+  if (task == "three_interval" || task == "oddity") return 3;
+  return task == "abx" || task == "match_to_sample" ? 2 : 0;
+}
+
 class TaskRules : StudyCheck {
  public:
   using StudyCheck::StudyCheck;
@@ -26,6 +32,7 @@ class TaskRules : StudyCheck {
  private:
   void check_block(const json& block, const std::string& at) {
     if (word(block, "task") == "same_different") check_same_different(block, at);
+    if (num_choices_of(word(block, "task")) > 0) check_identification(block, at);
     const auto feedback = block.find("feedback");
     if (is_double_blind_ && feedback != block.end() && *feedback == true) {
       report(at + "feedback",
@@ -58,6 +65,36 @@ class TaskRules : StudyCheck {
       report(at + quantity + '/' + std::to_string(i),
              "expected a stimulus that differs from the reference, found the reference, " +
                  tests[i].dump() + "; `catch_trials` are the trials that are the same");
+    }
+  }
+
+  /// Where the right one of three intervals is asked for, there has to be one.
+  void check_identification(const json& block, const std::string& at) {
+    const std::string task = word(block, "task");
+    if (word(block, "procedure") == "limits") {
+      report(at + "task",
+             "expected `reminder`, `yes_no` or `two_interval`, as a series of `limits` ends "
+             "where an answer changes and a guess changes any, found `" +
+                 task + "`; `staircase` can ask so");
+      return;
+    }
+    const std::string quantity = quantity_of(word(block, "medium"));
+    const json* reference = number(block, "reference_" + quantity);
+    const json& tests = list(block, quantity);
+    if (reference == nullptr) return;
+    for (std::size_t i = 0; i < tests.size(); ++i) {
+      if (!tests[i].is_number()) continue;
+      const double excess = tests[i].get<double>() - reference->get<double>();
+      const std::string here = at + quantity + '/' + std::to_string(i);
+      if (excess == 0.0) {
+        report(here,
+               "expected a stimulus that differs from the reference, found the reference, " +
+                   tests[i].dump() + "; `catch_trials` are the trials that are the same");
+      } else if (excess < 0.0 && task == "three_interval") {
+        report(here, "expected a stimulus above the reference (" + reference->dump() +
+                         "), as the interval that has more is the right answer, found " +
+                         tests[i].dump() + "; `oddity` may lie below");
+      }
     }
   }
 

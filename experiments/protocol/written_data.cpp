@@ -46,6 +46,11 @@ Columns of_blocks() {
        "Where the order is drawn: the interval of the test, 1 or 2. In `two_interval` the one "
        "chosen is `test_interval` where `response` is 1, else 3 - `test_interval`",
        asked},
+      {"trials.csv", "intervals", "",
+       "Of three intervals what each held, as in rtr: r the reference, t the test", asked},
+      {"trials.csv", "right_interval", "", "Of three intervals the right answer, from 1",
+       asked},
+      {"trials.csv", "chosen_interval", "", "Of three intervals the one chosen, from 1", asked},
       {"trials.csv", "is_catch", "", "1: a catch trial", asked},
       {"trials.csv", "is_practice", "", "1: the block has `practice`; not for analysis", asked},
       {"trials.csv", "starting_intensity", unit, "Where the adjustment began",
@@ -59,14 +64,21 @@ Columns of_blocks() {
        "How strong it felt; with the `modulus` `standard` or `free` a number without unit",
        only({"magnitude_estimation"})},
       {"trials.csv", "response", unit, "The value that was set", only(adjustments)},
+      {"trials.csv", "response", "", "The step of the scale, from 1", only({"rating"})},
       {"trials.csv", "response", "",
-       "1: yes, different, or the interval of the test; 0: no, the same, or the other interval",
+       "1: yes, different, the interval of the test, or of three the right one; 0: otherwise",
        asked},
       {"trials.csv", "response_time_s", "s",
        "From the start of the last stimulus to the answer"},
       {"trials.csv", "num_presentations", "", "Stimuli felt in this attempt"},
       {"trials.csv", "first_tick", "tick", "First sample of the trial in the recording"},
       {"trials.csv", "last_tick", "tick", "Last sample of the trial in the recording"},
+      {"questions.csv", "trial", "",
+       "One row a trial and question of `questions`, with `block` and `question`"},
+      {"questions.csv", "answer", "",
+       "The number; the step of the scale; the `value` of the option; the words; `yes` or "
+       "`no`, "
+       "with `yes_no_which` also `yes: ...`; `no_answer` where it was left out"},
   };
 }
 

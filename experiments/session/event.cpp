@@ -23,7 +23,8 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "continued",          "fault_raised",         "session_resumed",
     "loop_started",       "loop_measured",        "unblinded",
     "arming_changed",     "exposure_told",        "guard_noticed",
-    "fitting_kept",       "session_completed",    "session_ended_early"};
+    "fitting_kept",       "question_answered",    "session_completed",
+    "session_ended_early"};
 
 json exposure_json(const core::Exposure& exposure) {
   return {{"force_time_n_s", exposure.force_time_n_s},
@@ -130,6 +131,7 @@ struct Writer {
     row.intensity = e.intensity;
     row.first_tick = e.first_tick;
     data = {{"presentation", e.presentation}, {"interval", e.interval}};
+    if (e.place != 0) data["place"] = e.place;
   }
   void operator()(const PresentationEnded& e) const {
     place(e.trial, e.attempt);
@@ -150,6 +152,10 @@ struct Writer {
     write_columns(e.measures, data);
     if (e.feedback_right) data["feedback_right"] = *e.feedback_right;
   }
+  void operator()(const QuestionAnswered& e) const {
+    place(e.trial, e.attempt);
+    data = {{"question", e.question}, {"answer", e.answer}};
+  }
   void operator()(const AnswerUndone& e) const {
     place(e.trial, e.attempt);
     row.supersedes = e.answer_sequence;
@@ -159,6 +165,7 @@ struct Writer {
     place(e.trial, e.attempt);
     row.supersedes = e.answer_sequence;
     data = {{"response", e.response}, {"reason", e.reason}};
+    if (e.chosen_interval) data["chosen_interval"] = *e.chosen_interval;
   }
   void operator()(const AttemptDiscarded& e) const {
     place(e.trial, e.attempt);
@@ -263,6 +270,7 @@ struct Reader {
     e.first_tick = column(row.first_tick, "first_tick");
     e.presentation = whole_number(data.at("presentation"), "presentation");
     data.at("interval").get_to(e.interval);
+    if (data.contains("place")) e.place = whole_number(data.at("place"), "place");
   }
   void operator()(PresentationEnded& e) const {
     place(e);
@@ -285,6 +293,11 @@ struct Reader {
       e.feedback_right = told->get<bool>();
     }
   }
+  void operator()(QuestionAnswered& e) const {
+    place(e);
+    data.at("question").get_to(e.question);
+    data.at("answer").get_to(e.answer);
+  }
   void operator()(AnswerUndone& e) const {
     place(e);
     e.answer_sequence = column(row.supersedes, "supersedes");
@@ -295,6 +308,9 @@ struct Reader {
     e.answer_sequence = column(row.supersedes, "supersedes");
     data.at("response").get_to(e.response);
     data.at("reason").get_to(e.reason);
+    if (data.contains("chosen_interval")) {
+      e.chosen_interval = whole_number(data.at("chosen_interval"), "chosen_interval");
+    }
   }
   void operator()(AttemptDiscarded& e) const {
     place(e);

@@ -67,6 +67,7 @@ struct PresentationStarted {
   std::string interval;  ///< "test", "reference" or "free_space".
   double intensity = 0.0;
   std::int64_t first_tick = 0;
+  std::int64_t place = 0;  ///< Of three intervals which one, from 1; 0: of none.
 };
 
 /// What came of one presentation.
@@ -97,6 +98,13 @@ struct TrialAnswered {
   std::optional<bool> feedback_right;  ///< What was told of it; none where nothing is.
 };
 
+/// A question that follows the answer to a trial, answered.
+struct QuestionAnswered {
+  std::int64_t trial = 0, attempt = 1;
+  std::string question;  ///< Name of the question in the study file.
+  std::string answer;    ///< As it was given; "no_answer" where it was left out.
+};
+
 /// An answer taken back; the trial is run again as a new attempt. Trials drawn since and not
 /// answered are void: another answer draws others.
 struct AnswerUndone {
@@ -111,6 +119,7 @@ struct AnswerCorrected {
   std::int64_t answer_sequence = 0;
   double response = 0.0;
   std::string reason;
+  std::optional<std::int64_t> chosen_interval{};  ///< Of three intervals, from 1.
 };
 
 /// An attempt without an answer given up: interrupted, or invalid. The trial is run again.
@@ -224,8 +233,8 @@ using EventData =
                  IntensityAdjusted, TrialAnswered, AnswerUndone, AnswerCorrected,
                  AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
                  FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
-                 ArmingChanged, ExposureTold, GuardNoticed, FittingKept, SessionCompleted,
-                 SessionEndedEarly>;
+                 ArmingChanged, ExposureTold, GuardNoticed, FittingKept, QuestionAnswered,
+                 SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

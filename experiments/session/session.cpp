@@ -8,8 +8,10 @@
 #include "experiments/procedures/adjustment.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/rating.h"
 #include "experiments/procedures/task.h"
 #include "experiments/session/session_limits.h"
+#include "experiments/study/question_answer.h"
 
 namespace jnd::experiments {
 namespace {
@@ -19,22 +21,51 @@ namespace {
                     ", found none; nothing was stored");
 }
 
-std::string what_an_answer_is(AnswerKind kind) {
+std::string what_an_answer_is(AnswerKind kind, const Block& block) {
+  if (kind == AnswerKind::kStep) {
+    return "a step from 1 to " + std::to_string(num_steps_of(block));
+  }
   if (kind == AnswerKind::kYesNo) return "1 or 0 for yes or no,";
-  if (kind == AnswerKind::kInterval) return "1 or 2 for an interval,";
+  if (kind == AnswerKind::kInterval) {
+    const TrialForm form = procedure_named(block.procedure).form(block);
+    std::string words = std::to_string(form.first_choice);
+    for (int more = 1; more < form.num_choices; ++more) {
+      words += (more + 1 == form.num_choices ? " or " : ", ") +
+               std::to_string(form.first_choice + more);
+    }
+    return words + " for an interval,";
+  }
   return kind == AnswerKind::kNumber ? "a number > 0" : "a number >= 0";
 }
 
-bool is_answer(AnswerKind kind, double value) {
+bool is_answer(AnswerKind kind, const Block& block, double value) {
+  if (kind == AnswerKind::kStep) {
+    return value == std::floor(value) && value >= 1.0 && value <= num_steps_of(block);
+  }
   if (kind == AnswerKind::kYesNo) return value == 0.0 || value == 1.0;
-  if (kind == AnswerKind::kInterval) return value == 1.0 || value == 2.0;
+  if (kind == AnswerKind::kInterval) {
+    const TrialForm form = procedure_named(block.procedure).form(block);
+    return value == std::floor(value) && value >= form.first_choice &&
+           value < form.first_choice + form.num_choices;
+  }
   return std::isfinite(value) && (kind == AnswerKind::kNumber ? value > 0.0 : value >= 0.0);
+}
+
+/// "first" is 1; 0 of what has no place in an order.
+int place_of(const std::string& interval) {
+  if (interval == "first") return 1;
+  if (interval == "second") return 2;
+  return interval == "third" ? 3 : 0;
 }
 
 /// What an interval of the trial holds: "test" or "reference" for "first" and "second", where
 /// their order is drawn.
 std::string stimulus_in(const std::string& interval, const PlannedTrial& trial) {
-  if (!trial.test_interval || (interval != "first" && interval != "second")) return interval;
+  const int place = place_of(interval);
+  if (place > 0 && place <= std::ssize(trial.intervals)) {
+    return trial.intervals[static_cast<std::size_t>(place) - 1] == 't' ? "test" : "reference";
+  }
+  if (!trial.test_interval || place == 0 || place > 2) return interval;
   return (interval == "first") == (*trial.test_interval == 1) ? "test" : "reference";
 }
 
@@ -150,6 +181,7 @@ void Session::explored(const std::string& medium, double intensity, std::int64_t
 void Session::finish_stage() {
   if (!state_.stage_open) cannot("finish the stage", "a stage under way");
   if (state_.current_trial()) cannot("finish the block", "an answer to every trial");
+  if (open_question()) cannot("finish the block", "an answer to every question");
   const auto* block = std::get_if<Block>(&current_stage()->content);
   if (block != nullptr && block->practice) {
     note(practice_words(*block, practice_state(*block, state_.answered_in(state_.stage))));
@@ -162,6 +194,7 @@ void Session::start_trial(std::int64_t tick) {
   if (!state_.stage_open || !trial || state_.trial(*trial).under_way) {
     cannot("start a trial", "a trial that waits");
   }
+  if (open_question()) cannot("start a trial", "an answer to every question of the one before");
   require_exposure_left();
   commit(TrialStarted{*trial, state_.trial(*trial).attempt + 1, tick});
 }
@@ -204,7 +237,8 @@ void Session::begin_presentation(const std::string& interval, std::int64_t tick)
       .presentation = static_cast<std::int64_t>(trial.presentations.size()) + 1,
       .interval = stimulus,
       .intensity = intensity_of(trial, stimulus),
-      .first_tick = tick});
+      .first_tick = tick,
+      .place = trial.planned.intervals.empty() ? 0 : place_of(interval)});
 }
 
 void Session::end_presentation(std::int64_t last_tick, const PresentationSummary& summary) {
@@ -283,7 +317,10 @@ double Session::response_for(double value) const {
   const TrialState& trial = state_.trial(open_trial("take an answer"));
   const AnswerKind kind = current_form().answer;
   const double answer = kind == AnswerKind::kMatch ? trial.set_intensity : value;
-  if (!is_answer(kind, answer)) cannot("take an answer", what_an_answer_is(kind));
+  const Block& block = current_block();
+  if (!is_answer(kind, block, answer)) {
+    cannot("take an answer", what_an_answer_is(kind, block));
+  }
   return response_of(kind, trial.planned, answer);
 }
 
@@ -310,18 +347,55 @@ void Session::answer(double value, const core::AnswerMeasures& measures,
   if (!(response_time_s >= 0.0) || !std::isfinite(response_time_s)) {
     cannot("take an answer", "a response time >= 0");
   }
+  core::AnswerMeasures kept = measures;
+  if (trial.planned.right_interval) kept.chosen_interval = std::lround(value);
   core::Commit rows;
   rows.trial = answered_row(number, response);
-  rows.trial->measures = measures;
+  rows.trial->measures = kept;
   rows.trial->last_tick = last_tick;
   commit(TrialAnswered{.trial = number,
                        .attempt = trial.attempt,
                        .response = response,
-                       .measures = measures,
+                       .measures = kept,
                        .last_tick = last_tick,
                        .feedback_right = feedback(trial.planned, response)},
          std::move(rows));
   if (!state_.current_trial()) draw_trials();
+}
+
+std::optional<OpenQuestion> Session::open_question() const {
+  const Stage* stage = current_stage();
+  const Block* block = stage == nullptr ? nullptr : std::get_if<Block>(&stage->content);
+  if (block == nullptr || block->questions.empty() || !state_.stage_open) return std::nullopt;
+  for (std::int64_t number = std::ssize(state_.trials); number >= 1; --number) {
+    const TrialState& trial = state_.trial(number);
+    if (trial.stage != state_.stage) break;
+    if (!trial.response || trial.question_answers.size() == block->questions.size()) continue;
+    for (std::size_t i = 0; i < block->questions.size(); ++i) {
+      const QuestionnaireItem& item = block->questions[i];
+      if (trial.question_answers.contains(item.name)) continue;
+      return OpenQuestion{number, &item, static_cast<int>(i) + 1};
+    }
+  }
+  return std::nullopt;
+}
+
+void Session::answer_question(const std::string& question, const std::string& answer) {
+  const std::optional<OpenQuestion> open = open_question();
+  if (!open || open->item->name != question) cannot("answer " + question, "that question");
+  if (const std::string expected = expected_answer(*open->item, answer); !expected.empty()) {
+    cannot("answer " + question, expected);
+  }
+  const TrialState& trial = state_.trial(open->trial);
+  core::Commit rows;
+  rows.question_answer = core::QuestionAnswerRow{.session = parameters_.session,
+                                                 .trial = open->trial,
+                                                 .attempt = trial.attempt,
+                                                 .sequence = state_.last_sequence + 1,
+                                                 .block = current_stage()->name,
+                                                 .question = question,
+                                                 .answer = answer};
+  commit(QuestionAnswered{open->trial, trial.attempt, question, answer}, std::move(rows));
 }
 
 void Session::discard_attempt(const std::string& reason) {
@@ -369,13 +443,19 @@ void Session::correct(std::int64_t number, double value, const std::string& reas
       *parameters_.stages.at(static_cast<std::size_t>(state_.trial(number).stage));
   const Block& block = std::get<Block>(stage.content);
   const AnswerKind kind = procedure_named(block.procedure).form(block).answer;
-  if (!is_answer(kind, value)) cannot("correct an answer", what_an_answer_is(kind));
+  if (!is_answer(kind, block, value)) {
+    cannot("correct an answer", what_an_answer_is(kind, block));
+  }
   const TrialState& trial = state_.trial(number);
   const double response = response_of(kind, trial.planned, value);
   core::Commit rows;
   rows.trial = answered_row(number, response);
-  commit(AnswerCorrected{number, trial.attempt, trial.answer_sequence, response, reason},
-         std::move(rows));
+  AnswerCorrected corrected{number, trial.attempt, trial.answer_sequence, response, reason};
+  if (trial.planned.right_interval) {
+    corrected.chosen_interval = std::lround(value);
+    rows.trial->measures.chosen_interval = corrected.chosen_interval;
+  }
+  commit(std::move(corrected), std::move(rows));
 }
 
 void Session::restart_block(const std::string& reason) {

@@ -29,6 +29,13 @@ enum class StepSize { kCoarse, kFine };
 [[nodiscard]] std::uint64_t session_seed(std::uint64_t seed, const std::string& study,
                                          const std::string& participant);
 
+/// A question after a trial that nobody has answered yet.
+struct OpenQuestion {
+  std::int64_t trial = 0;
+  const QuestionnaireItem* item = nullptr;  ///< Of the session's block, never null.
+  int index = 1;                            ///< Place among the questions of the block, from 1.
+};
+
 /// One visit of one participant. Every act commits its event first and moves the state on
 /// after. An act that is not possible now throws `Error` and leaves everything as it was. Not
 /// real time.
@@ -91,6 +98,12 @@ class Session {
   /// The answer as it was given: percent, 1 and 0, or the interval that was chosen; in
   /// production the set intensity is the answer and `value` is ignored.
   void answer(double value, const core::AnswerMeasures& measures, std::int64_t last_tick);
+  /// The question that waits for its answer: the first of the block that an answered trial of
+  /// it has none to. While there is one, no trial begins and the block does not end.
+  [[nodiscard]] std::optional<OpenQuestion> open_question() const;
+  /// Answers it; throws `Error` where another one waits, or none, and where `answer` is none
+  /// that its kind can have. `kNoAnswer` leaves out one that is not required.
+  void answer_question(const std::string& question, const std::string& answer);
   /// Gives the attempt under way up; its trial is the next one again.
   void discard_attempt(const std::string& reason);
   /// Gives it up for what the apparatus or the machine did. Its trial comes again at a later

@@ -49,6 +49,7 @@ struct Fold {
     trial.set_intensity = trial.planned.starting_intensity.value_or(0.0);
     trial.num_steps = 0;
     trial.response.reset();
+    trial.question_answers.clear();
     state.feedback_right.reset();
     saw_tick(e.first_tick - 1);  // The first is still to come.
   }
@@ -56,13 +57,16 @@ struct Fold {
     of(e.trial).presentations.push_back({.interval = e.interval,
                                          .intensity = e.intensity,
                                          .first_tick = e.first_tick,
-                                         .started_time_ns = event.time_ns});
+                                         .started_time_ns = event.time_ns,
+                                         .place = e.place});
     saw_tick(e.first_tick - 1);
   }
   void operator()(const PresentationEnded& e) const {
     TrialState& trial = of(e.trial);
     if (trial.presentations.empty()) damaged("a presentation to end");
     trial.presentations.back().last_tick = e.last_tick;
+    trial.presentations.back().delivered_damping_n_s_per_m =
+        e.summary.measures.delivered_damping_n_s_per_m;
     trial.last_tick = e.last_tick;
     if (e.summary.exposure) state.exposure += *e.summary.exposure;
     saw_tick(e.last_tick);
@@ -82,10 +86,17 @@ struct Fold {
     state.feedback_right = e.feedback_right;
     saw_tick(e.last_tick);
   }
+  void operator()(const QuestionAnswered& e) const {
+    TrialState& trial = of(e.trial);
+    if (!trial.response || trial.attempt != e.attempt)
+      damaged("a question of an answered trial");
+    trial.question_answers[e.question] = e.answer;
+  }
   void operator()(const AnswerUndone& e) const {
     state.feedback_right.reset();
     TrialState& undone = of(e.trial);
     undone.response.reset();
+    undone.question_answers.clear();
     undone.under_way = false;
     for (TrialState& trial : state.trials) {
       if (trial.drawn_sequence > undone.drawn_sequence && !trial.response) trial.is_void = true;
@@ -94,6 +105,7 @@ struct Fold {
   void operator()(const AnswerCorrected& e) const {
     TrialState& trial = of(e.trial);
     trial.response = e.response;
+    if (e.chosen_interval) trial.measures.chosen_interval = e.chosen_interval;
     trial.answer_sequence = event.sequence;
   }
   void operator()(const AttemptDiscarded& e) const {

@@ -16,7 +16,9 @@ struct PresentationState {
   double intensity = 0.0;
   std::int64_t first_tick = 0;
   std::int64_t started_time_ns = 0;
-  std::optional<std::int64_t> last_tick;  ///< Unset while it is being felt.
+  std::optional<std::int64_t> last_tick;                ///< Unset while it is being felt.
+  std::optional<double> delivered_damping_n_s_per_m{};  ///< As `core::PresentationMeasures`.
+  std::int64_t place = 0;  ///< Of three intervals which one, from 1; 0: of none.
 };
 
 struct TrialState {
@@ -34,6 +36,8 @@ struct TrialState {
   std::optional<double> response;
   std::int64_t answer_sequence = 0;  ///< Of the event that holds the answer.
   core::AnswerMeasures measures;     ///< Of it.
+  /// To the questions that follow it, by their names; gone with it where it is taken back.
+  std::map<std::string, std::string> question_answers;
   bool excluded = false;
 };
 

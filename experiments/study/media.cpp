@@ -122,6 +122,12 @@ bool is_pressed(std::string_view medium) noexcept {
 
 bool Block::is_pressed() const { return experiments::is_pressed(medium); }
 
+bool Block::is_pressed_in(std::string_view interval) const {
+  if (interval == "free_space") return false;
+  const bool is_standard = interval == "reference" && !standard_medium.empty();
+  return experiments::is_pressed(is_standard ? standard_medium : medium);
+}
+
 std::string quantity_unit(std::string_view quantity) {
   const Quantity* known = find_quantity(quantity);
   return known == nullptr ? "" : known->unit;

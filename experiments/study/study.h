@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -65,6 +66,27 @@ struct Practice {
   int max_trials = 0;              ///< The block ends after so many in any case.
 };
 
+/// One answer to choose from. The value is what is stored, whatever the language shown.
+struct Option {
+  std::string value;  ///< [a-z0-9_]+, unique in its item.
+  Text label;
+};
+
+/// A question of a questionnaire, or one that follows every trial of a block.
+struct QuestionnaireItem {
+  std::string name;
+  std::string kind;  ///< "number", "text", "choice", "yes_no", "yes_no_which" or "scale".
+  Text question;
+  std::string unit;                        ///< kind number; may be empty.
+  std::optional<double> minimum, maximum;  ///< kind number: what can be true, in `unit`.
+  std::vector<Option> options;             ///< kind choice, at least two.
+  int num_steps = 10;                      ///< kind scale.
+  Text low_label, high_label;  ///< kind scale: what stands at step 1 and at the last step.
+  /// kind scale: which end is the favourable one; absent where neither is.
+  std::optional<bool> high_is_good{};
+  bool required = true;
+};
+
 /// In which order the stimuli of a block come. Each repetition shows every one of them once.
 struct StimulusOrder {
   enum class Method {
@@ -90,9 +112,10 @@ struct Block {
   double friction_ratio = 0.0;  ///< Of the solid, >= 0.
   double sphere_radius_m = core::ViscousDrag::kToolRadiusM;  ///< Of `viscous_sphere`, > 0.
   Text instruction;
-  Text question;                    ///< What the participant is asked in every trial.
-  Text yes_label, no_label;         ///< What the two answers are called; may be empty.
-  Text first_label, second_label;   ///< What the two intervals are called; may be empty.
+  Text question;             ///< What the participant is asked in every trial.
+  Text yes_label, no_label;  ///< What the two answers are called; may be empty.
+  Text first_label, second_label, third_label;  ///< What intervals are called; may be empty.
+  Text low_label, high_label;       ///< Rating: what stands at the ends of the scale.
   std::vector<double> intensities;  ///< Test stimuli, or starting values of an adjustment.
   std::optional<double> reference_intensity;  ///< Constant stimuli.
   std::string standard_medium;    ///< Of what is felt as the standard; "" where there is none.
@@ -108,10 +131,14 @@ struct Block {
   bool feedback = false;                ///< Right or wrong is told after each answer.
   std::optional<Practice> practice;     ///< The block is practice, and no data.
   Levels levels;                        ///< Of the study's factors; may be empty.
-  Settings settings;                    ///< The procedure's own keys, all of them.
+  /// Asked after the answer to every trial, in this order, before the next one may begin.
+  std::vector<QuestionnaireItem> questions;
+  Settings settings;  ///< The procedure's own keys, all of them.
 
   /// A surface that is pressed, not a fluid that is stroked through.
   [[nodiscard]] bool is_pressed() const;
+  /// What an interval holds is such a surface: "reference" of a block with a solid standard.
+  [[nodiscard]] bool is_pressed_in(std::string_view interval) const;
 };
 
 struct Break {
@@ -130,26 +157,6 @@ struct PostExperimentItem {
 
 struct PostExperiment {
   std::vector<PostExperimentItem> items;
-};
-
-/// One answer to choose from. The value is what is stored, whatever the language shown.
-struct Option {
-  std::string value;  ///< [a-z0-9_]+, unique in its item.
-  Text label;
-};
-
-struct QuestionnaireItem {
-  std::string name;
-  std::string kind;  ///< "number", "text", "choice", "yes_no", "yes_no_which" or "scale".
-  Text question;
-  std::string unit;                        ///< kind number; may be empty.
-  std::optional<double> minimum, maximum;  ///< kind number: what can be true, in `unit`.
-  std::vector<Option> options;             ///< kind choice, at least two.
-  int num_steps = 10;                      ///< kind scale.
-  Text low_label, high_label;  ///< kind scale: what stands at step 1 and at the last step.
-  /// kind scale: which end is the favourable one; absent where neither is.
-  std::optional<bool> high_is_good{};
-  bool required = true;
 };
 
 struct Questionnaire {

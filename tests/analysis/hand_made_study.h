@@ -84,6 +84,20 @@ class HandMadeStudy {
     answered.trial = std::move(row);
     store_.append(answered);
   }
+  /// To a question after the trial answered last, attempt 1.
+  void say_after_trial(const std::string& block, const std::string& question,
+                       const std::string& answer) {
+    core::Commit said = event("question_answered");
+    said.event.trial = trial_;
+    said.question_answer = core::QuestionAnswerRow{.session = session_,
+                                                   .trial = trial_,
+                                                   .attempt = 1,
+                                                   .sequence = sequence_,
+                                                   .block = block,
+                                                   .question = question,
+                                                   .answer = answer};
+    store_.append(said);
+  }
   void undo_last_answer() {
     const std::int64_t answered = sequence_;
     core::Commit undone = event("answer_undone");

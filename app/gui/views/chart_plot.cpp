@@ -40,6 +40,8 @@ PlotSeries look_of(const ChartSeries& series) {
       return {.style = Style::kLine, .colour = Colour::kSoft, .thickness = 1.0f, .alpha = 0.4f};
     case Look::kBand:
       return {.style = Style::kBand};
+    case Look::kSpread:
+      return {.style = Style::kBand, .colour = Colour::kSoft};
     case Look::kMeans:
       return {.style = Style::kPoints, .colour = track_colour(series.colour), .hollow = false};
     case Look::kAnswers:
@@ -126,6 +128,7 @@ PlotSeries series_of(const FigureTable& table, const ChartSeries& series, double
 
 PlotSeries band_of(const FigureTable& table, const ChartSeries& series, double y_unit) {
   PlotSeries plotted = look_of(series);
+  plotted.name = series.legend;
   const SeriesRows rows(table, series);
   rows.each([&](const auto& row) {
     const auto low = rows.number(row, series.low), high = rows.number(row, series.high);
@@ -169,7 +172,9 @@ PlotSeries identity_of(const analysis::ChartSet& set, const ChartSeries& series)
 PlotSeries drawn(const analysis::ChartSet& set, const ChartSeries& series, double y_unit) {
   if (series.look == Look::kIdentity) return identity_of(set, series);
   const FigureTable& table = set.tables[series.table];
-  if (series.look == Look::kBand) return band_of(table, series, y_unit);
+  if (series.look == Look::kBand || series.look == Look::kSpread) {
+    return band_of(table, series, y_unit);
+  }
   return series_of(table, series, y_unit);
 }
 

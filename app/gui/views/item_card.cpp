@@ -8,6 +8,7 @@
 #include "app/gui/views/typed_number.h"
 #include "app/language/words.h"
 #include "app/operator/session_words.h"
+#include "experiments/study/question_answer.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -56,8 +57,9 @@ class ItemCard {
  public:
   ItemCard(Ui& ui, const ItemView& item, RunViewState& state, RunViewResult& result)
       : ui_(ui), item_(item), state_(state), result_(result) {
-    if (state.item == item.name) return;
-    state.item = item.name;
+    const std::string name = item.name + "/" + std::to_string(item.trial);
+    if (state.item == name) return;
+    state.item = name;
     state.typed = is_typed(item.kind) ? item.answer : "";
     state.says_yes = false;
     state.item_is_new = true;
@@ -93,7 +95,7 @@ class ItemCard {
         add_choice(stack, width);
         break;
       case Kind::kScale:
-        stack.add(104, 12, [this, width](const Rect& strip) { draw_scale(strip, width); });
+        stack.add(104, 12, [this, width](const Rect& strip) { draw_steps(strip, width); });
         break;
     }
     if (item_.required || item_.kind == Kind::kTick || item_.kind == Kind::kConsent) return;
@@ -101,14 +103,15 @@ class ItemCard {
       draw_button_row(
           ui_, strip,
           {{"item_skip", tr("No answer"), {.tone = Tone::kQuiet, .key = {Key::kF6}}, [this] {
-              give("no_answer");
+              give(experiments::kNoAnswer);
             }}});
     });
   }
 
  private:
   void give(const std::string& answer) {
-    result_.requests.emplace_back(operate::AnswerItem{item_.stage, item_.name, answer});
+    result_.requests.emplace_back(
+        operate::AnswerItem{item_.stage, item_.name, answer, item_.trial});
     state_.item.clear();
   }
 
@@ -192,22 +195,11 @@ class ItemCard {
     }
   }
 
-  /// As drawn on paper: a row of steps between two words.
-  void draw_scale(const Rect& strip, float width) {
-    Rect area = strip.middle(width, strip.height);
-    Rect labels = area.take_bottom(34);
-    const float step = area.width / static_cast<float>(item_.num_steps);
-    for (int i = 1; i <= item_.num_steps; ++i) {
-      const Rect box{area.x + step * static_cast<float>(i - 1) + 4, area.y, step - 8,
-                     area.height - 8};
-      const std::string number = std::to_string(i);
-      const ButtonStyle style{.selected = item_.answer == number};
-      // The key is the number itself, and 0 for ten.
-      const bool typed = i <= 10 && ui_.pressed({static_cast<Key>('0' + i % 10)});
-      if (ui_.button("scale_" + number, box, number, style) || typed) give(number);
-    }
-    ui_.text(labels, item_.low_label, {.colour = Colour::kSoft});
-    ui_.text(labels, item_.high_label, {.colour = Colour::kSoft, .align = Align::kRight});
+  void draw_steps(const Rect& strip, float width) {
+    const int step =
+        draw_scale(ui_, strip.middle(width, strip.height), "scale_", item_.num_steps,
+                   item_.low_label, item_.high_label, std::atoi(item_.answer.c_str()));
+    if (step > 0) give(std::to_string(step));
   }
 
   Ui& ui_;
@@ -249,6 +241,24 @@ void draw_answered(Ui& ui, const Rect& place, const SessionView& view, RunViewSt
 }
 
 }  // namespace
+
+int draw_scale(Ui& ui, const Rect& place, const std::string& name, int num_steps,
+               const std::string& low_label, const std::string& high_label, int selected) {
+  int chosen = 0;
+  Rect area = place;
+  Rect labels = area.take_bottom(34);
+  const float step = area.width / static_cast<float>(num_steps);
+  for (int i = 1; i <= num_steps; ++i) {
+    const Rect box{area.x + step * static_cast<float>(i - 1) + 4, area.y, step - 8,
+                   area.height - 8};
+    const std::string number = std::to_string(i);
+    const bool typed = i <= 10 && ui.pressed({static_cast<Key>('0' + i % 10)});
+    if (ui.button(name + number, box, number, {.selected = i == selected}) || typed) chosen = i;
+  }
+  ui.text(labels, low_label, {.colour = Colour::kSoft});
+  ui.text(labels, high_label, {.colour = Colour::kSoft, .align = Align::kRight});
+  return chosen;
+}
 
 void draw_item_card(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state,
                     RunViewResult& result) {

@@ -77,11 +77,14 @@ double corrected_value(const RunViewState& state) {
   }
   if (state.correct_kind == AnswerKind::kInterval) {
     if (state.correct_value == "1" || is_typed(state, "first", tr("first"))) return 1.0;
-    const bool is_second =
-        state.correct_value == "2" || is_typed(state, "second", tr("second"));
-    return is_second ? 2.0 : std::nan("");
+    if (state.correct_value == "2" || is_typed(state, "second", tr("second"))) return 2.0;
+    const bool is_third = state.correct_value == "3" || is_typed(state, "third", tr("third"));
+    return is_third ? 3.0 : std::nan("");
   }
   const std::optional<double> value = typed_number(state.correct_value);
+  if (state.correct_kind == AnswerKind::kStep) {
+    return value && *value >= 1.0 && *value == std::floor(*value) ? *value : std::nan("");
+  }
   const bool is_answer =
       value && (state.correct_kind == AnswerKind::kNumber ? *value > 0.0 : *value >= 0.0);
   return is_answer ? *value : std::nan("");
@@ -136,9 +139,9 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
     const char* hint = state.correct_kind == AnswerKind::kYesNo      ? tr("yes or no")
                        : state.correct_kind == AnswerKind::kInterval ? tr("first or second")
                        : state.correct_kind == AnswerKind::kPercent  ? tr("percent")
-
-                       : state.correct_kind == AnswerKind::kNumber ? tr("number")
-                                                                   : tr("intensity");
+                       : state.correct_kind == AnswerKind::kNumber   ? tr("number")
+                       : state.correct_kind == AnswerKind::kStep     ? tr("step")
+                                                                     : tr("intensity");
     entered |= ui.text_field("correct_value", inside.take_top(46, 10), state.correct_value,
                              hint, state.dialog_is_new);
     entered |= ui.text_field("reason", inside.take_top(46, 18), state.reason, words.hint);

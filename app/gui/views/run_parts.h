@@ -41,6 +41,13 @@ void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSe
 void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
               const std::vector<TracePoint>& trace, RunViewState& state);
 
+/// A scale as on paper: a row of steps from 1 between two words. The keys are the numbers
+/// themselves, 0 for ten. `selected`: the step that stands; 0 for none. `name`: what the names
+/// of its buttons begin with. Returns the step that was chosen in this frame, or 0.
+[[nodiscard]] int draw_scale(Ui& ui, const Rect& place, const std::string& name, int num_steps,
+                             const std::string& low_label, const std::string& high_label,
+                             int selected = 0);
+
 void open_dialog(RunViewState& state, RunViewState::Dialog dialog);
 
 /// "41:07"

@@ -45,13 +45,25 @@ constexpr Interval kSecond = {"second",
                               tr_later("Back to the second"),
                               "present_second",
                               Key::kRight};
+constexpr Interval kThird = {"third",
+                             tr_later("Present the third"),
+                             tr_later("Third again"),
+                             tr_later("Back to the third"),
+                             "present_third",
+                             Key::kDown};
+
+/// Of the trial, by its name.
+const Interval& interval_named(const std::string& name) {
+  return name == kFirst.name ? kFirst : name == kSecond.name ? kSecond : kThird;
+}
 
 /// What is felt first, and what the question is about.
 const Interval& first_of(const TrialView& trial) {
   return trial.order_is_drawn ? kFirst : trial.has_reference ? kReference : kTest;
 }
 const Interval& last_of(const TrialView& trial) {
-  return trial.order_is_drawn ? kSecond : kTest;
+  if (!trial.order_is_drawn) return kTest;
+  return trial.num_intervals == 2 ? kSecond : kThird;
 }
 
 std::string felt_before(const TrialView& trial, double felt_s) {
@@ -118,6 +130,13 @@ class TrialCard {
       stack.add(kAnswerButton, 18, [this](const Rect& place) { draw_yes_no(place); });
     } else if (trial_.answer == AnswerKind::kInterval && trial_.can_answer) {
       stack.add(kAnswerButton, 18, [this](const Rect& place) { draw_choice(place); });
+    } else if (trial_.answer == AnswerKind::kStep && trial_.can_answer) {
+      stack.add(104, 12, [this](const Rect& place) {
+        const Rect scale = place.middle(std::min(760.0f, place.width - 32), place.height);
+        const int step = draw_scale(ui_, scale, "step_", trial_.num_steps, trial_.low_label,
+                                    trial_.high_label);
+        if (step > 0) answer(step);
+      });
     } else if (is_typed(trial_.answer) && trial_.can_answer) {
       type_number(ui_, trial_, state_);
       stack.add(kAnswerButton, 18, [this](const Rect& place) { draw_number(place); });
@@ -154,7 +173,10 @@ class TrialCard {
   void draw_next(const Rect& place) {
     const bool to_first =
         trial_.interval == "free_space" && trial_.has_reference && !trial_.first_felt_s;
-    const Interval& next = to_first ? first_of(trial_) : last_of(trial_);
+    const bool is_in_order = trial_.order_is_drawn && !trial_.next_interval.empty();
+    const Interval& next = is_in_order ? interval_named(trial_.next_interval)
+                           : to_first  ? first_of(trial_)
+                                       : last_of(trial_);
     draw_button_row(ui_, place,
                     {{"present",
                       tr(next.present),
@@ -179,16 +201,17 @@ class TrialCard {
   }
 
   void draw_choice(const Rect& place) {
-    draw_button_row(ui_, place,
-                    {{"answer_first",
-                      trial_.yes_label,
-                      {.tone = Tone::kPrimary, .key = {letter('1')}, .large = true},
-                      [&] { answer(1.0); }},
-                     {"answer_second",
-                      trial_.no_label,
-                      {.tone = Tone::kPrimary, .key = {letter('2')}, .large = true},
-                      [&] { answer(2.0); }}},
-                    std::min(250.0f, (place.width - 40) / 2));
+    constexpr const char* kNames[] = {"answer_first", "answer_second", "answer_third"};
+    std::vector<RowButton> buttons;
+    for (const TrialView::Choice& choice : trial_.choices) {
+      const auto number = static_cast<char>('0' + choice.interval);
+      buttons.push_back({kNames[choice.interval - 1],
+                         choice.label.c_str(),
+                         {.tone = Tone::kPrimary, .key = {letter(number)}, .large = true},
+                         [this, interval = choice.interval] { answer(interval); }});
+    }
+    const auto count = static_cast<float>(buttons.size());
+    draw_button_row(ui_, place, buttons, std::min(250.0f, (place.width - 40) / count));
   }
 
   void draw_number(const Rect& place) {
@@ -267,7 +290,12 @@ class TrialCard {
                          [this, &interval] { present(interval.name); }});
     };
     if (trial_.has_reference) add(first);
-    if (!trial_.has_reference || trial_.interval != first.name || trial_.can_answer) add(last);
+    const bool has_three = trial_.order_is_drawn && trial_.num_intervals > 2;
+    if (has_three && trial_.next_interval != kSecond.name) add(kSecond);
+    const bool offers_last =
+        has_three ? trial_.can_answer
+                  : !trial_.has_reference || trial_.interval != first.name || trial_.can_answer;
+    if (offers_last) add(last);
     if (trial_.interval != "free_space") {
       buttons.push_back(
           {"present_free_space", tr("Free space"), {.key = {letter('F')}}, [this] {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/charts/chart_parts.h"
 #include "analysis/charts/charts.h"
 #include "analysis/hand_made_study.h"
 #include "analysis/results/number_words.h"
@@ -118,6 +119,39 @@ TEST_F(PsychometricChartsTest, EverybodysPointsAreMeansWithTheSpreadBetweenPeopl
   const FigureTable& table = charts.tables[points.table];
   EXPECT_EQ(table.rows[1][table.place_of("num_yes")].number, 34.0);
   EXPECT_EQ(table.rows[1][table.place_of("num_trials")].number, 40.0);
+}
+
+TEST_F(PsychometricChartsTest, ManyPeoplesCurvesAreABand) {
+  std::vector<int> nums_right;
+  for (std::size_t i = 0; i <= kMostLines; ++i)
+    nums_right.push_back(7 + static_cast<int>(i % 3));
+  add_people(nums_right);
+  const ChartSet& charts = set();
+  const Chart& everybody = charts.everybody.value();
+  EXPECT_EQ(series_of(everybody, Look::kFaintCurve), nullptr);
+  const ChartSeries* const spread = series_of(everybody, Look::kSpread);
+  ASSERT_NE(spread, nullptr);
+  EXPECT_EQ(spread->legend, "middle 90 % of the participants’ own curves");
+  EXPECT_NE(charts.whole->caption.find("own curves, of which there are 41 (maximum"),
+            std::string::npos)
+      << charts.whole->caption;
+  // Its ends are the flattest and the steepest curve, which a third of the people have each.
+  const FigureTable& table = charts.tables[spread->table];
+  ASSERT_FALSE(table.rows.empty());
+  std::vector<std::vector<Row>> curves;
+  for (const Chart& chart : charts.participants) {
+    curves.push_back(rows_of(charts, *series_of(chart, Look::kCurve)));
+  }
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    double lowest = 1.0, highest = 0.0;
+    for (const std::vector<Row>& curve : curves) {
+      ASSERT_EQ(curve[i].x, table.rows[i][0].number);
+      lowest = std::min(lowest, curve[i].y);
+      highest = std::max(highest, curve[i].y);
+    }
+    EXPECT_NEAR(table.rows[i][2].number.value(), lowest, 1e-9);
+    EXPECT_NEAR(table.rows[i][3].number.value(), highest, 1e-9);
+  }
 }
 
 TEST_F(PsychometricChartsTest, OnePersonHasNoSpreadBetweenPeople) {

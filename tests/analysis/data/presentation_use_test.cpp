@@ -8,7 +8,7 @@
 namespace jnd::analysis {
 namespace presentation_use_test {
 
-constexpr ResultsOptions kQuick = {.num_resamples = 50, .seed = 1};
+const ResultsOptions kQuick = {.num_resamples = 50, .seed = 1};
 
 void present(HandMadeStudy& study, const std::string& block, const std::string& interval,
              double intensity, std::optional<double> width_m) {

@@ -69,7 +69,7 @@ constexpr const char* kTables[] = {"sessions.csv", "trials.csv", "presentations.
                                    "events.csv", "answers.csv"};
 // Worked out of several tables, or of the study file.
 constexpr const char* kMadeTables[] = {"participants.csv", "questionnaires.csv",
-                                       "codebook.csv"};
+                                       "questions.csv", "codebook.csv"};
 
 TEST_F(CsvExportTest, TheCodebookHasEveryColumnOfEveryTableAndNoOther) {
   export_csv(study_.store(), out(), {});

@@ -50,7 +50,7 @@ std::optional<double> own(const ResultsSection& of, const std::string& participa
   return std::nullopt;
 }
 
-constexpr ResultsOptions kQuick = {.num_resamples = 50};
+const ResultsOptions kQuick = {.num_resamples = 50};
 
 TEST(CatchResults, FalseAlarmsOfAReminderAreCountedForEverybodyAndTheGroup) {
   HandMadeStudy study;

@@ -13,7 +13,7 @@
 namespace jnd::analysis {
 namespace discrimination_group_test {
 
-constexpr ResultsOptions kQuick = {.num_resamples = 50, .seed = 1};
+const ResultsOptions kQuick = {.num_resamples = 50, .seed = 1};
 
 StudyResults results(const HandMadeStudy& study) {
   return results_of(load_study(study.store()), {}, kQuick);

@@ -12,7 +12,7 @@ namespace discrimination_own_values_test {
 
 constexpr double kReferencePaS = 1.853;
 constexpr std::array kLevelsPaS = {1.093, 1.237, 1.646, 1.7495, 2.203, 2.553, 3.185, 3.883};
-constexpr ResultsOptions kQuick = {.num_resamples = 50, .seed = 1};
+const ResultsOptions kQuick = {.num_resamples = 50, .seed = 1};
 
 /// Five answers a level, that many of them "more than the reference".
 void add_person(HandMadeStudy& study, const std::string& name,

@@ -11,7 +11,7 @@
 namespace jnd::analysis {
 namespace magnitude_results_test {
 
-constexpr ResultsOptions kQuick = {.num_resamples = 100, .seed = 1};
+const ResultsOptions kQuick = {.num_resamples = 100, .seed = 1};
 const BlockDesign kEstimation = {.block = "estimation",
                                  .procedure = "magnitude_estimation",
                                  .quantity = "scale",

@@ -13,7 +13,7 @@
 namespace jnd::analysis {
 namespace study_results_test {
 
-constexpr ResultsOptions kQuick = {.num_resamples = 200, .seed = 1};
+const ResultsOptions kQuick = {.num_resamples = 200, .seed = 1};
 
 StudyResults results(const HandMadeStudy& study, const Published& published = {}) {
   return results_of(load_study(study.store()), published, kQuick);

@@ -13,7 +13,7 @@
 namespace jnd::analysis {
 namespace threshold_results_test {
 
-constexpr ResultsOptions kQuick = {.num_resamples = 200, .seed = 1};
+const ResultsOptions kQuick = {.num_resamples = 200, .seed = 1};
 
 const char* const kProtocol = R"json({"name": "by_hand", "stages": [
   {"kind": "block", "name": "felt", "procedure": "constant_stimuli", "task": "yes_no"},

@@ -9,7 +9,7 @@
 namespace jnd::analysis {
 namespace trial_losses_test {
 
-constexpr ResultsOptions kQuick = {.num_resamples = 50};
+const ResultsOptions kQuick = {.num_resamples = 50};
 
 core::TrialRow trial_at(double intensity, bool yes, const std::string& block = "honey") {
   return {.block = block,

@@ -46,7 +46,8 @@ TEST_F(CommissionCommandTest, AReportOfARecordNeedsNoDevice) {
   fs::rename(path("twin_seed_3.commissioning.jsonl"), path("moved.jsonl"));
   ProgramOutcome outcome = jnd({"report", "--commissioning", "moved.jsonl", "--out", "first"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(read_file(path("first/report.html")).find("Not measured: force, delay, stability."),
+  EXPECT_NE(read_file(path("first/report.html"))
+                .find("Not measured: homing, force, delay, stability."),
             std::string::npos);
 
   outcome = jnd({"commission", "twin:seed=3", "--record", "moved.jsonl", "--json"});

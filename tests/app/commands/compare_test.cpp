@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/json_document.h"
 #include "app/tiny_study.h"
@@ -44,6 +45,24 @@ TEST(CompareCommand, PairedIsStudentsTOfTheDifferences) {
   EXPECT_NEAR(json["statistic"].get<double>(), 2.8284271247461903, 1e-9);
   EXPECT_EQ(json["degrees_of_freedom"], 3.0);
   EXPECT_NEAR(json["cohen_dz"].get<double>(), 1.4142135623730951, 1e-9);
+}
+
+TEST(CompareCommand, TellsWhetherConditionsAreTheSameWithinAMargin) {
+  // Differences 1, 2, 1, 4: mean 2, error sqrt(2) / 2; t with 3 degrees of freedom, 95
+  // %: 2.3534.
+  const auto within = document(
+      compared(kPairs, "paired", {"--json", "--equivalence-margin", "4"}).out)["equivalence"];
+  EXPECT_NEAR(within["estimate"].get<double>(), 2.0, 1e-12);
+  EXPECT_NEAR(within["ci90"][1].get<double>(), 2.0 + 2.3533634 * std::sqrt(0.5), 1e-6);
+  EXPECT_EQ(within["is_equivalent"], true);
+  const ProgramOutcome narrow = compared(kPairs, "paired", {"--equivalence-margin", "3"});
+  EXPECT_EQ(narrow.exit_code, 0);
+  EXPECT_NE(narrow.out.find("so that is not shown"), std::string::npos) << narrow.out;
+  const ProgramOutcome zero = compared(kPairs, "paired", {"--equivalence-ratio", "2"});
+  EXPECT_NE(zero.out.find("has no ratio"), std::string::npos) << zero.out;
+  const ProgramOutcome ranks = compared(kPairs, "wilcoxon", {"--equivalence-margin", "3"});
+  EXPECT_NE(ranks.exit_code, 0);
+  EXPECT_NE(ranks.err.find("expected --test paired or welch"), std::string::npos) << ranks.err;
 }
 
 TEST(CompareCommand, ForWelchAnEmptyCellEndsTheShorterColumn) {

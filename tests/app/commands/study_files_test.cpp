@@ -68,6 +68,18 @@ TEST_F(StudyFileCommandsTest, ValidateAsksAboutADecimalCommaAndTakesTheStudy) {
             (std::set<std::string>{"file", "line", "column", "pointer", "message"}));
 }
 
+TEST_F(StudyFileCommandsTest, ValidateDoubtsAForceThatHardlyAnybodyMeansWithoutADevice) {
+  write_file(path("thick.json"), replaced(kTinyStudy, "[4, 16]", "[4, 1000]"));
+  const ProgramOutcome plain = jnd({"validate", "thick.json"});
+  EXPECT_EQ(plain.exit_code, 0) << plain.err;
+  // 1000 Pa s on the shape of a hand, 1.776 m, at 0.5 m/s.
+  EXPECT_NE(plain.out.find("warning: this takes 888 N on the whole hand at 0.5 m/s"),
+            std::string::npos)
+      << plain.out;
+  const ProgramOutcome slow = jnd({"validate", "thick.json", "--speed-m-per-s", "0.03"});
+  EXPECT_EQ(slow.out.find("warning"), std::string::npos) << slow.out;
+}
+
 TEST_F(StudyFileCommandsTest, ValidateTellsTheProblemsOfAllFiles) {
   write_file(path("a.json"), "[]");
   write_file(path("b.json"), "{");

@@ -27,7 +27,7 @@ class BackupTest : public ::testing::Test {
 TEST_F(BackupTest, ACopyIsAStudyFolderWithEverythingInIt) {
   const BackupReport report = back_up_now();
   EXPECT_TRUE(report.integrity.complete);
-  EXPECT_EQ(report.integrity.num_events, 6);
+  EXPECT_EQ(report.integrity.num_events, 7);
   EXPECT_EQ(report.integrity.num_samples, 1000);
   EXPECT_TRUE(report.remarks.empty());
   const StudyStore study(kept_.folder(), StudyStore::Mode::kReadOnly);
@@ -105,7 +105,7 @@ TEST_F(BackupTest, ACopyThatHoldsMoreThanTheStudyIsLeftAsItIs) {
   forget_backup(kept_.beside("second"), kept_.beside("second"), 10);
   {
     StudyStore store(kept_.beside("second"), StudyStore::Mode::kReadWrite);
-    store.append({.event = {.session = 3, .sequence = 7, .kind = "note_added"}});
+    store.append({.event = {.session = 3, .sequence = 8, .kind = "note_added"}});
   }
   EXPECT_THROW((void)back_up(kept_.folder(), kept_.beside("second"), 11), Error);
 }

@@ -49,6 +49,15 @@ class KeptStudy {
                                 .item = "i",
                                 .answer = "secret of " + participant});
     store.append(answered);
+    Commit asked = next("question_answered");
+    asked.question_answer = QuestionAnswerRow{.session = session,
+                                              .trial = 1,
+                                              .attempt = 1,
+                                              .sequence = sequence,
+                                              .block = "b",
+                                              .question = "q",
+                                              .answer = "secret of " + participant};
+    store.append(asked);
     Commit note = next("note_added");
     note.event.data = R"({"text":"note about )" + participant + "\"}";
     store.append(note);

@@ -50,6 +50,9 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
     EXPECT_EQ(store.answers(1).size(), 2U);
     ASSERT_EQ(store.design(1).size(), 6U);
     EXPECT_FALSE(store.design(1)[0].series || store.design(1)[0].is_catch);
+    EXPECT_EQ(store.design(1)[0].intervals, "");
+    EXPECT_FALSE(store.trials(1)[0].right_interval ||
+                 store.trials(1)[0].measures.chosen_interval);
     ASSERT_EQ(store.presentations(1).size(), 4U);
     EXPECT_FALSE(store.presentations(1)[0].measures.finger_lag_s);
     EXPECT_EQ(store.presentations(1)[0].measures.missed_ticks, 0);
@@ -85,8 +88,13 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
       EXPECT_EQ(exports[0].place, "/exports/first_csv");
       EXPECT_THAT(exports[0].sessions, ElementsAre(1, 3));
     }
-    EXPECT_THAT(store.device_profiles(), IsEmpty());
-    for (const SessionRow& row : store.sessions()) EXPECT_EQ(row.device_profile_sha256, "");
+    ASSERT_EQ(store.device_profiles().size(), has(7) ? 1U : 0U);
+    for (const SessionRow& row : store.sessions()) {
+      EXPECT_EQ(row.device_profile_sha256,
+                row.session == 6 ? store.device_profiles()[0].sha256 : "");
+      EXPECT_EQ(store.question_answers(row.session).size(),
+                has(8) && row.session == 5 ? 1U : 0U);
+    }
   }
 
   static void expect_adaptive_trials(const StudyStore& store) {

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "core/random_stream.h"
 #include "core/storage/database.h"
 #include "support/temporary_folder.h"
 
@@ -74,6 +75,44 @@ TEST_F(StudyStoreTest, KeepsEventsAcrossReopeningColumnByColumn) {
   EXPECT_EQ(events[0].data, R"({"interval":"test"})");
   ASSERT_EQ(store.sessions().size(), 1U);
   EXPECT_EQ(store.sessions()[0].seed, ~0ULL);
+}
+
+TEST_F(StudyStoreTest, AnAnswerToAQuestionStandsAsLongAsThatToItsTrial) {
+  const auto store = with_session();
+  const auto said = [](std::int64_t sequence, std::int64_t trial, std::int64_t attempt) {
+    Commit commit = event(sequence, "question_answered");
+    commit.question_answer = QuestionAnswerRow{.session = 1,
+                                               .trial = trial,
+                                               .attempt = attempt,
+                                               .sequence = sequence,
+                                               .block = "group_d",
+                                               .question = "confidence",
+                                               .answer = std::to_string(sequence)};
+    return commit;
+  };
+  store->append(answered(1, 1, 1.0));
+  store->append(said(2, 1, 1));
+  store->append(answered(3, 2, 1.0));
+  store->append(said(4, 2, 1));
+  ASSERT_EQ(store->question_answers(1).size(), 2U);
+  EXPECT_EQ(store->question_answers(1)[1].answer, "4");
+  EXPECT_EQ(store->question_answers(1)[1].block, "group_d");
+  Commit undone = event(5, "answer_undone");
+  undone.event.trial = 2;
+  undone.event.supersedes = 3;
+  store->append(undone);
+  ASSERT_EQ(store->question_answers(1).size(), 1U) << "gone with the answer to its trial";
+  Commit again = answered(6, 2, 0.0);
+  again.trial->attempt = 2;
+  store->append(again);
+  EXPECT_EQ(store->question_answers(1).size(), 1U) << "that of the first attempt stays gone";
+  store->append(said(7, 2, 2));
+  EXPECT_EQ(store->question_answers(1).size(), 2U);
+  Commit excluded = event(8, "trial_excluded");
+  excluded.event.trial = 1;
+  store->append(excluded);
+  EXPECT_EQ(store->question_answers(1).size(), 1U);
+  EXPECT_EQ(store->question_answers(1, /*include_excluded=*/true).size(), 2U);
 }
 
 TEST_F(StudyStoreTest, TakesAnEventAndItsRowsTogetherOrNotAtAll) {
@@ -323,6 +362,35 @@ TEST_F(AdaptiveTrialsTest, WhatWasDrawnWithTheTrialStays) {
   answer(1);
   undo(1);
   EXPECT_EQ(in_force(), (Trials{1, 2, 3}));
+}
+
+/// The store looks for them in another order than the view does.
+TEST_F(AdaptiveTrialsTest, WhatIsInForceIsWhatTheViewSays) {
+  RandomStream random(7, "acts of a session");
+  std::int64_t num_trials = 0;
+  int num_undone = 0, num_voided = 0;
+  for (int act = 0; act < 400; ++act) {
+    const std::int64_t next = static_cast<std::int64_t>(store_->trials(1).size()) + 1;
+    const std::vector<std::int64_t> drawn = in_force();
+    if (next > 1 && random.with_probability(0.35)) {
+      undo(store_->trials(1).back().trial);
+      ++num_undone;
+    } else if (static_cast<std::size_t>(next) <= drawn.size()) {
+      answer(drawn[static_cast<std::size_t>(next) - 1]);
+    } else {
+      draw(++num_trials);
+    }
+    Trials by_view;
+    Database database(folder() / "study.sqlite", Database::Mode::kReadOnly,
+                      Durability::kEveryCommit);
+    Statement rows(database, "SELECT trial FROM design_in_force WHERE session = 1 ORDER BY 1");
+    while (rows.step()) by_view.push_back(rows.integer(0));
+    ASSERT_EQ(in_force(), by_view) << "after act " << act;
+    num_voided = static_cast<int>(num_trials) - static_cast<int>(by_view.size());
+    ASSERT_EQ(store_->overview().front().num_trials, std::ssize(by_view));
+  }
+  EXPECT_GT(num_undone, 50);
+  EXPECT_GT(num_voided, 10) << "the comparison has to be of something";
 }
 
 TEST_F(StudyStoreTest, FilesAreForTheirOwnerOnly) {

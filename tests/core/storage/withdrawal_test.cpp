@@ -45,7 +45,7 @@ TEST_F(WithdrawalTest, NothingOfThePersonIsLeftButTheTombstone) {
   const StudyStore store(kept_.folder(), StudyStore::Mode::kReadOnly);
   ASSERT_EQ(store.sessions().size(), 1U);
   EXPECT_EQ(store.sessions()[0].participant, "P02");
-  EXPECT_EQ(store.events(2).size(), 6U);
+  EXPECT_EQ(store.events(2).size(), 7U);
   EXPECT_EQ(store.answers(2).at(0).answer, "secret of P02");
   ASSERT_EQ(store.withdrawals().size(), 1U);
   EXPECT_EQ(store.withdrawals()[0].participant, "P01");
@@ -104,8 +104,8 @@ TEST_F(WithdrawalTest, NeitherItsNumberIsGivenAgainNorRowsCanBeDeletedAfterwards
 
 /// A new table of people's data has to go with them.
 TEST_F(WithdrawalTest, EmptiesEveryTableThatHoldsSessionsButThoseThatAreKept) {
-  const std::set<std::string> emptied = {"answer", "presentation", "trial",
-                                         "design", "event",        "session"};
+  const std::set<std::string> emptied = {"question_answer", "answer", "presentation", "trial",
+                                         "design",          "event",  "session"};
   // Tombstones, what an ethics committee is owed, and which exports the session is in.
   const std::set<std::string> kept = {"withdrawal", "adverse_event", "export_session"};
   Database database(kept_.folder() / "study.sqlite", Database::Mode::kReadOnly,

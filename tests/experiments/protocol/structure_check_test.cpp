@@ -100,8 +100,8 @@ TEST(StructureCheck, NamesTheNearestMediumProcedureAndStage) {
             "`solid`, found `viscuos`; did you mean `viscous`?");
   EXPECT_EQ(problems_of(broken("\"constant_stimuli\"", "\"constant_stimulus\"")),
             "x.json:25:62: /stages/2/arms/1/stages/0/procedure: expected "
-            "`magnitude_estimation`, `magnitude_production`, `matching`, `constant_stimuli`, "
-            "`limits`, `staircase` or `quest_plus`, found "
+            "`magnitude_estimation`, `magnitude_production`, `matching`, `rating`, "
+            "`constant_stimuli`, `limits`, `staircase` or `quest_plus`, found "
             "`constant_stimulus`; did you mean `constant_stimuli`?");
   EXPECT_EQ(problems_of(broken("\"kind\": \"break\"", "\"kind\": \"brake\"")),
             "x.json:11:18: /stages/0/arms/0/stages/0/kind: expected `checklist`, `consent`, "

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <iterator>
+#include <set>
 
 namespace jnd::experiments {
 namespace written_data_test {
@@ -18,12 +19,12 @@ std::string layout(const std::string& name) {
 /// What stands between the brackets of `CREATE TABLE name (`, in the layout of study folders,
 /// and what later layouts added.
 std::string columns_of(const std::string& table) {
-  const std::string sql = layout("1_study.sql");
+  const std::string sql = layout("1_study.sql") + layout("8_answers_to_questions.sql");
   const std::size_t begin = sql.find("CREATE TABLE " + table + " (");
   std::string columns =
       begin == sql.npos ? "" : sql.substr(begin, sql.find(") WITHOUT ROWID", begin) - begin);
   const std::string added = "ALTER TABLE " + table + " ADD COLUMN ";
-  const std::string later = layout("4_adaptive_trials.sql");
+  const std::string later = layout("4_adaptive_trials.sql") + layout("9_three_intervals.sql");
   for (std::size_t at = later.find(added); at != later.npos; at = later.find(added, at)) {
     at += added.size();
     columns += "\n  " + later.substr(at, later.find(';', at) - at);
@@ -32,11 +33,15 @@ std::string columns_of(const std::string& table) {
 }
 
 TEST(WrittenData, NamesColumnsThatTheStudyFolderHas) {
-  const std::map<std::string, std::string> tables = {
-      {"trials.csv", "trial"}, {"answers.csv", "answer"}, {"events.csv", "event"}};
+  const std::map<std::string, std::string> tables = {{"trials.csv", "trial"},
+                                                     {"answers.csv", "answer"},
+                                                     {"events.csv", "event"},
+                                                     {"questions.csv", "question_answer"}};
+  // Exports take these from the study file, or from the order of the intervals.
+  const std::set<std::string> worked_out = {"is_practice", "right_interval", "chosen_interval"};
   for (const ParameterTable* stage : stage_tables()) {
     for (const WrittenColumn& column : written_columns(*stage)) {
-      if (column.column == "is_practice") continue;  // Exports take it from the study file.
+      if (worked_out.contains(column.column)) continue;
       ASSERT_TRUE(tables.contains(column.file)) << column.file;
       EXPECT_NE(columns_of(tables.at(column.file)).find("\n  " + column.column + ' '),
                 std::string::npos)

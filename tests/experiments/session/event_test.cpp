@@ -70,6 +70,7 @@ std::vector<EventData> one_of_each() {
                       .held = {"thumb", "index"},
                       .neutral_pose_m = {{"thumb", {0.0, -0.061, -0.1}},
                                          {"index", {1.0 / 3.0, 0.059, -0.1}}}},
+          QuestionAnswered{4, 2, "confidence", "3"},
           SessionCompleted{},
           SessionEndedEarly{"why"}};
 }

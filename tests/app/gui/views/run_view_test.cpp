@@ -166,6 +166,7 @@ SessionView two_intervals() {
   SessionView view = comparison();
   view.trial->answer = AnswerKind::kInterval;
   view.trial->order_is_drawn = true;
+  view.trial->choices = {{1, "First"}, {2, "Second"}};
   view.trial->interval = "second";
   view.trial->yes_label = "First";
   view.trial->no_label = "Second";
@@ -195,6 +196,47 @@ TEST_F(RunView, TheIntervalsOfADrawnOrderAreFirstAndSecond) {
   view.step = Step::kReady;
   view.trial->interval.clear();
   EXPECT_EQ(after_key<operate::Present>(view, {Key::kSpace}).interval, "first");
+}
+
+/// Three intervals, of which the second one is being felt and the third is still to come.
+SessionView three_intervals() {
+  SessionView view = two_intervals();
+  view.trial->num_intervals = 3;
+  view.trial->next_interval = "third";
+  view.trial->can_answer = false;
+  view.trial->choices = {{1, "First"}, {2, "Second"}, {3, "Third"}};
+  return view;
+}
+
+TEST_F(RunView, ThreeIntervalsComeInTheirOrderAndEachCanBeChosen) {
+  SessionView view = three_intervals();
+  EXPECT_EQ(after_key<operate::Present>(view, {Key::kSpace}).interval, "third");
+  EXPECT_EQ(after_key<operate::Present>(view, {Key::kRight}).interval, "second") << "again";
+  draw(view);
+  EXPECT_EQ(ui_.drawn().find("present_third"), nullptr) << "it is the next one";
+  EXPECT_EQ(ui_.drawn().find("answer_first"), nullptr);
+  view.trial->interval = "third";
+  view.trial->next_interval = "";
+  view.trial->can_answer = true;
+  EXPECT_EQ(after_key<operate::Answer>(view, {letter('3')}).value, 3.0);
+  EXPECT_EQ(after_click<operate::Answer>(view, "answer_second").value, 2.0);
+  EXPECT_EQ(after_key<operate::Present>(view, {Key::kDown}).interval, "third") << "again";
+  view.trial->choices = {{2, "Second"}, {3, "Third"}};
+  draw(view);
+  EXPECT_EQ(ui_.drawn().find("answer_first"), nullptr) << "the sample is no answer";
+}
+
+TEST_F(RunView, AStepOfARatingIsChosenByItsNumber) {
+  SessionView view = comparison();
+  view.trial->answer = AnswerKind::kStep;
+  view.trial->num_steps = 10;
+  view.trial->low_label = "very thin";
+  view.trial->high_label = "very thick";
+  EXPECT_EQ(after_key<operate::Answer>(view, {letter('7')}).value, 7.0);
+  EXPECT_EQ(after_key<operate::Answer>(view, {letter('0')}).value, 10.0);
+  EXPECT_EQ(after_click<operate::Answer>(view, "step_1").value, 1.0);
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("very thick"));
 }
 
 TEST_F(RunView, AWrongIntervalIsSetRightByItsName) {

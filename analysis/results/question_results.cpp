@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/data/planned_trials.h"
+#include "analysis/data/stored_studies.h"
+#include "analysis/results/magnitude_section.h"
+#include "analysis/results/rated_answers.h"
+#include "analysis/results/study_results.h"
+#include "experiments/study/question_answer.h"
+
+namespace jnd::analysis {
+namespace {
+
+using Item = experiments::QuestionnaireItem;
+
+/// The trials of a block that a participant answered, catch trials among them.
+std::vector<const core::TrialRow*> trials_of(const ParticipantData& participant,
+                                             const std::string& block) {
+  std::vector<const core::TrialRow*> trials;
+  for (const auto* const list : {&participant.trials, &participant.catch_trials}) {
+    for (const core::TrialRow& trial : *list) {
+      if (trial.block == block) trials.push_back(&trial);
+    }
+  }
+  return trials;
+}
+
+/// A step or a number; yes is 1 and no is 0. None for a question that was left out.
+std::optional<double> value_of(const Item& item, const std::string& answer) {
+  if (item.kind != "yes_no") return experiments::number_in(answer);
+  if (answer == "yes") return 1.0;
+  return answer == "no" ? std::optional(0.0) : std::nullopt;
+}
+
+RatedAnswer rated(const BlockDesign& block, const core::TrialRow& trial, double value) {
+  RatedAnswer answer{.value = value, .was_right = was_right(block.written, trial)};
+  if (!trial.is_catch) answer.level = trial.intensity;
+  const bool is_ratio = block.compares() || block.tells_apart() || block.identifies();
+  if (is_ratio && trial.intensity.value_or(0.0) > 0.0 &&
+      trial.reference_intensity.value_or(0.0) > 0.0) {
+    answer.distance_ln = std::abs(std::log(*trial.intensity / *trial.reference_intensity));
+  }
+  return answer;
+}
+
+/// What a step means: "step from 1, “I guessed”, to 5, “wholly sure”: How sure are you?"
+std::string words_of(const Item& item) {
+  const std::string question = in_english(item.question);
+  if (item.kind == "yes_no") return "1 being yes and 0 no: " + question;
+  if (item.kind != "scale") return question;
+  return "step from 1, “" + in_english(item.low_label) + "”, to " +
+         std::to_string(item.num_steps) + ", “" + in_english(item.high_label) +
+         "”: " + question;
+}
+
+class QuestionSection {
+ public:
+  QuestionSection(const StudyData& data, const BlockDesign& block)
+      : data_(data), block_(block), section_{.name = block.block + "_questions"} {}
+
+  void add(const Item& item) {
+    if (item.kind == "choice" || item.kind == "yes_no_which") add_shares(item);
+    if (item.kind == "text" || item.kind == "yes_no_which") add_free_answers(item);
+    if (item.kind != "scale" && item.kind != "number" && item.kind != "yes_no") return;
+    RatedAnswers answers;
+    for_each_answer(item, [&](const ParticipantData& participant, const core::TrialRow& trial,
+                              const std::string& given) {
+      if (const std::optional<double> value = value_of(item, given)) {
+        answers[participant.participant].push_back(rated(block_, trial, *value));
+      }
+    });
+    if (answers.empty()) return;
+    add_rated(section_,
+              {.prefix = prefix_of(item),
+               .words = words_of(item),
+               .unit = item.unit.empty() ? "1" : item.unit,
+               .has_fixed_levels = block_.has_fixed_levels()},
+              answers);
+  }
+
+  [[nodiscard]] ResultsSection finish() && {
+    for (const ParticipantData& participant : data_.participants) {
+      const auto asked = static_cast<std::int64_t>(trials_of(participant, block_.block).size() *
+                                                   block_.written.questions.size());
+      const auto given = std::ranges::count_if(
+          participant.question_answers, [&](const core::QuestionAnswerRow& row) {
+            return row.block == block_.block && row.answer != experiments::kNoAnswer;
+          });
+      if (given >= asked) continue;
+      section_.excluded.push_back(
+          {participant.participant, block_.block + ": " + std::to_string(asked - given) +
+                                        " of " + std::to_string(asked) +
+                                        " questions after trials were not answered"});
+    }
+    return std::move(section_);
+  }
+
+ private:
+  [[nodiscard]] std::string prefix_of(const Item& item) const {
+    return block_.block + ".question." + item.name;
+  }
+
+  template <typename Visit>
+  void for_each_answer(const Item& item, Visit visit) const {
+    for (const ParticipantData& participant : data_.participants) {
+      std::map<std::pair<std::int64_t, std::int64_t>, const std::string*> given;
+      for (const core::QuestionAnswerRow& row : participant.question_answers) {
+        if (row.question == item.name && row.block == block_.block) {
+          given[{row.session, row.trial}] = &row.answer;
+        }
+      }
+      for (const core::TrialRow* const trial : trials_of(participant, block_.block)) {
+        const auto found = given.find({trial->session, trial->trial});
+        if (found != given.end()) visit(participant, *trial, *found->second);
+      }
+    }
+  }
+
+  /// How often each answer was given: the mean over participants of their shares.
+  void add_shares(const Item& item) {
+    std::vector<std::string> options = {"yes", "no"};
+    if (item.kind == "choice") {
+      options.clear();
+      for (const experiments::Option& option : item.options) options.push_back(option.value);
+    }
+    std::map<std::string, std::map<std::string, int>> counts;
+    for_each_answer(item, [&](const ParticipantData& participant, const core::TrialRow&,
+                              const std::string& given) {
+      if (given == experiments::kNoAnswer) return;
+      ++counts[participant.participant][given.starts_with("yes: ") ? "yes" : given];
+    });
+    for (const std::string& option : options) {
+      std::vector<double> shares;
+      for (auto& [participant, own] : counts) {
+        int all = 0;
+        for (const auto& [answer, count] : own) all += count;
+        shares.push_back(static_cast<double>(own[option]) / all);
+      }
+      add_mean(section_, prefix_of(item) + "." + option,
+               "share of trials answered \"" + option +
+                   "\", mean of the participants' own: " + in_english(item.question),
+               shares);
+    }
+  }
+
+  void add_free_answers(const Item& item) {
+    for_each_answer(item, [&](const ParticipantData& participant, const core::TrialRow& trial,
+                              const std::string& given) {
+      const bool which = item.kind == "yes_no_which";
+      if (given == experiments::kNoAnswer || (which && !given.starts_with("yes: "))) return;
+      section_.free_answers.push_back(
+          {participant.participant, block_.block + "." + item.name, in_english(item.question),
+           "trial " + std::to_string(trial.trial) + ": " + (which ? given.substr(5) : given)});
+    });
+  }
+
+  const StudyData& data_;
+  const BlockDesign& block_;
+  ResultsSection section_;
+};
+
+}  // namespace
+
+ResultsSection question_results(const StudyData& data, const BlockDesign& block) {
+  QuestionSection section(data, block);
+  for (const Item& item : block.written.questions) section.add(item);
+  return std::move(section).finish();
+}
+
+ResultsSection rating_results(const StudyData& data, const BlockDesign& block) {
+  ResultsSection section{.name = block.block};
+  RatedAnswers answers;
+  for (const ParticipantData& participant : data.participants) {
+    for (const core::TrialRow& trial : participant.trials_in(block.block)) {
+      if (trial.response) {
+        answers[participant.participant].push_back(
+            {.value = *trial.response, .level = trial.intensity});
+      }
+    }
+    if (!answers.contains(participant.participant)) {
+      name_without_answers(section.excluded, participant, block.block);
+    }
+  }
+  if (answers.empty()) return section;
+  const RatedName name{.prefix = block.block + ".rating",
+                       .words = "step from 1, “" + in_english(block.written.low_label) +
+                                "”, to " +
+                                number_text(block.written.settings.number("num_steps", 10.0)) +
+                                ", “" + in_english(block.written.high_label) + "”",
+                       .has_fixed_levels = true};
+  add_rated(section, name, answers);
+  add_trend_per_doubling(section, name, answers);
+  return section;
+}
+
+}  // namespace jnd::analysis

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "experiments/procedures/procedure.h"
+
+namespace jnd::experiments {
+
+/// Category rating: each stimulus is put on a step of a scale whose ends have labels. There is
+/// no standard and no modulus; every stimulus comes once in each repetition. The response is
+/// the step, from 1.
+class Rating final : public Procedure {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "rating"; }
+  [[nodiscard]] std::string words() const override { return "rating on a scale"; }
+  [[nodiscard]] std::string meaning() const override;
+  [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] TrialForm form(const Block&) const override {
+    return {.answer = AnswerKind::kStep};
+  }
+  [[nodiscard]] Measure measures(const Block&) const override { return Measure::kRating; }
+  [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
+                                                    const std::vector<AnsweredTrial>& answered,
+                                                    core::RandomStream& stream) const override;
+  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+};
+
+/// The last step of the scale of a block that rates.
+[[nodiscard]] int num_steps_of(const Block& block);
+
+}  // namespace jnd::experiments
