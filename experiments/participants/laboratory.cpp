@@ -351,9 +351,9 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
   std::vector<std::string> problems;
   Laboratory laboratory{.text = text};
   static const std::set<std::string> kKeys = {
-      "format",   "name",    "title",     "comment",  "calibrated_on", "device",  "arm",
-      "movement", "strokes", "perceiver", "pressing", "answers",       "implied", "effects",
-      "questions"};
+      "format",   "name",    "title",    "comment", "calibrated_on",
+      "device",   "arm",     "movement", "strokes", "perceiver",
+      "pressing", "answers", "implied",  "effects", "questions"};
   for (const auto& [key, value] : file.items()) {
     if (!kKeys.contains(key)) problems.push_back("/" + shown_text(key) + ": unknown key");
   }
