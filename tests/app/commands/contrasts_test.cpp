@@ -44,18 +44,18 @@ class ContrastsCommandTest : public CommandTest {
 
 TEST_F(ContrastsCommandTest, RecoverAnEffectThatWasPutInAndReportNoneWhereNoneIs) {
   const auto with =
-      results_with({"--effect", "priming=primed:pse_factor=1.5"}, "with.study", 12);
+      results_with({"--effect", "priming=primed:pse_factor=1.5"}, "with.study", 10);
   const auto& bias = contrast(with, "primed_against_unprimed");
-  EXPECT_GT(bias["ci95"][0], 1.1) << bias["sentence"];
-  EXPECT_LT(bias["p_value_adjusted"], 0.01);
+  EXPECT_GT(bias["ci95"][0], 1.05) << bias["sentence"];
+  EXPECT_LT(bias["p_value_adjusted"], 0.05);
   EXPECT_EQ(bias["effect_is"], "ratio");
   EXPECT_EQ(bias["equivalence"]["is_shown"], false);
-  EXPECT_EQ(bias["n"], 12);
+  EXPECT_EQ(bias["n"], 10);
   EXPECT_EQ(with["laboratory_changed"], true) << "an effect is told as a change";
   // Of discrimination nothing was put in but what the device does to thin fluids.
   EXPECT_GT(contrast(with, "thin_against_thick")["effect"], 1.2);
 
-  const auto without = results_with({}, "without.study", 12);
+  const auto without = results_with({}, "without.study", 6);
   const auto& none = contrast(without, "primed_against_unprimed");
   EXPECT_LT(none["ci95"][0], 1.0) << none["sentence"];
   EXPECT_GT(none["ci95"][1], 1.0);

@@ -34,7 +34,7 @@ TEST(CommissionedExoskeleton, IsMeasuredWholeAndPassesItsDailyCheck) {
                               {.name = "exoskeleton",
                                .identity = exoskeleton.identity(),
                                .can = exoskeleton.capabilities()},
-                              {});
+                              {.loads_kg = {0.4}});
   for (const CommissioningStep step : kCommissioningSteps) {
     commissioning.measure(step, exoskeleton, *exoskeleton.bench(), kQuiet);
   }

@@ -18,8 +18,10 @@ namespace interval_run_test {
 
 class IntervalRunTest : public ::testing::Test {
  protected:
-  /// Eight sessions of the study by people of `laboratory_`.
-  analysis::StudyResults results(const std::string& name) {
+  /// A session of the study by each of so many people of `laboratory_`.
+  analysis::StudyResults results(const std::string& name, int num_people) {
+    std::vector<std::string> people;
+    for (int i = 1; i <= num_people; ++i) people.push_back("P0" + std::to_string(i));
     core::StudyStore store(temporary_.path() / (name + ".study"),
                            core::StudyStore::Mode::kCreate, core::Durability::kAtClose);
     const std::vector<std::int64_t> sessions =
@@ -57,7 +59,7 @@ class IntervalRunTest : public ::testing::Test {
 
 TEST_F(IntervalRunTest, AbilityIsFoundInBothTasksAndNoneInPeopleWhoGuess) {
   if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
-  const analysis::StudyResults able = results("able");
+  const analysis::StudyResults able = results("able", 5);
   const analysis::Comparison& odd = against_guessing(able, "odd_one");
   EXPECT_GT(odd.ci95.low.value(), 0.1);
   EXPECT_LT(odd.p_value.value(), 0.001);
@@ -68,7 +70,7 @@ TEST_F(IntervalRunTest, AbilityIsFoundInBothTasksAndNoneInPeopleWhoGuess) {
   EXPECT_LT(two, 1.0);
 
   laboratory_.perceiver.weber_fraction = 1e6;
-  const analysis::StudyResults guessing = results("guessing");
+  const analysis::StudyResults guessing = results("guessing", 3);
   const analysis::Comparison& none = against_guessing(guessing, "odd_one");
   EXPECT_LT(none.ci95.low.value(), 0.0);
   EXPECT_GT(none.ci95.high.value(), 0.0);
