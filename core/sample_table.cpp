@@ -1,52 +1,84 @@
 #include "core/sample_table.h"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 namespace jnd::core {
 namespace {
 
-void add_vector_names(std::vector<std::string>& names, const std::string& what,
-                      const char* unit) {
-  for (const char* axis : {"_x_", "_y_", "_z_"}) names.push_back(what + axis + unit);
+constexpr std::string_view kAxes[] = {"x", "y", "z"};
+
+/// The three columns of a vector: of a part, or of an array that has no parts.
+void add_vector(std::vector<SampleColumn>& columns, std::string_view part,
+                const std::string& quantity, const std::string& unit) {
+  const std::string front = part.empty() ? quantity : std::string(part) + "_" + quantity;
+  for (const std::string_view axis : kAxes) {
+    columns.push_back({.name = front + "_" + std::string(axis) + "_" + unit,
+                       .array = quantity + "_" + unit,
+                       .part = std::string(part),
+                       .component = std::string(axis)});
+  }
+}
+
+void add_joints(std::vector<SampleColumn>& columns, const std::string& quantity) {
+  for (const std::string_view joint : kJointNames) {
+    columns.push_back({.name = std::string(joint) + "_" + quantity,
+                       .array = "joint_" + quantity,
+                       .part = std::string(joint),
+                       .component = ""});
+  }
+}
+
+void add_alone(std::vector<SampleColumn>& columns, const char* name) {
+  columns.push_back({.name = name, .array = name, .part = "", .component = ""});
 }
 
 }  // namespace
 
-std::vector<std::string> sample_column_names(const SampleColumns& columns) {
-  std::vector<std::string> names = {"tick"};
-  if (columns.times) names.insert(names.end(), {"monotonic_s", "device_time_s"});
+std::vector<SampleColumn> sample_columns(const SampleColumns& which) {
+  std::vector<SampleColumn> columns;
+  add_alone(columns, "tick");
+  if (which.times) {
+    add_alone(columns, "monotonic_s");
+    add_alone(columns, "device_time_s");
+  }
   for (const std::string_view point : kContactPointNames) {
-    add_vector_names(names, std::string(point) + "_position", "m");
-    add_vector_names(names, std::string(point) + "_velocity", "m_per_s");
-    add_vector_names(names, std::string(point) + "_force", "n");
+    add_vector(columns, point, "position", "m");
+    add_vector(columns, point, "velocity", "m_per_s");
+    add_vector(columns, point, "force", "n");
   }
-  add_vector_names(names, "end_effector_position", "m");
-  if (columns.joints) {
-    for (const std::string_view joint : kJointNames) {
-      names.push_back(std::string(joint) + "_position_rad");
-    }
-    for (const std::string_view joint : kJointNames) {
-      names.push_back(std::string(joint) + "_torque_n_m");
-    }
+  add_vector(columns, "", "end_effector_position", "m");
+  if (which.joints) {
+    add_joints(columns, "position_rad");
+    add_joints(columns, "torque_n_m");
   }
-  if ((columns.channels & kMeasuredForce) != 0) {
+  if ((which.channels & kMeasuredForce) != 0) {
     for (const std::string_view point : kContactPointNames) {
-      add_vector_names(names, std::string(point) + "_measured_force", "n");
+      add_vector(columns, point, "measured_force", "n");
     }
   }
-  if ((columns.channels & kOrientation) != 0) {
+  if ((which.channels & kOrientation) != 0) {
+    const std::string array = "end_effector_orientation";
     for (const char* part : {"w", "x", "y", "z"}) {
-      names.push_back(std::string("end_effector_orientation_") + part);
+      columns.push_back(
+          {.name = array + "_" + part, .array = array, .part = "", .component = part});
     }
   }
-  if ((columns.channels & kTorque) != 0) {
-    add_vector_names(names, "end_effector_torque", "n_m");
+  if ((which.channels & kTorque) != 0) {
+    add_vector(columns, "", "end_effector_torque", "n_m");
   }
-  if ((columns.channels & kGripper) != 0) names.emplace_back("gripper_m");
-  if ((columns.channels & kButtons) != 0) names.emplace_back("buttons");
+  if ((which.channels & kGripper) != 0) add_alone(columns, "gripper_m");
+  if ((which.channels & kButtons) != 0) add_alone(columns, "buttons");
   for (const char* flag : {"attached_bits", "immersed_bits", "limited", "fault"}) {
-    names.emplace_back(flag);
+    add_alone(columns, flag);
   }
+  return columns;
+}
+
+std::vector<std::string> sample_column_names(const SampleColumns& which) {
+  std::vector<std::string> names;
+  for (SampleColumn& column : sample_columns(which)) names.push_back(std::move(column.name));
   return names;
 }
 

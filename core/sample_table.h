@@ -21,8 +21,19 @@ struct SampleColumns {
   }
 };
 
+/// One column of such a table. Files that hold arrays put those of one `array` together: the
+/// force on five points along three axes is one array.
+struct SampleColumn {
+  std::string name;       ///< "palm_inner_force_x_n"
+  std::string array;      ///< "force_n"; the name where it stands alone.
+  std::string part;       ///< "palm_inner": a point or a joint; "": the array has none.
+  std::string component;  ///< "x"; "": the array has none.
+};
+
 /// A sample as a row of a table, for files that people and other programs read: one spelling of
-/// its columns for all of them. Units end the names. Not real time.
+/// its columns for all of them. Units end the names. The columns of an array come by part, then
+/// by component. Not real time.
+[[nodiscard]] std::vector<SampleColumn> sample_columns(const SampleColumns& columns);
 [[nodiscard]] std::vector<std::string> sample_column_names(const SampleColumns& columns);
 
 /// In the order of `sample_column_names`. Whole numbers (tick, bits) are exact.

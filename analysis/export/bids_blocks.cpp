@@ -25,19 +25,18 @@ void widen(BidsBlock& block, std::int64_t first_tick, std::int64_t last_tick) {
 }
 
 std::vector<BidsBlock> blocks_of_trials(const core::StudyStore& store,
-                                        const core::SessionRow& session) {
+                                        const core::SessionRow& session,
+                                        const ExportSelection& selection) {
   std::vector<BidsBlock> blocks;
-  const std::vector<ExportedTrial> trials = exported_trials(store, session.session);
-  std::map<std::int64_t, std::string> block_names;
+  const std::vector<ExportedTrial> trials = exported_trials(store, session.session, selection);
   for (const ExportedTrial& trial : trials) {
     BidsBlock& block = block_of(blocks, trial);
     widen(block, trial.row.first_tick, trial.row.last_tick);
     block.trials.push_back(trial);
-    block_names[trial.row.trial] = block.name;
   }
   for (ExportedPresentation& one : exported_presentations(store, session.session, trials)) {
     for (BidsBlock& block : blocks) {
-      if (block.name != block_names[one.row.trial]) continue;
+      if (block.name != one.block) continue;
       widen(block, one.row.first_tick, one.row.last_tick);
       block.presentations.push_back(std::move(one));
       break;
@@ -97,10 +96,12 @@ std::int64_t time_of(const std::vector<core::EventRow>& events, std::int64_t tic
 
 std::vector<BidsBlock> bids_blocks(const core::StudyStore& store,
                                    const core::SessionRow& session,
-                                   const std::vector<std::string>& stage_names) {
+                                   const std::vector<std::string>& stage_names,
+                                   const ExportSelection& selection) {
   const std::vector<core::EventRow> events = store.events(session.session);
-  std::vector<BidsBlock> blocks = blocks_of_trials(store, session);
+  std::vector<BidsBlock> blocks = blocks_of_trials(store, session, selection);
   for (BidsBlock& stage : explored_stages(events, stage_names)) {
+    if (!selection.blocks.empty()) break;
     const bool taken = std::ranges::any_of(
         blocks, [&](const BidsBlock& block) { return block.name == stage.name; });
     if (taken) stage.name += "_explored";

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/export/factor_columns.h"
 #include "analysis/export/table_rows.h"
 #include "core/storage/recorded_ticks.h"
 #include "core/storage/study_store.h"
@@ -33,10 +34,12 @@ struct BidsBlock {
 
 /// The blocks of a session that have an answered trial and the stages in which media were
 /// explored, in the order of their first ticks. A stage whose name is not known is "stageN",
-/// counted from 1; one that is named as a block is "NAME_explored".
+/// counted from 1; one that is named as a block is "NAME_explored". Where blocks are chosen,
+/// those alone.
 [[nodiscard]] std::vector<BidsBlock> bids_blocks(const core::StudyStore& store,
                                                  const core::SessionRow& session,
-                                                 const std::vector<std::string>& stage_names);
+                                                 const std::vector<std::string>& stage_names,
+                                                 const ExportSelection& selection);
 
 /// The front of a file's name, "sub-P01_ses-01_task-estimation", and what it stands for.
 struct BidsTask {
@@ -52,8 +55,9 @@ void write_bids_events(const std::filesystem::path& front, const BidsBlock& bloc
                        const std::vector<core::TickRange>& gaps);
 
 /// beh/..._beh.tsv and its sidecar: one row a trial whose answer stands, with a column
-/// question_NAME for each question that follows trials.
+/// question_NAME for each question that follows trials. `factors`: beside `trial_columns`.
 void write_bids_beh(const std::filesystem::path& folder, const BidsTask& task,
-                    const BidsBlock& block, const core::SessionRow& session);
+                    const BidsBlock& block, const core::SessionRow& session,
+                    FactorColumns& factors);
 
 }  // namespace jnd::analysis

@@ -103,6 +103,11 @@ std::string contents(const fs::path& folder, const BidsDataset& dataset) {
         "- `sourcedata/device_profiles/`: what was measured of the device before a session, by "
         "its `device_profile_sha256` in the study.\n";
   }
+  if (fs::exists(folder / "sourcedata" / "laboratories")) {
+    text +=
+        "- `sourcedata/laboratories/`: who was simulated, by the `laboratory_sha256` of a "
+        "visit.\n";
+  }
   if (fs::exists(folder / "derivatives")) {
     text += "- `derivatives/jnd/`: what `jnd results --json` says.\n";
   }

@@ -164,8 +164,8 @@ std::vector<QuestionColumn> question_columns_of(const BidsBlock& block) {
 }  // namespace
 
 void write_bids_beh(const fs::path& folder, const BidsTask& task, const BidsBlock& block,
-                    const core::SessionRow& session) {
-  const std::vector<CsvColumn>& all = trial_columns();
+                    const core::SessionRow& session, FactorColumns& factors) {
+  const std::vector<CsvColumn>& all = factors.columns();
   std::vector<CsvColumn> columns(all.begin() + kNumTrialOwners, all.end());
   const std::vector<QuestionColumn> asked = question_columns_of(block);
   for (const QuestionColumn& one : asked) {
@@ -173,7 +173,7 @@ void write_bids_beh(const fs::path& folder, const BidsTask& task, const BidsBloc
   }
   CsvTableWriter table(folder / (task.front + "_beh.tsv"), columns, TableStyle::kBids);
   for (const ExportedTrial& trial : block.trials) {
-    write_trial_cells(table, session, trial);
+    write_trial_cells(table, session, trial, factors);
     for (const QuestionColumn& one : asked) {
       const auto given = std::ranges::find_if(block.answers, [&](const ExportedAnswer& answer) {
         return answer.row.trial == trial.row.trial && answer.row.question == one.question;

@@ -15,6 +15,7 @@
 #include "analysis/export/csv_table_writer.h"
 #include "analysis/export/exported_profiles.h"
 #include "analysis/export/exported_recording.h"
+#include "analysis/export/study_tables.h"
 #include "analysis/export/unfinished_folder.h"
 #include "core/error.h"
 
@@ -53,11 +54,13 @@ class BidsExport {
       : store_(store),
         folder_(folder),
         options_(options),
-        dataset_(dataset_of(store, options)) {}
+        dataset_(dataset_of(store, options)),
+        factors_(store, dataset_.sessions, trial_columns()) {}
 
   ExportOutcome run(const std::string& results_json) {
     for (const core::SessionRow& session : dataset_.sessions) {
-      sessions_.push_back({session, bids_blocks(store_, session, stage_names(session))});
+      sessions_.push_back(
+          {session, bids_blocks(store_, session, stage_names(session), options_.selection)});
     }
     label_tasks();
     write_bids_participants(folder_.path(), dataset_, store_);
@@ -156,13 +159,13 @@ class BidsExport {
     std::vector<std::string> files;
     (block.trials.empty() ? dataset_.explored : dataset_.trials) = true;
     if (!block.trials.empty()) {
-      write_bids_beh(folder_.make(place / "beh"), task, block, session);
+      write_bids_beh(folder_.make(place / "beh"), task, block, session, factors_);
       files.push_back("beh/" + task.front + "_beh.tsv");
     }
     std::string motion;
     if (recording && recording->any()) {
-      motion =
-          write_bids_motion(folder_.make(place / "motion"), task, block, session, *recording);
+      motion = write_bids_motion(folder_.make(place / "motion"), task, block, session,
+                                 *recording, options_.selection);
     }
     if (motion.empty()) {
       write_bids_events(folder_.make(place / "beh") / task.front, block, session, {});
@@ -176,7 +179,10 @@ class BidsExport {
   void write_sourcedata() {
     const fs::path study = folder_.make(fs::path("sourcedata") / "jnd.study");
     copy_study_database(store_, dataset_.sessions, study);
-    if (options_.recordings) {
+    // Whoever chooses some of the samples does not want all of them beside.
+    const ExportSelection& selection = options_.selection;
+    if (options_.recordings && selection.blocks.empty() && selection.channels.empty() &&
+        selection.rate_hz == 0.0) {
       for (const core::SessionRow& session : dataset_.sessions) {
         copy_recording(store_, session.session, study);
       }
@@ -191,6 +197,17 @@ class BidsExport {
       write_text(protocols / name, protocol.text);
     }
     write_device_profiles();
+    write_laboratories();
+  }
+
+  void write_laboratories() {
+    const std::vector<ExportedLaboratory> laboratories =
+        exported_laboratories(dataset_.sessions);
+    if (laboratories.empty()) return;
+    const fs::path place = folder_.make(fs::path("sourcedata") / "laboratories");
+    for (const ExportedLaboratory& one : laboratories) {
+      write_text(place / one.file_name(), one.text);
+    }
   }
 
   void write_device_profiles() {
@@ -207,6 +224,7 @@ class BidsExport {
   const UnfinishedFolder& folder_;
   ExportOptions options_;
   BidsDataset dataset_;
+  FactorColumns factors_;
   std::vector<Session> sessions_;
   std::map<std::string, std::string> tasks_;  ///< Label of every block and stage.
 };

@@ -6,8 +6,7 @@
 
 #include "analysis/export/bids_text.h"
 #include "analysis/export/csv_table_writer.h"
-#include "analysis/export/recording_columns.h"
-#include "core/sample_table.h"
+#include "analysis/export/recording_rows.h"
 
 namespace jnd::analysis {
 namespace {
@@ -34,9 +33,9 @@ std::string component_of(const std::string& name) {
 
 /// BIDS has no type of force: it goes with what is miscellaneous.
 std::string bids_type_of(const RecordingColumn& column) {
-  if (column.name.ends_with("_position_rad")) return "JNTANG";
-  if (column.name.find("_orientation_") != std::string::npos) return "ORNT";
-  if (column.name.find("_position_") != std::string::npos) return "POS";
+  if (column.name().ends_with("_position_rad")) return "JNTANG";
+  if (column.name().find("_orientation_") != std::string::npos) return "ORNT";
+  if (column.name().find("_position_") != std::string::npos) return "POS";
   return column.unit == "m/s" ? "VEL" : "MISC";
 }
 
@@ -53,11 +52,11 @@ std::vector<BidsChannel> channels_of(const std::vector<RecordingColumn>& columns
   std::vector<BidsChannel> channels = {
       {"latency", "n/a", "LATENCY", "n/a", "s", "Time since the first sample of the task"}};
   for (const RecordingColumn& column : columns) {
-    if (column.name == "tick") continue;
-    channels.push_back({.name = column.name,
-                        .component = component_of(column.name),
+    if (column.name() == "tick") continue;
+    channels.push_back({.name = column.name(),
+                        .component = component_of(column.name()),
                         .type = bids_type_of(column),
-                        .tracked_point = tracked_point_of(column.name),
+                        .tracked_point = tracked_point_of(column.name()),
                         .units = column.unit,
                         .description = column.meaning});
   }
@@ -93,38 +92,40 @@ struct Written {
   std::vector<core::TickRange> gaps;
 };
 
-/// A row a tick from the block's first to its last, whatever the recording lacks.
+/// A row a tick, or a few ticks, from the block's first to its last, whatever the recording
+/// lacks.
 Written write_samples(const fs::path& file, const BidsBlock& block, double rate_hz,
-                      const ExportedRecording& recording,
-                      const std::vector<RecordingColumn>& columns) {
+                      const RecordingRows& rows) {
+  const std::vector<RecordingColumn>& columns = rows.columns();
   std::vector<std::string> names;
-  for (const RecordingColumn& column : columns) names.push_back(column.name);
+  for (const RecordingColumn& column : columns) names.push_back(column.name());
   CsvTableWriter table(file, names, TableStyle::kBidsWithoutNames);
-  const core::SampleColumns which = recording.columns();
+  const std::int64_t step = rows.ticks_per_row();
+  const std::int64_t first = block.first_tick - block.first_tick % step;
   Written written;
-  std::int64_t next = block.first_tick;
+  std::int64_t next = first;
   const auto latency = [&](std::int64_t tick) {
-    table.cell(static_cast<double>(tick - block.first_tick) / rate_hz);
+    table.cell(static_cast<double>(tick - first) / rate_hz);
     ++written.num_rows;
   };
   const auto mark_missing = [&](std::int64_t end) {
-    if (next < end) written.gaps.push_back({next, end - 1});
-    for (; next < end; ++next) {
+    if (next < end) written.gaps.push_back({std::max(next, block.first_tick), end - 1});
+    for (; next < end; next += step) {
       latency(next);
       for (std::size_t i = 1; i < columns.size(); ++i) table.nothing();
       table.end_row();
     }
   };
-  recording.read(block.first_tick, block.last_tick, [&](const core::Sample& sample) {
-    if (sample.tick < next) return;  // Told before, by an earlier segment.
-    mark_missing(sample.tick);
-    latency(sample.tick);
-    const std::vector<double> values = core::sample_values(sample, which);
+  rows.read(block.first_tick, block.last_tick, [&](const std::vector<double>& values) {
+    const auto tick = static_cast<std::int64_t>(values.front());
+    if (tick < next) return;  // Told before, by an earlier segment.
+    mark_missing(tick);
+    latency(tick);
     for (std::size_t i = 1; i < values.size(); ++i) {
       table.fixed_cell(values[i], columns[i].decimals, columns[i].tolerance);
     }
     table.end_row();
-    next = sample.tick + 1;
+    next = tick + step;
   });
   mark_missing(block.last_tick + 1);
   table.finish();
@@ -132,7 +133,8 @@ Written write_samples(const fs::path& file, const BidsBlock& block, double rate_
 }
 
 void write_sidecar(const fs::path& front, const BidsTask& task, const core::SessionRow& session,
-                   const std::vector<BidsChannel>& channels, std::int64_t num_rows) {
+                   const std::vector<BidsChannel>& channels, double rate_hz,
+                   std::int64_t num_rows) {
   std::map<std::string, int> num_of;
   std::vector<std::string> points;
   for (const BidsChannel& channel : channels) {
@@ -143,9 +145,9 @@ void write_sidecar(const fs::path& front, const BidsTask& task, const core::Sess
   const nlohmann::ordered_json sidecar = {
       {"TaskName", task.task_name},
       {"TaskDescription", task.description},
-      {"SamplingFrequency", session.rate_hz},
-      {"SamplingFrequencyEffective", session.rate_hz},
-      {"RecordingDuration", static_cast<double>(num_rows) / session.rate_hz},
+      {"SamplingFrequency", rate_hz},
+      {"SamplingFrequencyEffective", rate_hz},
+      {"RecordingDuration", static_cast<double>(num_rows) / rate_hz},
       {"RecordingType", "continuous"},
       {"TrackingSystemName", "haptic"},
       {"ManufacturersModelName",
@@ -172,16 +174,17 @@ bool holds_any(const ExportedRecording& recording, const BidsBlock& block) {
 
 std::string write_bids_motion(const fs::path& folder, const BidsTask& task,
                               const BidsBlock& block, const core::SessionRow& session,
-                              const ExportedRecording& recording) {
+                              const ExportedRecording& recording,
+                              const ExportSelection& selection) {
   if (!holds_any(recording, block)) return "";
   const fs::path front = folder / (task.front + "_tracksys-haptic");
-  const std::vector<RecordingColumn> columns = recording_columns(recording.columns());
-  const std::vector<BidsChannel> channels = channels_of(columns);
+  const RecordingRows rows(recording, session, selection,
+                           {{block.first_tick, block.last_tick}});
+  const std::vector<BidsChannel> channels = channels_of(rows.columns());
   std::string name = front.filename().string() + "_motion.tsv";
-  const Written written =
-      write_samples(folder / name, block, session.rate_hz, recording, columns);
-  write_channels(front, channels, session.rate_hz);
-  write_sidecar(front, task, session, channels, written.num_rows);
+  const Written written = write_samples(folder / name, block, session.rate_hz, rows);
+  write_channels(front, channels, rows.rate_hz());
+  write_sidecar(front, task, session, channels, rows.rate_hz(), written.num_rows);
   write_bids_events(front, block, session, written.gaps);
   return name;
 }

@@ -1,5 +1,6 @@
 #include "analysis/export/csv_export.h"
 
+#include <algorithm>
 #include <future>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,10 +14,10 @@
 #include "analysis/export/exported_profiles.h"
 #include "analysis/export/exported_recording.h"
 #include "analysis/export/recording_columns.h"
+#include "analysis/export/recording_rows.h"
 #include "analysis/export/study_tables.h"
 #include "analysis/export/table_rows.h"
 #include "analysis/export/unfinished_folder.h"
-#include "core/sample_table.h"
 
 namespace jnd::analysis {
 namespace {
@@ -68,7 +69,8 @@ class CsvExport {
       : store_(store),
         folder_(folder),
         options_(options),
-        sessions_(exported_sessions(store, options)) {
+        sessions_(exported_sessions(store, options)),
+        factors_(store, sessions_, trial_columns()) {
     find_fields();
   }
 
@@ -76,6 +78,8 @@ class CsvExport {
     write_tables();
     write_participants();
     write_device_profiles();
+    write_laboratories();
+    if (is_registered()) write_deviation_table();
     if (options_.recordings) write_recordings();
     write_codebook_table();
     return std::move(outcome_);
@@ -104,7 +108,8 @@ class CsvExport {
   /// All tables of rows that a session has, so that each is asked of the store once.
   void write_tables() {
     CsvTableWriter sessions = table("sessions.csv", session_columns());
-    CsvTableWriter trials = table("trials.csv", trial_columns());
+    CsvTableWriter session_values = table("session_values.csv", session_value_columns());
+    CsvTableWriter trials = table("trials.csv", factors_.columns());
     CsvTableWriter presentations = table("presentations.csv", presentation_columns());
     CsvTableWriter events = table("events.csv", event_columns());
     CsvTableWriter answers = table("answers.csv", answer_columns());
@@ -127,7 +132,8 @@ class CsvExport {
       next = read_ahead(i + 1);
       const core::SessionRow& session = sessions_[i];
       write_session(sessions, session, rows.completed, rows.events);
-      write_trials(trials, session, rows.trials);
+      write_session_values(session_values, session, rows.events);
+      write_trials(trials, session, rows.trials, factors_);
       write_presentations(presentations, session, rows.presentations);
       write_events(events, session, rows.events);
       write_answers(answers, session, rows.answers);
@@ -135,8 +141,8 @@ class CsvExport {
       write_questions(after_trials, session, rows.question_answers);
       count(session, rows);
     }
-    for (CsvTableWriter* one : {&sessions, &trials, &presentations, &events, &answers,
-                                &questionnaires, &after_trials}) {
+    for (CsvTableWriter* one : {&sessions, &session_values, &trials, &presentations, &events,
+                                &answers, &questionnaires, &after_trials}) {
       one->finish();
     }
   }
@@ -144,7 +150,7 @@ class CsvExport {
   [[nodiscard]] SessionRows read(const core::SessionRow& session,
                                  StudyQuestions& questions) const {
     SessionRows rows{.completed = store_.completed(session.session),
-                     .trials = exported_trials(store_, session.session),
+                     .trials = exported_trials(store_, session.session, options_.selection),
                      .events = store_.events(session.session),
                      .answers = store_.answers(session.session),
                      .questions = questions.of(session)};
@@ -187,6 +193,25 @@ class CsvExport {
     }
   }
 
+  [[nodiscard]] bool is_registered() const {
+    return !options_.preregistration.registered_on.empty();
+  }
+
+  void write_deviation_table() const {
+    CsvTableWriter rows = table("deviations.csv", deviation_columns());
+    write_deviations(rows, options_.preregistration);
+    rows.finish();
+  }
+
+  void write_laboratories() {
+    const std::vector<ExportedLaboratory> laboratories = exported_laboratories(sessions_);
+    if (laboratories.empty()) return;
+    const fs::path place = folder_.make("laboratories");
+    for (const ExportedLaboratory& one : laboratories) {
+      write_text(place / one.file_name(), one.text);
+    }
+  }
+
   void write_recordings() {
     (void)folder_.make("recordings");
     CsvTableWriter gaps = table("recordings/gaps.csv", gap_columns());
@@ -197,21 +222,31 @@ class CsvExport {
       const ExportedRecording recording(store_, session, options_);
       if (!recording.problem().empty()) outcome_.problems.push_back(recording.problem());
       write_gaps(gaps, session, recording);
-      if (recording.any()) write_recording(session, recording);
+      if (!recording.any()) continue;
+      const std::vector<ExportedTrial> trials =
+          exported_trials(store_, session.session, options_.selection);
+      write_recording(
+          session,
+          {recording, session, options_.selection,
+           ticks_of_blocks(trials, exported_presentations(store_, session.session, trials),
+                           options_.selection)});
     }
     gaps.finish();
   }
 
-  void write_recording(const core::SessionRow& session, const ExportedRecording& recording) {
-    const core::SampleColumns which = recording.columns();
-    any_columns_ = any_columns_ | which;
+  void write_recording(const core::SessionRow& session, const RecordingRows& rows) {
     outcome_.samples = true;
-    const std::vector<RecordingColumn> columns = recording_columns(which);
+    const std::vector<RecordingColumn>& columns = rows.columns();
+    std::vector<std::string> names;
+    for (const RecordingColumn& column : columns) {
+      names.push_back(column.name());
+      if (std::ranges::find(told_, column.name(), &RecordingColumn::name) == told_.end()) {
+        told_.push_back(column);
+      }
+    }
     const fs::path name = store_.recording_file(session.session).stem().concat(".csv");
-    CsvTableWriter samples(folder_.path() / "recordings" / name,
-                           core::sample_column_names(which), TableStyle::kCsv);
-    recording.read(0, INT64_MAX, [&](const core::Sample& sample) {
-      const std::vector<double> values = core::sample_values(sample, which);
+    CsvTableWriter samples(folder_.path() / "recordings" / name, names, TableStyle::kCsv);
+    rows.read([&](const std::vector<double>& values) {
       for (std::size_t i = 0; i < values.size(); ++i) {
         samples.fixed_cell(values[i], columns[i].decimals, columns[i].tolerance);
       }
@@ -225,8 +260,9 @@ class CsvExport {
     rows.cell("*.csv").cell("*").cell("").cell(kTextsOfTables).end_row();
     std::vector<std::pair<std::string, const std::vector<CsvColumn>*>> tables = {
         {"sessions.csv", &session_columns()},
+        {"session_values.csv", &session_value_columns()},
         {"participants.csv", &participant_columns_},
-        {"trials.csv", &trial_columns()},
+        {"trials.csv", &factors_.columns()},
         {"presentations.csv", &presentation_columns()},
         {"events.csv", &event_columns()},
         {"answers.csv", &answer_columns()},
@@ -234,10 +270,11 @@ class CsvExport {
         {"questions.csv", &question_columns()},
         {"codebook.csv", &codebook_columns()}};
     if (options_.recordings) tables.emplace_back("recordings/gaps.csv", &gap_columns());
+    if (is_registered()) tables.emplace_back("deviations.csv", &deviation_columns());
     write_codebook(rows, tables);
     if (options_.recordings) {
-      for (const RecordingColumn& column : recording_columns(any_columns_)) {
-        rows.cell("recordings/*.csv").cell(column.name).cell(column.unit);
+      for (const RecordingColumn& column : told_) {
+        rows.cell("recordings/*.csv").cell(column.name()).cell(column.unit);
         rows.cell(column.meaning).end_row();
       }
     }
@@ -253,10 +290,11 @@ class CsvExport {
   const UnfinishedFolder& folder_;
   const ExportOptions& options_;
   std::vector<core::SessionRow> sessions_;
+  FactorColumns factors_;
   std::map<std::string, Participant> participants_;
   std::vector<FieldColumn> fields_;
   std::vector<CsvColumn> participant_columns_;  ///< Its texts are those of `fields_`.
-  core::SampleColumns any_columns_;             ///< In any of the recordings.
+  std::vector<RecordingColumn> told_;           ///< In any of the recordings.
   ExportOutcome outcome_;
 };
 

@@ -1,7 +1,10 @@
 #include "analysis/export/hdf5_export.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +14,7 @@
 #include "analysis/export/hdf5_file.h"
 #include "analysis/export/hdf5_table_writer.h"
 #include "analysis/export/recording_columns.h"
+#include "analysis/export/recording_rows.h"
 #include "analysis/export/study_tables.h"
 #include "analysis/export/table_rows.h"
 #include "analysis/export/unfinished_folder.h"
@@ -27,34 +31,90 @@ std::string group_name(std::int64_t session) {
   return name;
 }
 
-Hdf5Number hdf5_type_of(const RecordingColumn& column) {
-  if (column.name == "tick" || column.name == "buttons") return Hdf5Number::kInt64;
-  return column.unit.empty() ? Hdf5Number::kUint8 : Hdf5Number::kDouble;
+/// What stands alone: ticks, times and flags as they are, all else as steps.
+std::optional<Hdf5Number> plain_type_of(const RecordingColumn& column) {
+  if (column.name() == "tick" || column.name() == "buttons") return Hdf5Number::kInt64;
+  if (column.is_flags) return Hdf5Number::kUint8;
+  // A time in steps of a microsecond would need more than 32 bits after an hour.
+  return column.unit == "s" ? std::optional(Hdf5Number::kDouble) : std::nullopt;
 }
 
-void write_samples(const Hdf5Group& group, const ExportedRecording& recording) {
-  const core::SampleColumns which = recording.columns();
-  const std::vector<RecordingColumn> columns = recording_columns(which);
-  std::vector<Hdf5Column> datasets;
-  std::vector<std::vector<double>> buffers(columns.size());
-  for (const RecordingColumn& column : columns) {
-    datasets.push_back(
-        group.column(column.name, hdf5_type_of(column), column.unit, column.meaning));
+/// Columns that lie side by side in one array.
+struct ArrayOfColumns {
+  Hdf5ArrayOptions options;
+  std::vector<std::size_t> columns;  ///< Part by part, places among those of the rows.
+};
+
+void add_part(std::vector<std::string>& parts, const std::string& part) {
+  if (std::ranges::find(parts, part) == parts.end()) parts.push_back(part);
+}
+
+std::vector<ArrayOfColumns> arrays_of(const std::vector<RecordingColumn>& columns) {
+  std::vector<ArrayOfColumns> arrays;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const RecordingColumn& column = columns[i];
+    if (plain_type_of(column)) continue;
+    auto its = std::ranges::find(arrays, column.column.array,
+                                 [](const ArrayOfColumns& one) { return one.options.name; });
+    if (its == arrays.end()) {
+      arrays.push_back({.options = {.name = column.column.array,
+                                    .unit = column.unit,
+                                    .meaning = column.meaning,
+                                    .step = column.step()}});
+      its = std::prev(arrays.end());
+      if (!column.column.part.empty()) {
+        its->options.dimensions.emplace_back(
+            column.unit == "rad" || column.unit == "N m" ? "joint" : "point");
+      }
+      if (!column.column.component.empty()) {
+        its->options.dimensions.emplace_back(column.unit == "1" ? "component" : "axis");
+      }
+      its->options.parts.resize(its->options.dimensions.size());
+    }
+    its->columns.push_back(i);
+    if (!column.column.part.empty()) add_part(its->options.parts.front(), column.column.part);
+    if (!column.column.component.empty()) {
+      add_part(its->options.parts.back(), column.column.component);
+    }
   }
+  return arrays;
+}
+
+void write_samples(const Hdf5Group& group, const RecordingRows& rows) {
+  const std::vector<RecordingColumn>& columns = rows.columns();
+  std::vector<std::size_t> plain;
+  std::vector<Hdf5Column> datasets;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::optional<Hdf5Number> type = plain_type_of(columns[i]);
+    if (!type) continue;
+    plain.push_back(i);
+    datasets.push_back(
+        group.column(columns[i].name(), *type, columns[i].unit, columns[i].meaning));
+  }
+  const std::vector<ArrayOfColumns> sets = arrays_of(columns);
+  std::vector<Hdf5Array> arrays;
+  for (const ArrayOfColumns& one : sets) arrays.push_back(group.array(one.options));
+  std::vector<std::vector<double>> buffers(plain.size());
   const auto flush = [&] {
-    for (std::size_t i = 0; i < columns.size(); ++i) {
+    for (std::size_t i = 0; i < plain.size(); ++i) {
       datasets[i].append(buffers[i]);
       buffers[i].clear();
     }
   };
-  recording.read(0, INT64_MAX, [&](const core::Sample& sample) {
-    const std::vector<double> values = core::sample_values(sample, which);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      buffers[i].push_back(on_grid(values[i], columns[i]));
+  std::vector<double> moment;
+  rows.read([&](const std::vector<double>& values) {
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      buffers[i].push_back(on_grid(values[plain[i]], columns[plain[i]]));
+    }
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      moment.clear();
+      for (const std::size_t column : sets[i].columns) moment.push_back(values[column]);
+      arrays[i].append(moment.data());
     }
     if (buffers.front().size() == Hdf5Column::kChunkRows) flush();
   });
   flush();
+  for (Hdf5Array& array : arrays) array.finish();
 }
 
 class Hdf5Export {
@@ -63,7 +123,8 @@ class Hdf5Export {
       : store_(store),
         options_(options),
         root_(root),
-        sessions_(exported_sessions(store, options)) {}
+        sessions_(exported_sessions(store, options)),
+        factors_(store, sessions_, trial_columns()) {}
 
   ExportOutcome run() {
     describe();
@@ -73,6 +134,11 @@ class Hdf5Export {
                       store_.events(session.session));
       }
     });
+    write_table(root_, "session_values", session_value_columns(), [this](TableWriter& table) {
+      for (const core::SessionRow& session : sessions_) {
+        write_session_values(table, session, store_.events(session.session));
+      }
+    });
     std::size_t num_done = 0;
     for (const core::SessionRow& session : sessions_) {
       if (options_.keep_going) options_.keep_going();
@@ -80,6 +146,12 @@ class Hdf5Export {
       write_one(root_.group(group_name(session.session)), session);
     }
     write_device_profiles();
+    write_laboratories();
+    if (!options_.preregistration.registered_on.empty()) {
+      write_table(root_, "deviations", deviation_columns(), [this](TableWriter& table) {
+        write_deviations(table, options_.preregistration);
+      });
+    }
     write_codebook_table();
     root_.texts("problems", outcome_.problems, "What recordings have lost; empty: nothing");
     return std::move(outcome_);
@@ -110,6 +182,19 @@ class Hdf5Export {
     group.texts("text", texts, "What was measured of the device, as JSON");
   }
 
+  void write_laboratories() const {
+    const std::vector<ExportedLaboratory> laboratories = exported_laboratories(sessions_);
+    if (laboratories.empty()) return;
+    std::vector<std::string> hashes, texts;
+    for (const ExportedLaboratory& one : laboratories) {
+      hashes.push_back(one.sha256);
+      texts.push_back(one.text);
+    }
+    const Hdf5Group group = root_.group("laboratories");
+    group.texts("sha256", hashes, "As in laboratory_sha256 of a session");
+    group.texts("text", texts, "Who was simulated, as JSON");
+  }
+
   static void write_table(const Hdf5Group& group, const std::string& name,
                           const std::vector<CsvColumn>& columns,
                           const std::function<void(TableWriter&)>& fill) {
@@ -136,14 +221,16 @@ class Hdf5Export {
 
   void write_one(const Hdf5Group& group, const core::SessionRow& session) {
     describe_session(group, session);
-    const std::vector<ExportedTrial> trials = exported_trials(store_, session.session);
+    const std::vector<ExportedTrial> trials =
+        exported_trials(store_, session.session, options_.selection);
+    const std::vector<ExportedPresentation> presentations =
+        exported_presentations(store_, session.session, trials);
     const std::vector<core::AnswerRow> answers = store_.answers(session.session);
     const ExportedRecording recording(store_, session, options_);
-    write_table(group, "trials", trial_columns(),
-                [&](TableWriter& table) { write_trials(table, session, trials); });
+    write_table(group, "trials", factors_.columns(),
+                [&](TableWriter& table) { write_trials(table, session, trials, factors_); });
     write_table(group, "presentations", presentation_columns(), [&](TableWriter& table) {
-      write_presentations(table, session,
-                          exported_presentations(store_, session.session, trials));
+      write_presentations(table, session, presentations);
     });
     write_table(group, "events", event_columns(), [&](TableWriter& table) {
       write_events(table, session, store_.events(session.session));
@@ -163,15 +250,28 @@ class Hdf5Export {
     group.attribute("missing_ticks", core::num_ticks(recording.gaps()));
     if (!recording.problem().empty()) outcome_.problems.push_back(recording.problem());
     if (!recording.any()) return;
-    any_columns_ = any_columns_ | recording.columns();
+    const RecordingRows rows(recording, session, options_.selection,
+                             ticks_of_blocks(trials, presentations, options_.selection));
+    for (const RecordingColumn& column : rows.columns()) tell(column);
     outcome_.samples = true;
-    write_samples(group, recording);
+    group.attribute("samples_rate_hz", rows.rate_hz());
+    group.attribute("ticks_per_sample", rows.ticks_per_row());
+    write_samples(group, rows);
+  }
+
+  /// For the codebook: each dataset once.
+  void tell(const RecordingColumn& column) {
+    const std::string& dataset = plain_type_of(column) ? column.name() : column.column.array;
+    if (std::ranges::find(told_, dataset, &RecordingColumn::name) != told_.end()) return;
+    told_.push_back(column);
+    told_.back().column.name = dataset;
   }
 
   void write_codebook_table() const {
     write_table(root_, "codebook", codebook_columns(), [this](TableWriter& table) {
       write_codebook(table, {{"sessions", &session_columns()},
-                             {"session_*/trials", &trial_columns()},
+                             {"session_values", &session_value_columns()},
+                             {"session_*/trials", &factors_.columns()},
                              {"session_*/presentations", &presentation_columns()},
                              {"session_*/events", &event_columns()},
                              {"session_*/answers", &answer_columns()},
@@ -179,8 +279,11 @@ class Hdf5Export {
                              {"session_*/questions", &question_columns()},
                              {"session_*/gaps", &gap_columns()},
                              {"codebook", &codebook_columns()}});
-      for (const RecordingColumn& column : recording_columns(any_columns_)) {
-        table.cell("session_*").cell(column.name).cell(column.unit);
+      if (!options_.preregistration.registered_on.empty()) {
+        write_codebook(table, {{"deviations", &deviation_columns()}});
+      }
+      for (const RecordingColumn& column : told_) {
+        table.cell("session_*").cell(column.name()).cell(column.unit);
         table.cell(column.meaning).end_row();
       }
     });
@@ -190,8 +293,9 @@ class Hdf5Export {
   const ExportOptions& options_;
   const Hdf5Group& root_;
   std::vector<core::SessionRow> sessions_;
+  FactorColumns factors_;
   StudyQuestions questions_{store_};
-  core::SampleColumns any_columns_;
+  std::vector<RecordingColumn> told_;  ///< Datasets of samples, of any session.
   ExportOutcome outcome_;
 };
 

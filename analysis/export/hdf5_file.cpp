@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -83,6 +85,14 @@ hid_t file_type(Hdf5Number type) {
   return H5T_IEEE_F64LE;
 }
 
+constexpr std::int32_t kMissingSteps = std::numeric_limits<std::int32_t>::min();
+
+std::int32_t steps_of(double number, double step) {
+  if (std::isnan(number)) return kMissingSteps;
+  constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::clamp(std::round(number / step), -kMost, kMost));
+}
+
 /// Without time stamps, which would make every file another one.
 Hdf5Handle dataset_settings(const std::string& place) {
   Hdf5Handle settings = handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, place);
@@ -137,6 +147,51 @@ void Hdf5Column::append(const void* numbers, std::size_t num_numbers,
         place_);
 }
 
+Hdf5Array::Hdf5Array(std::string place, Hdf5Handle dataset, std::vector<std::uint64_t> shape,
+                     double step)
+    : place_(std::move(place)),
+      dataset_(std::move(dataset)),
+      shape_(std::move(shape)),
+      step_(step) {
+  for (const std::uint64_t length : shape_) width_ *= length;
+  waiting_.resize(width_ * kChunkRows);
+}
+
+void Hdf5Array::append(const double* numbers) {
+  for (std::size_t i = 0; i < width_; ++i) {
+    waiting_[i * kChunkRows + num_waiting_] = steps_of(numbers[i], step_);
+  }
+  if (++num_waiting_ == kChunkRows) finish();
+}
+
+void Hdf5Array::finish() {
+  if (num_waiting_ == 0) return;
+  errno = 0;
+  std::vector<hsize_t> extent(shape_.begin(), shape_.end()), first(shape_.size(), 0),
+      count = extent, waiting = extent;
+  extent.push_back(num_rows_ + num_waiting_);
+  first.push_back(num_rows_);
+  count.push_back(num_waiting_);
+  waiting.push_back(kChunkRows);
+  const int rank = static_cast<int>(extent.size());
+  check(H5Dset_extent(dataset_.get(), extent.data()), place_);
+  const Hdf5Handle in_file = handle(H5Dget_space(dataset_.get()), H5Sclose, place_);
+  check(H5Sselect_hyperslab(in_file.get(), H5S_SELECT_SET, first.data(), nullptr, count.data(),
+                            nullptr),
+        place_);
+  const Hdf5Handle in_memory =
+      handle(H5Screate_simple(rank, waiting.data(), nullptr), H5Sclose, place_);
+  const std::vector<hsize_t> from(waiting.size(), 0);
+  check(H5Sselect_hyperslab(in_memory.get(), H5S_SELECT_SET, from.data(), nullptr, count.data(),
+                            nullptr),
+        place_);
+  check(H5Dwrite(dataset_.get(), H5T_NATIVE_INT32, in_memory.get(), in_file.get(), H5P_DEFAULT,
+                 waiting_.data()),
+        place_);
+  num_rows_ += num_waiting_;
+  num_waiting_ = 0;
+}
+
 Hdf5Group Hdf5Group::group(const std::string& name) const {
   const std::string place = place_ + "/" + name;
   errno = 0;
@@ -175,6 +230,46 @@ Hdf5Column Hdf5Group::column(const std::string& name, Hdf5Number type, const std
   if (!unit.empty()) write_text(dataset, "unit", unit, place);
   write_text(dataset, "meaning", meaning, place);
   return {place, std::move(dataset)};
+}
+
+Hdf5Array Hdf5Group::array(const Hdf5ArrayOptions& options) const {
+  const std::string place = place_ + "/" + options.name;
+  errno = 0;
+  std::vector<hsize_t> none, without_end, chunk;
+  std::string dimensions;
+  for (std::size_t i = 0; i < options.parts.size(); ++i) {
+    const hsize_t length = options.parts[i].size();
+    for (auto* dimension : {&none, &without_end, &chunk}) dimension->push_back(length);
+    dimensions += options.dimensions.at(i) + " ";
+  }
+  std::vector<std::uint64_t> shape(none.begin(), none.end());
+  none.push_back(0);
+  without_end.push_back(H5S_UNLIMITED);
+  chunk.push_back(Hdf5Array::kChunkRows);
+  const int rank = static_cast<int>(none.size());
+  const Hdf5Handle settings = dataset_settings(place);
+  check(H5Pset_chunk(settings.get(), rank, chunk.data()), place);
+  check(H5Pset_fill_value(settings.get(), H5T_NATIVE_INT32, &kMissingSteps), place);
+  check(H5Pset_shuffle(settings.get()), place);
+  check(H5Pset_deflate(settings.get(), kDeflateLevel), place);
+  const Hdf5Handle space =
+      handle(H5Screate_simple(rank, none.data(), without_end.data()), H5Sclose, place);
+  Hdf5Handle dataset = handle(H5Dcreate2(handle_.get(), options.name.c_str(), H5T_STD_I32LE,
+                                         space.get(), H5P_DEFAULT, settings.get(), H5P_DEFAULT),
+                              H5Dclose, place);
+  if (!options.unit.empty()) write_text(dataset, "unit", options.unit, place);
+  write_text(dataset, "meaning", options.meaning, place);
+  write_text(dataset, "dimensions", dimensions + "tick", place);
+  for (std::size_t i = 0; i < options.parts.size(); ++i) {
+    std::string names;
+    for (const std::string& part : options.parts[i]) names += (names.empty() ? "" : " ") + part;
+    write_text(dataset, options.dimensions[i] + "_names", names, place);
+  }
+  write_attribute(dataset, "scale_factor", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &options.step,
+                  place);
+  write_attribute(dataset, "_FillValue", H5T_STD_I32LE, H5T_NATIVE_INT32, &kMissingSteps,
+                  place);
+  return {place, std::move(dataset), std::move(shape), options.step};
 }
 
 void Hdf5Group::texts(const std::string& name, const std::vector<std::string>& texts,

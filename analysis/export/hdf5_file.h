@@ -48,6 +48,45 @@ class Hdf5Column {
   std::uint64_t num_rows_ = 0;
 };
 
+/// How an array of numbers is told and stored: as whole steps, which take an eighth of the room
+/// of doubles.
+struct Hdf5ArrayOptions {
+  std::string name, unit, meaning;
+  /// Names along the dimensions before that of time, as {"palm_inner", ...}, {"x", "y", "z"}.
+  std::vector<std::vector<std::string>> parts;
+  std::vector<std::string> dimensions;  ///< What these are: "point", "axis".
+  double step = 1.0;                    ///< The number is this times what is stored.
+};
+
+/// An array of 32-bit steps that grows along its last dimension, time: parts x ... x time. The
+/// attributes scale_factor and _FillValue are those of the CF conventions, which xarray and
+/// others apply by themselves.
+class Hdf5Array {
+ public:
+  static constexpr std::size_t kChunkRows = 2048;
+
+  /// How many numbers one moment has.
+  [[nodiscard]] std::size_t width() const noexcept { return width_; }
+  /// The numbers of one moment, `width` of them, the last part fastest. NaN: missing; what is
+  /// beyond 32 bits is stored as the largest. Throws `Error`.
+  void append(const double* numbers);
+  /// Has to be called once at the end. Throws `Error`.
+  void finish();
+
+ private:
+  friend class Hdf5Group;
+  Hdf5Array(std::string place, Hdf5Handle dataset, std::vector<std::uint64_t> shape,
+            double step);
+
+  std::string place_;
+  Hdf5Handle dataset_;
+  std::vector<std::uint64_t> shape_;  ///< Without time.
+  double step_;
+  std::size_t width_ = 1, num_waiting_ = 0;
+  std::vector<std::int32_t> waiting_;  ///< width x kChunkRows
+  std::uint64_t num_rows_ = 0;
+};
+
 /// A group of an HDF5 file, with attributes of text and numbers. All throw `Error` naming file
 /// and object. Not real time.
 class Hdf5Group {
@@ -60,6 +99,9 @@ class Hdf5Group {
   /// With the attributes `unit`, if it has one, and `meaning`.
   [[nodiscard]] Hdf5Column column(const std::string& name, Hdf5Number type,
                                   const std::string& unit, const std::string& meaning) const;
+  /// With the attributes `unit`, `meaning`, `dimensions`, the names of each dimension but time,
+  /// `scale_factor` and `_FillValue`.
+  [[nodiscard]] Hdf5Array array(const Hdf5ArrayOptions& options) const;
   /// A whole column of texts of one length, padded with zeros: ASCII, which every program
   /// reads, or UTF-8 where a text has more. With the attribute `meaning`.
   void texts(const std::string& name, const std::vector<std::string>& texts,

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "core/sample_table.h"
 
@@ -59,19 +60,24 @@ constexpr Unit kUnits[] = {{"_n_m", "N m", 4, true},
 
 }  // namespace
 
+double RecordingColumn::step() const noexcept { return std::pow(10.0, -decimals); }
+
 std::vector<RecordingColumn> recording_columns(const core::SampleColumns& which) {
   std::vector<RecordingColumn> columns;
-  for (std::string& name : core::sample_column_names(which)) {
-    RecordingColumn column{.name = std::move(name)};
-    column.meaning = meaning_of(column.name);
+  for (core::SampleColumn& sample_column : core::sample_columns(which)) {
+    const std::string& name = sample_column.name;
+    RecordingColumn column{.index = columns.size(), .meaning = meaning_of(name)};
+    column.is_flags =
+        name.ends_with("_bits") || name == "limited" || name == "fault" || name == "buttons";
     for (const Unit& unit : kUnits) {
-      if (!column.name.ends_with(unit.ending)) continue;
+      if (!name.ends_with(unit.ending)) continue;
       column.unit = unit.unit;
       column.decimals = unit.decimals;
       // Single precision is coarser than the step from 8 rad on, so any value is rounded.
       if (unit.of_joints) column.tolerance = 0.5;
       break;
     }
+    column.column = std::move(sample_column);
     columns.push_back(std::move(column));
   }
   return columns;

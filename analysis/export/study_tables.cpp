@@ -8,7 +8,9 @@
 #include <string_view>
 #include <utility>
 
+#include "analysis/data/cell_arms.h"
 #include "analysis/export/table_columns.h"
+#include "core/storage/sha256.h"
 
 namespace jnd::analysis {
 namespace {
@@ -37,21 +39,18 @@ Columns<Cells> owned(Columns<Cells> columns) {
   return all;
 }
 
-/// On one line, so that tools which know no quoted line ends read the table, too.
-std::string on_one_line(const std::string& json_text) {
-  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(json_text, nullptr, false);
-  return json.is_discarded() ? json_text : json.dump();
-}
+using NamedValues = std::map<std::string, std::string>;
 
 /// What the participant got and brought.
 struct SessionStart {
-  std::string language, fields, fitting;
+  std::string language;
+  NamedValues fields, fitting;
 };
 
-/// "hand=left;sex=female": what stands under this key of an event.
-std::string pairs_in(const nlohmann::json& data, const char* key) {
+/// "hand=left;sex=female"
+std::string packed(const NamedValues& values) {
   std::string text;
-  for (const auto& [name, value] : data.value(key, std::map<std::string, std::string>{})) {
+  for (const auto& [name, value] : values) {
     text += (text.empty() ? "" : ";") + name + "=" + value;
   }
   return text;
@@ -65,10 +64,10 @@ SessionStart start_of(const std::vector<core::EventRow>& events) {
     const auto data = nlohmann::json::parse(event.data, nullptr, false);
     if (!data.is_object()) continue;
     if (event.kind == "fitting_kept") {
-      start.fitting = pairs_in(data, "fitting");
+      start.fitting = data.value("fitting", NamedValues{});
     } else {
       start.language = data.value("language", "");
-      start.fields = pairs_in(data, "fields");
+      start.fields = data.value("fields", NamedValues{});
     }
   }
   return start;
@@ -80,6 +79,12 @@ struct SessionCells {
   const core::SessionRow& session;
   bool completed = false;
   SessionStart start;
+};
+struct SessionValueCells {
+  const core::SessionRow& session;
+  const char* kind;
+  const std::string& name;
+  const std::string& value;
 };
 struct TrialCells {
   const core::SessionRow& session;
@@ -128,18 +133,37 @@ const Columns<SessionCells>& session_table() {
         {{"fields", "",
           "What was known of the participant before, as in sex=female;hand=left; empty "
           "where nothing was asked"},
-         [](auto& to, const auto& it) { to.cell(it.start.fields); }});
+         [](auto& to, const auto& it) { to.cell(packed(it.start.fields)); }});
     insert_after(
         all, "fields",
         {{"fitting", "",
           "How the device was fitted to the participant, as in glove=M;thumb=thin pad; "
           "empty where nobody said. The event fitting_kept has where the points were"},
-         [](auto& to, const auto& it) { to.cell(it.start.fitting); }});
-    place_of(all, "laboratory")->put = [](auto& to, const auto& it) {
-      to.cell(on_one_line(it.session.laboratory));
-    };
+         [](auto& to, const auto& it) { to.cell(packed(it.start.fitting)); }});
+    *place_of(all, "laboratory") = {
+        {"laboratory_sha256", "",
+         "Of the simulated participants' laboratory, which is beside the tables; empty: "
+         "people"},
+        [](auto& to, const auto& it) {
+          const std::string& laboratory = it.session.laboratory;
+          to.cell(laboratory.empty() ? std::string() : core::sha256(laboratory));
+        }};
     return all;
   }();
+  return kColumns;
+}
+
+const Columns<SessionValueCells>& session_value_table() {
+  static const Columns<SessionValueCells> kColumns = owned(Columns<SessionValueCells>{
+      {{"kind", "",
+        "field: what was known of the participant before; arm: what a counterbalance gave "
+        "them; fitting: how the device was fitted to them"},
+       [](auto& to, const auto& it) { to.cell(it.kind); }},
+      {{"name", "", "Of the field, of the counterbalance, of the part that was fitted"},
+       [](auto& to, const auto& it) { to.cell(it.name); }},
+      {{"value", "", "As it was given or drawn"},
+       [](auto& to, const auto& it) { to.cell(it.value); }},
+  });
   return kColumns;
 }
 
@@ -153,6 +177,30 @@ const Columns<TrialCells>& trial_table() {
     insert_after(all, "reference_intensity",
                  {{"standard_medium", "", "What the reference stimulus is; empty: the medium"},
                   [](auto& to, const auto& it) { to.cell(it.trial.standard_medium); }});
+    // What `response` means depends on the procedure; of these each means one thing.
+    using enum experiments::Measure;
+    struct Answer {
+      experiments::Measure measure;
+      CsvColumn column;
+    };
+    for (const Answer& one :
+         {Answer{kMagnitude,
+                 {"magnitude", "", "Number that was given for how strong it feels", kReal}},
+          {kRating, {"rating", "", "Step of the scale, from 1", kReal}},
+          {kProducedMagnitude,
+           {"produced_intensity", "unit of quantity", "Set to feel like target_percent",
+            kReal}},
+          {kMatch,
+           {"matched_intensity", "unit of quantity", "Set to feel like the standard", kReal}},
+          {kComparison,
+           {"is_test_chosen", "", "1: the test was chosen, 0: the reference", kReal}},
+          {kDetection, {"is_felt", "", "1: yes, it is felt, 0: no", kReal}},
+          {kDifference, {"is_called_different", "", "1: different, 0: the same", kReal}},
+          {kIdentification, {"is_right", "", "1: the right interval, 0: another", kReal}}}) {
+      all.push_back({one.column, [measure = one.measure](auto& to, const auto& it) {
+                       to.cell(it.trial.response_if(measure));
+                     }});
+    }
     all.push_back(
         {{"excluded", "", "1: set aside; the event trial_excluded has the reason", kCount},
          [](auto& to, const auto& it) { to.cell(it.trial.excluded); }});
@@ -167,6 +215,9 @@ const Columns<PresentationCells>& presentation_table() {
         [](const PresentationCells& it) -> const core::PresentationRow& {
           return it.presentation.row;
         }));
+    insert_after(all, "trial",
+                 {{"block", "", "Block of the study file that its trial belongs to"},
+                  [](auto& to, const auto& it) { to.cell(it.presentation.block); }});
     all.push_back({{"excluded", "", "1: its trial is set aside", kCount},
                    [](auto& to, const auto& it) { to.cell(it.presentation.excluded); }});
     return all;
@@ -251,6 +302,11 @@ const std::vector<CsvColumn>& session_columns() {
   return kColumns;
 }
 
+const std::vector<CsvColumn>& session_value_columns() {
+  static const std::vector<CsvColumn> kColumns = told(session_value_table());
+  return kColumns;
+}
+
 const std::vector<CsvColumn>& trial_columns() {
   static const std::vector<CsvColumn> kColumns = told(trial_table());
   return kColumns;
@@ -308,20 +364,55 @@ const std::vector<CsvColumn>& codebook_columns() {
   return kColumns;
 }
 
+const std::vector<CsvColumn>& deviation_columns() {
+  static const std::vector<CsvColumn> kColumns = {
+      {"topic", "", "What is not as it was registered before anybody took part"},
+      {"planned", "", "As the preregistration has it"},
+      {"found", "", "As the study has it"},
+      {"registered_on", "", "Day of the preregistration"},
+      {"preregistration_sha256", "", "Identifies the preregistration"},
+  };
+  return kColumns;
+}
+
+void write_deviations(TableWriter& table, const PreregisteredStudy& preregistration) {
+  for (const Deviation& one : preregistration.deviations) {
+    table.cell(one.topic).cell(one.planned).cell(one.found);
+    table.cell(preregistration.registered_on).cell(preregistration.sha256).end_row();
+  }
+}
+
 void write_session(TableWriter& table, const core::SessionRow& session, bool completed,
                    const std::vector<core::EventRow>& events) {
   put(table, session_table(), {session, completed, start_of(events)}).end_row();
 }
 
+void write_session_values(TableWriter& table, const core::SessionRow& session,
+                          const std::vector<core::EventRow>& events) {
+  const SessionStart start = start_of(events);
+  const NamedValues arms = arms_of(session.cells);
+  for (const auto& [kind, values] : {std::pair<const char*, const NamedValues*>("arm", &arms),
+                                     {"field", &start.fields},
+                                     {"fitting", &start.fitting}}) {
+    for (const auto& [name, value] : *values) {
+      put(table, session_value_table(), {session, kind, name, value}).end_row();
+    }
+  }
+}
+
 void write_trial_cells(TableWriter& table, const core::SessionRow& session,
-                       const ExportedTrial& trial) {
+                       const ExportedTrial& trial, FactorColumns& factors) {
   put(table, trial_table(), {session, trial}, kNumTrialOwners);
+  factors.put(table, session, trial);
 }
 
 void write_trials(TableWriter& table, const core::SessionRow& session,
-                  const std::vector<ExportedTrial>& trials) {
-  for (const ExportedTrial& trial : trials)
-    put(table, trial_table(), {session, trial}).end_row();
+                  const std::vector<ExportedTrial>& trials, FactorColumns& factors) {
+  for (const ExportedTrial& trial : trials) {
+    put(table, trial_table(), {session, trial});
+    factors.put(table, session, trial);
+    table.end_row();
+  }
 }
 
 void write_presentations(TableWriter& table, const core::SessionRow& session,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/export/exported_recording.h"
+#include "analysis/export/factor_columns.h"
 #include "analysis/export/table_rows.h"
 #include "analysis/export/table_writer.h"
 
@@ -14,6 +15,7 @@ namespace jnd::analysis {
 // sets.
 
 [[nodiscard]] const std::vector<CsvColumn>& session_columns();
+[[nodiscard]] const std::vector<CsvColumn>& session_value_columns();
 [[nodiscard]] const std::vector<CsvColumn>& participant_columns();
 [[nodiscard]] const std::vector<CsvColumn>& trial_columns();
 [[nodiscard]] const std::vector<CsvColumn>& presentation_columns();
@@ -23,6 +25,7 @@ namespace jnd::analysis {
 [[nodiscard]] const std::vector<CsvColumn>& question_columns();
 [[nodiscard]] const std::vector<CsvColumn>& gap_columns();
 [[nodiscard]] const std::vector<CsvColumn>& codebook_columns();
+[[nodiscard]] const std::vector<CsvColumn>& deviation_columns();
 
 /// How many columns of trials say whose they are, not what was done: BIDS says that by the name
 /// of the file.
@@ -33,8 +36,12 @@ inline constexpr std::size_t kNumTrialOwners = 2;
 /// `events`: of the session.
 void write_session(TableWriter& table, const core::SessionRow& session, bool completed,
                    const std::vector<core::EventRow>& events);
+/// What was known of the participant, the arms of counterbalances and the fitting of the
+/// device, a row each.
+void write_session_values(TableWriter& table, const core::SessionRow& session,
+                          const std::vector<core::EventRow>& events);
 void write_trials(TableWriter& table, const core::SessionRow& session,
-                  const std::vector<ExportedTrial>& trials);
+                  const std::vector<ExportedTrial>& trials, FactorColumns& factors);
 void write_presentations(TableWriter& table, const core::SessionRow& session,
                          const std::vector<ExportedPresentation>& presentations);
 void write_events(TableWriter& table, const core::SessionRow& session,
@@ -54,13 +61,17 @@ void write_question_cells(TableWriter& table, const core::SessionRow& session,
 void write_gaps(TableWriter& table, const core::SessionRow& session,
                 const ExportedRecording& recording);
 
+/// A row for each thing that is not as it was registered.
+void write_deviations(TableWriter& table, const PreregisteredStudy& preregistration);
+
 /// A row for every column of every table, by the name that the data set gives the table.
 void write_codebook(
     TableWriter& table,
     const std::vector<std::pair<std::string, const std::vector<CsvColumn>*>>& tables);
 
-/// The cells of a trial after those of its owner, the row not ended: `simulated` is the first.
+/// The cells of a trial after those of its owner, the levels of factors last, the row not
+/// ended: `simulated` is the first.
 void write_trial_cells(TableWriter& table, const core::SessionRow& session,
-                       const ExportedTrial& trial);
+                       const ExportedTrial& trial, FactorColumns& factors);
 
 }  // namespace jnd::analysis

@@ -1,13 +1,23 @@
 #include "analysis/export/table_rows.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
 
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/study/question_answer.h"
 
 namespace jnd::analysis {
-std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,
-                                           std::int64_t session) {
+namespace {
+
+std::optional<experiments::Measure> measure_of(const experiments::Block& block) {
+  if (block.procedure.empty()) return std::nullopt;
+  return experiments::procedure_named(block.procedure).measures(block);
+}
+
+}  // namespace
+
+std::vector<ExportedTrial> exported_trials(const core::StudyStore& store, std::int64_t session,
+                                           const ExportSelection& selection) {
   std::vector<std::int64_t> standing;
   for (const core::TrialRow& row : store.trials(session)) standing.push_back(row.sequence);
   std::sort(standing.begin(), standing.end());
@@ -15,12 +25,14 @@ std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,
   StoredStudies studies(store);
   std::vector<ExportedTrial> trials;
   for (core::TrialRow& row : store.trials(session, true)) {
+    if (!is_exported(selection, row.block)) continue;
     const bool stands = std::binary_search(standing.begin(), standing.end(), row.sequence);
     const experiments::Block& block = studies.block(hash, row.block);
     trials.push_back({.row = std::move(row),
                       .excluded = !stands,
                       .is_practice = block.practice.has_value(),
-                      .standard_medium = block.standard_medium});
+                      .standard_medium = block.standard_medium,
+                      .measure = measure_of(block)});
   }
   return trials;
 }
@@ -28,14 +40,15 @@ std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,
 std::vector<ExportedPresentation> exported_presentations(
     const core::StudyStore& store, std::int64_t session,
     const std::vector<ExportedTrial>& trials) {
-  std::set<std::int64_t> excluded;
-  for (const ExportedTrial& trial : trials) {
-    if (trial.excluded) excluded.insert(trial.row.trial);
-  }
+  std::map<std::int64_t, const ExportedTrial*> by_number;
+  for (const ExportedTrial& trial : trials) by_number[trial.row.trial] = &trial;
   std::vector<ExportedPresentation> presentations;
   for (core::PresentationRow& row : store.presentations(session, true)) {
-    const bool is_excluded = excluded.contains(row.trial);
-    presentations.push_back({.row = std::move(row), .excluded = is_excluded});
+    const auto its = by_number.find(row.trial);
+    if (its == by_number.end()) continue;  // Of a block that was not chosen.
+    presentations.push_back({.row = std::move(row),
+                             .block = its->second->row.block,
+                             .excluded = its->second->excluded});
   }
   return presentations;
 }
@@ -43,19 +56,19 @@ std::vector<ExportedPresentation> exported_presentations(
 std::vector<ExportedAnswer> exported_question_answers(
     const core::StudyStore& store, std::int64_t session,
     const std::vector<ExportedTrial>& trials) {
-  std::set<std::int64_t> excluded;
-  for (const ExportedTrial& trial : trials) {
-    if (trial.excluded) excluded.insert(trial.row.trial);
-  }
+  std::map<std::int64_t, bool> excluded;
+  for (const ExportedTrial& trial : trials) excluded[trial.row.trial] = trial.excluded;
   const std::string hash = store.session(session).protocol_sha256;
   StoredStudies studies(store);
   std::vector<ExportedAnswer> answers;
   for (core::QuestionAnswerRow& row : store.question_answers(session, true)) {
+    const auto trial = excluded.find(row.trial);
+    if (trial == excluded.end()) continue;
     const experiments::Block& block = studies.block(hash, row.block);
     const auto asked =
         std::ranges::find(block.questions, row.question, &experiments::QuestionnaireItem::name);
     ExportedAnswer answer{.row = std::move(row)};
-    answer.excluded = excluded.contains(answer.row.trial);
+    answer.excluded = trial->second;
     if (asked != block.questions.end()) {
       answer.kind = asked->kind;
       answer.unit = asked->unit;
@@ -79,6 +92,28 @@ const std::vector<QuestionnaireItem>& StudyQuestions::of(const core::SessionRow&
     found->second = questionnaire_items(studies_.study(session.protocol_sha256));
   }
   return found->second;
+}
+
+std::vector<core::TickRange> ticks_of_blocks(
+    const std::vector<ExportedTrial>& trials,
+    const std::vector<ExportedPresentation>& presentations, const ExportSelection& selection) {
+  if (selection.blocks.empty()) return {};
+  std::map<std::string, core::TickRange> blocks;
+  const auto widen = [&](const std::string& block, std::int64_t first_tick,
+                         std::int64_t last_tick) {
+    core::TickRange& its = blocks.try_emplace(block, first_tick, last_tick).first->second;
+    its.first_tick = std::min(its.first_tick, first_tick);
+    its.last_tick = std::max(its.last_tick, last_tick);
+  };
+  for (const ExportedTrial& one : trials) {
+    widen(one.row.block, one.row.first_tick, one.row.last_tick);
+  }
+  for (const ExportedPresentation& one : presentations) {
+    widen(one.block, one.row.first_tick, one.row.last_tick);
+  }
+  std::vector<core::TickRange> ticks;
+  for (const auto& [block, its] : blocks) ticks.push_back(its);
+  return core::merged(std::move(ticks));
 }
 
 std::string field_column(const std::string& field, const std::vector<std::string>& taken) {

@@ -8,7 +8,10 @@
 
 #include "analysis/data/questionnaire_items.h"
 #include "analysis/data/stored_studies.h"
+#include "analysis/export/export_options.h"
+#include "core/storage/recorded_ticks.h"
 #include "core/storage/study_store.h"
+#include "experiments/procedures/procedure.h"
 
 namespace jnd::analysis {
 
@@ -18,10 +21,18 @@ struct ExportedTrial {
   bool excluded = false;        ///< Set aside with a reason.
   bool is_practice = false;     ///< Whether the trial belongs to a practice block.
   std::string standard_medium;  ///< Medium of the reference; "" where it is the block's own.
+  /// What its answer is; none where the study file has no such block.
+  std::optional<experiments::Measure> measure;
+
+  /// The answer, where it is one of that.
+  [[nodiscard]] std::optional<double> response_if(experiments::Measure wanted) const {
+    return measure == wanted ? row.response : std::nullopt;
+  }
 };
-/// In the order of the trials.
+/// Those of the chosen blocks, in the order of the trials.
 [[nodiscard]] std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,
-                                                         std::int64_t session);
+                                                         std::int64_t session,
+                                                         const ExportSelection& selection);
 
 /// The questions of study files, each file read once.
 class StudyQuestions {
@@ -37,6 +48,7 @@ class StudyQuestions {
 /// A presentation of such a trial.
 struct ExportedPresentation {
   core::PresentationRow row;
+  std::string block;      ///< Its trial's.
   bool excluded = false;  ///< Its trial is.
 };
 [[nodiscard]] std::vector<ExportedPresentation> exported_presentations(
@@ -55,6 +67,12 @@ struct ExportedAnswer {
 [[nodiscard]] std::vector<ExportedAnswer> exported_question_answers(
     const core::StudyStore& store, std::int64_t session,
     const std::vector<ExportedTrial>& trials);
+
+/// From the first to the last tick of each of the chosen blocks, ascending; empty where none is
+/// chosen.
+[[nodiscard]] std::vector<core::TickRange> ticks_of_blocks(
+    const std::vector<ExportedTrial>& trials,
+    const std::vector<ExportedPresentation>& presentations, const ExportSelection& selection);
 
 /// Of a field of the study in a table of participants: its name, or "field_NAME" where the
 /// table has a column of that name.

@@ -12,6 +12,8 @@
 #include "app/command_line/json_text.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
+#include "app/preregistration/deviations.h"
+#include "app/preregistration/preregistration.h"
 #include "app/results/noted_export.h"
 #include "app/results/results_output.h"
 #include "app/session/stored_session.h"
@@ -91,6 +93,22 @@ Written export_as(const ExportOptions& options, const core::StudyStore& store) {
   return {"tables and codebook.csv" + samples_text(outcome, asked), outcome.problems};
 }
 
+/// Only where it takes a while and much of a disk.
+void tell_size(const ExportOptions& options, const core::StudyStore& store) {
+  constexpr double kWorthTelling = 50e6, kTooLargeForMost = 500e6;
+  const bool is_text = options.format != "hdf5";
+  if (is_text && !options.data.recordings) return;
+  const analysis::ExpectedSize size = analysis::expected_size(store, options.data, is_text);
+  if (size.bytes < kWorthTelling) return;
+  std::printf("%s: %lld rows of samples of %lld sessions, about %.2g GB%s\n",
+              options.folder.c_str(), static_cast<long long>(size.num_rows),
+              static_cast<long long>(size.num_sessions), 1e-9 * size.bytes,
+              is_text && size.bytes > kTooLargeForMost
+                  ? "; --rate-hz and --channel take fewer, and hdf5 takes a tenth of that"
+                  : "");
+  std::fflush(stdout);
+}
+
 int run_export(ExportOptions options) {
   stop_on_signals();
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
@@ -104,8 +122,13 @@ int run_export(ExportOptions options) {
     if (!stop_requested()) return;
     throw core::Error(options.out + ": expected time to finish, found a signal to stop");
   };
+  // BIDS has them in its results.
+  if (options.format != "bids" && kept_preregistration(store)) {
+    options.data.preregistration = preregistered_study(store, analysis::load_study(store));
+  }
   const std::string forgotten =
       noted_export(store, options.out, options.format, options.data.pilot);
+  tell_size(options, store);
   const Written written = [&] {
     ProgressBar bar("export " + options.format);
     options.data.on_progress = [&bar](double done) { bar.show(done); };
@@ -138,6 +161,25 @@ void add_export(CLI::App& program, Invocation& invocation) {
   command->add_flag("--recordings", options->data.recordings,
                     "Also every sample; hdf5 always has them");
   command->add_flag("--pilot", options->data.pilot, "Also pilot sessions");
+  analysis::ExportSelection& selection = options->data.selection;
+  command
+      ->add_option("--participant", selection.participants,
+                   "Of this one alone; may be given several times")
+      ->type_name("PSEUDONYM");
+  command
+      ->add_option("--block", selection.blocks,
+                   "Trials and samples of this block alone; may be given several times")
+      ->type_name("NAME");
+  command
+      ->add_option("--channel", selection.channels,
+                   "Of samples this one alone, as position_m or force_n, beside ticks and "
+                   "flags; may be given several times")
+      ->type_name("NAME");
+  command
+      ->add_option("--rate-hz", selection.rate_hz,
+                   "Of samples, a whole fraction of the loop's: each row is the mean of its "
+                   "ticks")
+      ->check(CLI::PositiveNumber);
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run_export(*options); }; });
 }

@@ -249,7 +249,9 @@ TEST_F(BidsExportTest, SessionsTellWhatTheStudyKnowsOfAVisit) {
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(value(rows, 1, "session_id"), "ses-01");
   EXPECT_EQ(value(rows, 1, "simulated"), "1");
-  EXPECT_EQ(value(rows, 1, "laboratory"), R"({"name":"made"})");
+  EXPECT_EQ(read_file(out("sourcedata/laboratories/" + value(rows, 1, "laboratory_sha256") +
+                          ".json")),
+            R"({"name": "made"})");
   for (const char* column : {"cells", "seed", "realtime"}) (void)value(rows, 1, column);
   const nlohmann::json sidecar = json(out("sub-P01/sub-P01_sessions.json"));
   for (const std::string& column : rows[0]) {

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <locale>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "analysis/data/csv_table.h"
@@ -69,7 +71,7 @@ constexpr const char* kTables[] = {"sessions.csv", "trials.csv", "presentations.
                                    "events.csv", "answers.csv"};
 // Worked out of several tables, or of the study file.
 constexpr const char* kMadeTables[] = {"participants.csv", "questionnaires.csv",
-                                       "questions.csv", "codebook.csv"};
+                                       "questions.csv", "codebook.csv", "session_values.csv"};
 
 TEST_F(CsvExportTest, TheCodebookHasEveryColumnOfEveryTableAndNoOther) {
   export_csv(study_.store(), out(), {});
@@ -103,9 +105,12 @@ TEST_F(CsvExportTest, ColumnsHaveTheNamesOfTheDatabase) {
        fs::directory_iterator(test_support::source_folder() / "data" / "database")) {
     schema += read_file(layout.path());
   }
-  const std::set<std::string> kWorkedOut = {"simulated",   "excluded",        "completed",
-                                            "is_practice", "standard_medium", "language",
-                                            "fields",      "fitting"};
+  const std::set<std::string> kWorkedOut = {
+      "simulated",         "excluded",       "completed", "is_practice",
+      "standard_medium",   "language",       "fields",    "fitting",
+      "laboratory_sha256", "magnitude",      "rating",    "produced_intensity",
+      "matched_intensity", "is_test_chosen", "is_felt",   "is_called_different",
+      "is_right"};
   for (const char* name : kTables) {
     const CsvTable columns = table(name);
     for (const std::string& column : columns.columns()) {
@@ -289,7 +294,10 @@ TEST_F(CsvExportTest, EveryTableOfASimulatedStudySaysSoAndWhose) {
       EXPECT_EQ(cell(rows, row, "participant"), "P01") << name;
     }
   }
-  EXPECT_EQ(cell(table("sessions.csv"), 0, "laboratory"), R"({"name":"made"})") << "on a line";
+  const std::string laboratory = cell(table("sessions.csv"), 0, "laboratory_sha256");
+  EXPECT_EQ(test_support::read_file(out() / "laboratories" / (laboratory + ".json")),
+            "{\n  \"name\": \"made\"\n}")
+      << "word for word";
   EXPECT_EQ(cell(table("events.csv"), 0, "version"), "1");
 }
 
@@ -432,6 +440,76 @@ TEST_P(RecordingsExportTest, HaveARowASampleAndTheirColumnsInTheCodebook) {
     }
   }
   EXPECT_EQ(told, std::set<std::string>(samples.columns().begin(), samples.columns().end()));
+}
+
+/// A study of blocks with factors.
+class TidyExportTest : public ::testing::Test {
+ protected:
+  TidyExportTest() {
+    nlohmann::json study = nlohmann::json::parse(
+        read_file(test_support::source_folder() / "protocols" / "viscosity_priming.json"));
+    made_ = std::make_unique<HandMadeStudy>(study.dump());
+  }
+  [[nodiscard]] CsvTable table(const char* name) const {
+    return CsvTable::read(temporary_.path() / "out" / name);
+  }
+  [[nodiscard]] static std::string cell(const CsvTable& of, std::size_t row,
+                                        const char* column) {
+    return of.cell(row, of.find(column).value());
+  }
+  void write(const ExportSelection& selection = {}) {
+    export_csv(made_->store(), temporary_.path() / "out", {.selection = selection});
+  }
+
+  std::unique_ptr<HandMadeStudy> made_;
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+};
+
+TEST_F(TidyExportTest, EachTrialTellsItsConditionAndEachColumnOneThing) {
+  made_->add("P01", false, "", "priming=primed;sex=female");
+  (void)made_->answer({.block = "thick_fluids", .response = 1.0});
+  (void)made_->answer({.block = "thin_fluids", .response = 0.0});
+  made_->start(R"({"language": "de", "fields": {"handedness": "left"}})");
+  made_->keep("fitting_kept", R"({"fitting": {"glove": "M"}})");
+  write();
+  const CsvTable trials = table("trials.csv");
+  EXPECT_EQ(cell(trials, 0, "fluid"), "thick");
+  EXPECT_EQ(cell(trials, 0, "priming"), "primed");
+  EXPECT_EQ(cell(trials, 1, "fluid"), "thin");
+  EXPECT_EQ(cell(trials, 1, "priming"), "primed") << "people differ in it";
+  EXPECT_EQ(cell(trials, 0, "is_test_chosen"), "1");
+  EXPECT_EQ(cell(trials, 1, "is_test_chosen"), "0");
+  for (const char* other : {"magnitude", "rating", "produced_intensity", "matched_intensity",
+                            "is_felt", "is_called_different", "is_right"}) {
+    EXPECT_EQ(cell(trials, 0, other), "") << other;
+  }
+  const CsvTable values = table("session_values.csv");
+  std::set<std::string> rows;
+  for (std::size_t row = 0; row < values.num_rows(); ++row) {
+    rows.insert(cell(values, row, "kind") + " " + cell(values, row, "name") + " " +
+                cell(values, row, "value"));
+  }
+  EXPECT_EQ(rows, (std::set<std::string>{"arm priming primed", "arm sex female",
+                                         "field handedness left", "fitting glove M"}));
+}
+
+TEST_F(TidyExportTest, ASelectionHasThatParticipantAndThatBlockAndPresentationsTellTheirBlock) {
+  made_->add("P01");
+  (void)made_->answer({.block = "thick_fluids", .response = 1.0});
+  made_->move({.presentation = 1, .interval = "test", .intensity = 1.0});
+  (void)made_->answer({.block = "thin_fluids", .response = 0.0});
+  made_->move({.presentation = 1, .interval = "test", .intensity = 2.0});
+  made_->add("P02");
+  (void)made_->answer({.block = "thick_fluids", .response = 1.0});
+  write({.participants = {"P01"}, .blocks = {"thin_fluids"}});
+  const CsvTable sessions = table("sessions.csv"), trials = table("trials.csv"),
+                 presentations = table("presentations.csv");
+  ASSERT_EQ(sessions.num_rows(), 1U);
+  ASSERT_EQ(trials.num_rows(), 1U);
+  EXPECT_EQ(cell(trials, 0, "block"), "thin_fluids");
+  ASSERT_EQ(presentations.num_rows(), 1U);
+  EXPECT_EQ(cell(presentations, 0, "block"), "thin_fluids");
+  EXPECT_EQ(cell(presentations, 0, "intensity"), "2");
 }
 
 }  // namespace csv_export_test

@@ -1,5 +1,6 @@
 #include "analysis/export/hdf5_export.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
@@ -10,7 +11,6 @@
 
 #include "analysis/hand_made_study.h"
 #include "core/error.h"
-#include "core/sample_table.h"
 #include "core/storage/recording.h"
 #include "support/files.h"
 
@@ -65,6 +65,23 @@ class Hdf5ExportTest : public ::testing::Test {
     return value;
   }
 
+  [[nodiscard]] double number(const std::string& object, const char* attribute) const {
+    const hid_t opened = H5Fopen(file().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t found =
+        H5Aopen_by_name(opened, object.c_str(), attribute, H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(found, 0) << object << ' ' << attribute;
+    double value = NAN;
+    H5Aread(found, H5T_NATIVE_DOUBLE, &value);
+    H5Aclose(found);
+    H5Fclose(opened);
+    return value;
+  }
+  [[nodiscard]] bool has(const std::string& name) const {
+    const hid_t opened = H5Fopen(file().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const bool found = H5Lexists(opened, name.c_str(), H5P_DEFAULT) > 0;
+    H5Fclose(opened);
+    return found;
+  }
   [[nodiscard]] std::vector<std::int64_t> counts(const std::string& name) const {
     const hid_t opened = H5Fopen(file().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     const hid_t dataset = H5Dopen2(opened, name.c_str(), H5P_DEFAULT);
@@ -120,22 +137,118 @@ TEST_F(Hdf5ExportTest, HoldsEverySampleAsTheCsvDoes) {
   EXPECT_EQ(ticks[6], 6.0);
   EXPECT_EQ(ticks[7], 9.0) << "nothing is filled in";
   EXPECT_EQ(ticks.back(), kNumTicks - 1);
-  const std::vector<double> x = numbers("/session_0001/palm_inner_position_x_m");
-  const std::vector<double> z = numbers("/session_0001/middle_force_z_n");
-  for (std::size_t i = 0; i < ticks.size(); ++i) {
-    EXPECT_EQ(x[i], ticks[i] / 1e7) << i;
-    EXPECT_EQ(z[i], -ticks[i] / 1e3) << i;
+  // Point by point, axis by axis, in steps.
+  const std::size_t num = ticks.size();
+  const std::vector<double> position = numbers("/session_0001/position_m");
+  const std::vector<double> force = numbers("/session_0001/force_n");
+  ASSERT_EQ(position.size(), 15 * num);
+  ASSERT_EQ(force.size(), 15 * num);
+  for (std::size_t i = 0; i < num; ++i) {
+    EXPECT_EQ(position[i], ticks[i]) << i;
+    EXPECT_EQ(position[num + i], 0.0) << "along y";
+    EXPECT_EQ(force[(3 * 4 + 2) * num + i], -ticks[i]) << i;
   }
-  for (const std::string& name : core::sample_column_names({})) {
-    EXPECT_EQ(numbers("/session_0001/" + name).size(), ticks.size()) << name;
+  EXPECT_EQ(number("/session_0001/position_m", "scale_factor"), 1e-7);
+  EXPECT_EQ(number("/session_0001/force_n", "scale_factor"), 1e-3);
+  EXPECT_EQ(number("/session_0001/velocity_m_per_s", "scale_factor"), 1e-4);
+  for (const char* name : {"attached_bits", "immersed_bits", "limited", "fault"}) {
+    EXPECT_EQ(numbers("/session_0001/" + std::string(name)).size(), num) << name;
   }
+}
+
+TEST_F(Hdf5ExportTest, WhatIsNoNumberIsMissingAndWhatIsTooLargeIsTheLargest) {
+  fs::remove(study_.store().recording_file(1));
+  core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
+                               core::Durability::kAtClose);
+  core::Sample sample{.tick = 0};
+  sample.tip_position_m[0] = {std::nan(""), 1e9, -1e9};
+  writer.append(sample);
+  writer.flush();
+  export_hdf5(study_.store(), temporary_.path() / "out", {});
+  const std::vector<double> position = numbers("/session_0001/position_m");
+  EXPECT_EQ(position[0], number("/session_0001/position_m", "_FillValue"));
+  EXPECT_EQ(position[1], 2147483647.0);
+  EXPECT_EQ(position[2], -2147483647.0);
+}
+
+TEST_F(Hdf5ExportTest, IsAtMostFifteenTimesAsLargeAsTheRecording) {
+  // A hand that moves as a person's does and is felt with some noise: all points alike.
+  fs::remove(study_.store().recording_file(1));
+  {
+    core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
+                                 core::Durability::kAtClose);
+    for (std::int64_t tick = 0; tick < kNumTicks; ++tick) {
+      core::Sample sample{.tick = tick, .attached_bits = 31};
+      const double angle = 6.0 * 1e-3 * static_cast<double>(tick);
+      for (std::size_t point = 0; point < core::kNumContactPoints; ++point) {
+        sample.tip_position_m[point] = {0.1 * std::sin(angle), 0.01 * std::sin(0.3 * angle),
+                                        0.02 * std::cos(angle)};
+        sample.tip_velocity_m_per_s[point] = {0.6 * std::cos(angle), 0.0, 0.0};
+        sample.tip_force_n[point] = {-2.0 * std::cos(angle), 0.0, 0.0};
+      }
+      writer.append(sample);
+    }
+  }
+  export_hdf5(study_.store(), temporary_.path() / "out", {});
+  EXPECT_LE(fs::file_size(file()), 15 * fs::file_size(study_.store().recording_file(1)));
+}
+
+TEST_F(Hdf5ExportTest, OfOneChannelAtATenthOfTheRateEachRowIsTheMeanOfItsTicks) {
+  export_hdf5(study_.store(), temporary_.path() / "out",
+              {.selection = {.channels = {"position_m"}, .rate_hz = 100.0}});
+  const std::vector<double> ticks = numbers("/session_0001/tick");
+  ASSERT_EQ(ticks.size(), kNumTicks / 10);
+  EXPECT_EQ(ticks[1], 10.0);
+  const std::vector<double> x = numbers("/session_0001/position_m");
+  // 0 to 9 without 7 and 8: 30 / 8, to the step that is stored.
+  EXPECT_EQ(x[0], 4.0);
+  EXPECT_EQ(x[1], 15.0) << "10 to 19 have the mean 14.5";
+  EXPECT_EQ(numbers("/session_0001/attached_bits").at(3), 31.0);
+  EXPECT_FALSE(has("/session_0001/force_n"));
+  EXPECT_EQ(number("/session_0001", "samples_rate_hz"), 100.0);
+}
+
+TEST_F(Hdf5ExportTest, AChannelOrARateThatThereIsNotIsRefused) {
+  const auto message = [this](const ExportSelection& selection) {
+    try {
+      export_hdf5(study_.store(), temporary_.path() / "out", {.selection = selection});
+    } catch (const core::Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message({.channels = {"posture"}}),
+              testing::AllOf(testing::StartsWith("--channel: expected one of monotonic_s, "),
+                             testing::HasSubstr("found `posture`; nothing was written")));
+  EXPECT_EQ(message({.rate_hz = 300.0}),
+            "--rate-hz: expected the rate of session 1, which is 1000 Hz, or a whole fraction "
+            "of it, as 100, found 300; nothing was written");
+  EXPECT_THAT(message({.participants = {"P09"}}), testing::HasSubstr("found `P09`"));
+  EXPECT_EQ(message({.blocks = {"matching"}}),
+            "--block: expected a block with an answered trial, which are estimation, found "
+            "`matching`; nothing was written");
+  EXPECT_TRUE(fs::is_empty(temporary_.path())) << "nothing is left behind";
+}
+
+TEST_F(Hdf5ExportTest, OfABlockItHasThatBlocksTrialsAndTicks) {
+  (void)study_.answer(
+      {.block = "matching", .intensity = 2.0, .first_tick = 30, .last_tick = 39});
+  export_hdf5(study_.store(), temporary_.path() / "out",
+              {.selection = {.blocks = {"matching"}}, .pilot = true});
+  EXPECT_EQ(texts("/session_0002/trials/block"), std::vector<std::string>{"matching"});
+  EXPECT_EQ(texts("/session_0001/trials/block"), std::vector<std::string>{});
+  EXPECT_TRUE(numbers("/session_0001/tick").empty()) << "no tick of it in that session";
 }
 
 TEST_F(Hdf5ExportTest, UnitsAreAttributesAndSimulatedIsSaid) {
   export_hdf5(study_.store(), temporary_.path() / "out", {});
-  EXPECT_EQ(text("/session_0001/palm_inner_position_x_m", "unit"), "m");
-  EXPECT_EQ(text("/session_0001/palm_inner_velocity_y_m_per_s", "unit"), "m/s");
-  EXPECT_EQ(text("/session_0001/middle_force_z_n", "unit"), "N");
+  EXPECT_EQ(text("/session_0001/position_m", "unit"), "m");
+  EXPECT_EQ(text("/session_0001/velocity_m_per_s", "unit"), "m/s");
+  EXPECT_EQ(text("/session_0001/force_n", "unit"), "N");
+  EXPECT_EQ(text("/session_0001/force_n", "dimensions"), "point axis tick");
+  EXPECT_EQ(text("/session_0001/force_n", "point_names"),
+            "palm_inner palm_outer thumb index middle");
+  EXPECT_EQ(text("/session_0001/force_n", "axis_names"), "x y z");
   EXPECT_EQ(text("/session_0001", "participant"), "P01");
   EXPECT_NE(text("/", "content").find("SIMULATED"), std::string::npos);
 }
@@ -212,7 +325,8 @@ TEST_F(Hdf5ExportTest, JointsAreTheStepsThatWereStored) {
   writer.append(sample);
   writer.flush();
   export_hdf5(study_.store(), temporary_.path() / "out", {});
-  EXPECT_EQ(numbers("/session_0001/middle_proximal_position_rad"), std::vector<double>{1.5708});
+  EXPECT_EQ(numbers("/session_0001/joint_position_rad").at(21), 1570800.0);
+  EXPECT_EQ(number("/session_0001/joint_position_rad", "scale_factor"), 1e-6);
 }
 
 TEST_F(Hdf5ExportTest, OctaveLoadsIt) {
