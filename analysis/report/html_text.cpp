@@ -46,6 +46,22 @@ std::string name_cell(const std::string& text) {
   return cell + "<br><span class=\"meaning\">" + html_escaped(text.substr(end + 1)) + "</span>";
 }
 
+/// Words, a name, more words.
+std::string titled_cell(const std::string& text) {
+  const std::size_t end = text.find('\n');
+  std::string cell = html_escaped(text.substr(0, end));
+  if (end == std::string::npos) return cell;
+  const std::string rest = text.substr(end + 1);
+  const std::size_t name_end = rest.find('\n');
+  const std::string name = rest.substr(0, name_end);
+  cell += "<br><span class=\"meaning\">";
+  if (!name.empty()) cell += "<code>" + breakable(name) + "</code>";
+  if (name_end != std::string::npos) {
+    cell += (name.empty() ? "" : " ") + html_escaped(rest.substr(name_end + 1));
+  }
+  return cell + "</span>";
+}
+
 /// One that fits on a third of a page is not torn apart; words of names take lines of their
 /// own.
 bool is_short(const HtmlTable& table) {
@@ -96,11 +112,11 @@ void HtmlText::heading(int level, const std::string& text) {
   std::string id;
   if (level == 2) {
     subsection_ = 0;
-    number = std::to_string(++section_) + " ";
+    number = mark_ + std::to_string(++section_) + " ";
     id = " id=\"section-" + std::to_string(section_) + "\"";
     sections_.emplace_back("section-" + std::to_string(section_), number + text);
   } else if (level == 3) {
-    number = std::to_string(section_) + "." + std::to_string(++subsection_) + " ";
+    number = mark_ + std::to_string(section_) + "." + std::to_string(++subsection_) + " ";
   }
   const std::string tag = "h" + std::to_string(level);
   text_ += "<" + tag + id + ">" + number + html_escaped(text) + "</" + tag + ">\n";
@@ -127,7 +143,7 @@ void HtmlText::list(const std::vector<std::string>& items) {
 void HtmlText::table(const HtmlTable& table) {
   if (table.rows.empty()) return;
   text_ += std::string("<div class=\"") + (is_short(table) ? "short table" : "table") +
-           "\"><table>\n<caption><b>Table " + std::to_string(++num_tables_) + ".</b> " +
+           "\"><table>\n<caption><b>Table " + mark_ + std::to_string(++num_tables_) + ".</b> " +
            html_escaped(table.caption) + "</caption>\n<thead><tr>";
   for (const HtmlTable::Column& column : table.columns) {
     text_ += std::string(column.is_number ? "<th class=\"number\">" : "<th>") +
@@ -140,7 +156,9 @@ void HtmlText::table(const HtmlTable& table) {
       const HtmlTable::Column column =
           i < table.columns.size() ? table.columns[i] : HtmlTable::Column{};
       text_ += column.is_number ? "<td class=\"number\">" : "<td>";
-      text_ += column.is_name ? name_cell(row[i]) : html_escaped(row[i]);
+      text_ += column.is_name     ? name_cell(row[i])
+               : column.is_titled ? titled_cell(row[i])
+                                  : html_escaped(row[i]);
       text_ += "</td>";
     }
     text_ += "</tr>\n";
@@ -155,7 +173,7 @@ void HtmlText::table(const HtmlTable& table) {
 int HtmlText::figure(const std::string& name, const std::string& svg, const std::string& title,
                      const std::string& caption) {
   text_ += "<figure id=\"figure-" + html_escaped(name) + "\">\n" +
-           inline_svg(svg, name, title) + "\n<figcaption><b>Figure " +
+           inline_svg(svg, name, title) + "\n<figcaption><b>Figure " + mark_ +
            std::to_string(++num_figures_) + ". " + html_escaped(title) + ".</b> " +
            html_escaped(caption) + "</figcaption>\n</figure>\n";
   return num_figures_;

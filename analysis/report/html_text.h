@@ -15,6 +15,9 @@ struct HtmlTable {
     std::string title;
     bool is_number = false;  ///< Set to the right, in figures of one width.
     bool is_name = false;    ///< A name of the program: set as code; words on a second line.
+    /// Words, then a second line with a name of the program, which may be empty, then more
+    /// words on a third.
+    bool is_titled = false;
   };
   std::string caption;
   std::vector<Column> columns;
@@ -25,6 +28,10 @@ struct HtmlTable {
 /// The body of a report, from top to bottom. All text is plain and escaped here.
 class HtmlText {
  public:
+  HtmlText() = default;
+  /// `mark`: "S" before every number, of a supplement.
+  explicit HtmlText(std::string mark) : mark_(std::move(mark)) {}
+
   /// Levels 2 to 4; level 2 and 3 are counted: "3.1 Group D".
   void heading(int level, const std::string& text);
   void paragraph(const std::string& text, const std::string& style = "");
@@ -46,7 +53,7 @@ class HtmlText {
   }
 
  private:
-  std::string text_;
+  std::string mark_, text_;
   std::vector<std::pair<std::string, std::string>> sections_;
   int section_ = 0, subsection_ = 0, num_tables_ = 0, num_figures_ = 0;
 };

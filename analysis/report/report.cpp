@@ -58,6 +58,11 @@ ReportOutcome write_report(const ReportSource& source, const fs::path& folder,
                              [&source](const std::vector<Figure>& figures,
                                        const std::vector<DrawnFigure>& drawn) {
                                return report_html(source, figures, drawn);
+                             },
+                         .supplement =
+                             [&source](const std::vector<Figure>& figures,
+                                       const std::vector<DrawnFigure>& drawn) {
+                               return supplement_html(source, figures, drawn);
                              }},
                         folder, options);
 }

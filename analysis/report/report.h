@@ -33,9 +33,16 @@ struct ReportSource {
 /// Every figure that there are data for, in the order of the report.
 [[nodiscard]] std::vector<Figure> figures_of(const ReportSource& source);
 
-/// The report as one self-contained HTML document; `drawn` in the order of `figures`.
+/// What a paper needs, as one self-contained HTML document: the answers, how they were found,
+/// one figure for each part of the results. `drawn` in the order of `figures`.
 [[nodiscard]] std::string report_html(const ReportSource& source,
                                       const std::vector<Figure>& figures,
                                       const std::vector<DrawnFigure>& drawn);
+
+/// All else there is to tell: every participant, every estimate, every comparison, every other
+/// figure, where all of it comes from.
+[[nodiscard]] std::string supplement_html(const ReportSource& source,
+                                          const std::vector<Figure>& figures,
+                                          const std::vector<DrawnFigure>& drawn);
 
 }  // namespace jnd::analysis

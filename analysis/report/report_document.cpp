@@ -44,7 +44,8 @@ class OutputFolder {
       fs::remove_all(folder_, ignored);
       return;
     }
-    for (const char* name : {"figures", "report.html", "report.pdf"}) {
+    for (const char* name :
+         {"figures", "report.html", "report.pdf", "supplement.html", "supplement.pdf"}) {
       fs::remove_all(folder_ / name, ignored);
     }
   }
@@ -95,7 +96,12 @@ ReportOutcome write_document(ReportDocument document, const fs::path& folder,
       outcome.problems.push_back("figure " + drawn.name + " is not drawn: " + drawn.problem);
     }
   }
-  // Last, so that a folder with a report in it is a whole one.
+  if (document.supplement) {
+    outcome.supplement_html = folder / "supplement.html";
+    write_text_file(outcome.supplement_html,
+                    document.supplement(outcome.figures, outcome.drawn));
+  }
+  // After all else but prints of it, so that a folder with a report in it is a whole one.
   write_text_file(outcome.html, document.html(outcome.figures, outcome.drawn));
   progress(0.75);
   if (options.browser.empty()) {
@@ -103,14 +109,17 @@ ReportOutcome write_document(ReportDocument document, const fs::path& folder,
         "neither chromium nor wkhtmltopdf is installed, so there is no report.pdf; report.html "
         "prints the same");
   } else {
-    const fs::path pdf = folder / "report.pdf";
-    const std::string problem =
-        print_as_pdf(options.browser, outcome.html, pdf, document.date_time_ns);
-    if (problem.empty()) {
-      outcome.pdf = pdf;
-    } else {
-      outcome.problems.push_back("there is no report.pdf: " + problem);
-    }
+    const auto print = [&](const fs::path& html) {
+      const fs::path pdf = fs::path(html).replace_extension(".pdf");
+      const std::string problem =
+          print_as_pdf(options.browser, html, pdf, document.date_time_ns);
+      if (problem.empty()) return pdf;
+      outcome.problems.push_back("there is no " + pdf.filename().string() + ": " + problem);
+      return fs::path();
+    };
+    outcome.pdf = print(outcome.html);
+    progress(0.85);
+    if (document.supplement) outcome.supplement_pdf = print(outcome.supplement_html);
   }
   progress(1.0);
   output.keep();

@@ -21,7 +21,8 @@ struct ReportOptions {
 
 struct ReportOutcome {
   std::filesystem::path html;
-  std::filesystem::path pdf;  ///< Empty if there is none.
+  std::filesystem::path pdf;                              ///< Empty if there is none.
+  std::filesystem::path supplement_html, supplement_pdf;  ///< Empty if there is none.
   std::vector<Figure> figures;
   std::vector<DrawnFigure> drawn;     ///< In the order of `figures`.
   std::vector<std::string> problems;  ///< What is lacking, a sentence each; the rest is whole.
@@ -33,14 +34,18 @@ struct ReportDocument {
   bool simulated = false;         ///< Each figure and each table says so.
   std::int64_t date_time_ns = 0;  ///< What PDF files give as their date.
   /// The whole document; drawn figures in the order of `figures`.
-  std::function<std::string(const std::vector<Figure>&, const std::vector<DrawnFigure>&)> html;
+  using Html =
+      std::function<std::string(const std::vector<Figure>&, const std::vector<DrawnFigure>&)>;
+  Html html;
+  Html supplement;  ///< Empty: the document has none.
 };
 
 /// Throws `Error` if something is in this folder already: before minutes are spent on its
 /// content.
 void require_free_folder(const std::filesystem::path& folder);
 
-/// Writes report.html, report.pdf and figures/ into a folder that is new or empty. The same
+/// Writes report.html, report.pdf, figures/ and what there is of supplement.html and
+/// supplement.pdf into a folder that is new or empty. The same
 /// document gives the same bytes. Throws `Error`: folder not empty, not writable, disk full;
 /// then nothing of the report stays. Not real time.
 [[nodiscard]] ReportOutcome write_document(ReportDocument document,

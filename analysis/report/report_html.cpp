@@ -1,8 +1,11 @@
+#include <set>
+
 #include "analysis/report/figures.h"
 #include "analysis/report/html_text.h"
 #include "analysis/report/report.h"
 #include "analysis/report/report_contrasts.h"
 #include "analysis/report/report_methods.h"
+#include "analysis/report/report_published.h"
 #include "analysis/report/report_results.h"
 #include "analysis/results/number_words.h"
 
@@ -17,6 +20,13 @@ std::vector<core::SessionRow> analysed_sessions(const ReportSource& source) {
   return sessions;
 }
 
+/// Whether the report has a figure of this section: of what was asked for, not of how people
+/// moved, how fast they answered or what they said.
+bool is_in_report(const std::string& section) {
+  return section.empty() || (section != "movement" && section != "response_times" &&
+                             section != "questionnaires" && !section.ends_with("_questions"));
+}
+
 /// Puts figures where they belong, each once, and lists them at the end.
 class FigureChapters {
  public:
@@ -29,17 +39,31 @@ class FigureChapters {
         of_thesis_(is_of_thesis(results)),
         numbers_(figures.size(), 0) {}
 
-  /// Of this section of the results; "" those of none.
-  void write_section(const std::string& section) {
+  /// The first of this section of the results.
+  void write_first(const std::string& section) {
     for (std::size_t i = 0; i < figures_.size(); ++i) {
-      if (numbers_[i] == 0 && figures_[i].section == section) write(i);
+      if (figures_[i].section == section) return write(i);
+    }
+  }
+
+  /// All but the first of this section of the results, which the report has; "" all of none.
+  void write_others_of(const std::string& section) {
+    bool is_first = true;
+    for (std::size_t i = 0; i < figures_.size(); ++i) {
+      if (numbers_[i] != 0 || figures_[i].section != section) continue;
+      if (is_first && is_in_report(section)) {
+        is_first = false;
+        in_report_.insert(i);
+        continue;
+      }
+      write(i);
     }
   }
 
   void write_others() {
     bool any = false;
     for (std::size_t i = 0; i < figures_.size(); ++i) {
-      if (numbers_[i] != 0) continue;
+      if (numbers_[i] != 0 || in_report_.contains(i)) continue;
       if (!any) html_.heading(3, "Further figures");
       any = true;
       write(i);
@@ -58,15 +82,12 @@ class FigureChapters {
         .columns = {{"Figure", true}, {"Title"}}};
     if (of_thesis_) table.columns.push_back({"Schmidt (2018)"});
     table.columns.push_back({"Name", false, true});
-    for (int number = 1; number <= static_cast<int>(figures_.size()); ++number) {
-      for (std::size_t i = 0; i < figures_.size(); ++i) {
-        if (numbers_[i] != number) continue;
-        const Figure& figure = figures_[i];
-        auto& row = table.rows.emplace_back();
-        row = {std::to_string(number), figure.title};
-        if (of_thesis_) row.push_back(figure.thesis.empty() ? "–" : figure.thesis);
-        row.push_back(figure.name);
-      }
+    for (std::size_t i = 0; i < figures_.size(); ++i) {
+      const Figure& figure = figures_[i];
+      auto& row = table.rows.emplace_back();
+      row = {numbers_[i] == 0 ? "report" : "S" + std::to_string(numbers_[i]), figure.title};
+      if (of_thesis_) row.push_back(figure.thesis.empty() ? "–" : figure.thesis);
+      row.push_back(figure.name);
     }
     html_.table(table);
   }
@@ -88,7 +109,8 @@ class FigureChapters {
   const std::vector<DrawnFigure>& drawn_;
   bool simulated_;
   bool of_thesis_;            ///< See `is_of_thesis`.
-  std::vector<int> numbers_;  ///< In the report; 0 of those that are not written yet.
+  std::vector<int> numbers_;  ///< In this document; 0 of those that are not written yet.
+  std::set<std::size_t> in_report_;
 };
 
 std::string contents(const HtmlText& html) {
@@ -99,14 +121,16 @@ std::string contents(const HtmlText& html) {
   return text + "</ul></nav>\n";
 }
 
-std::string front(const ReportSource& source, const std::string& title) {
+/// `what`: "Report on".
+std::string front(const ReportSource& source, const std::string& title,
+                  const std::string& what) {
   std::string text = "<h1>" + html_escaped(title) + "</h1>\n<p class=\"authors\">";
   std::string authors;
   for (const std::string& author : source.data.written.authors) {
     authors += (authors.empty() ? "Study by " : ", ") + author;
   }
   if (!authors.empty()) authors += ". ";
-  authors += "Report on “" + source.data.study + "”, " +
+  authors += what + " “" + source.data.study + "”, " +
              counted_words(std::ssize(source.data.participants), "participant") + ".";
   text += html_escaped(authors) + "</p>\n";
   if (source.results.simulated) {
@@ -122,6 +146,14 @@ std::string front(const ReportSource& source, const std::string& title) {
   return text;
 }
 
+std::string whole_document(const ReportSource& source, const std::string& title,
+                           const std::string& what, const HtmlText& html) {
+  const std::string mark = source.results.simulated ? "SIMULATED data"
+                           : source.pilot           ? "PILOT data"
+                                                    : "";
+  return html_document(title, mark, front(source, title, what) + contents(html) + html.text());
+}
+
 }  // namespace
 
 std::string report_html(const ReportSource& source, const std::vector<Figure>& figures,
@@ -130,34 +162,59 @@ std::string report_html(const ReportSource& source, const std::vector<Figure>& f
   const std::vector<core::SessionRow> sessions = analysed_sessions(source);
   const std::vector<SessionQuality> quality = session_quality(source.store, sessions);
   const ChapterSource chapters{source, titles, sessions, quality};
-  const bool simulated = source.results.simulated;
   HtmlText html;
   FigureChapters figure_chapters(html, figures, drawn, source.results);
-  write_at_a_glance(html, source.results);
+  write_at_a_glance(html, source.results, titles);
   write_deviations(html, source.results);
   if (source.delivered != nullptr) {
     write_delivered(html, source.results, *source.delivered, titles);
-    figure_chapters.write_section("delivered");
+    figure_chapters.write_first("delivered");
   }
-  figure_chapters.write_section("");
-  write_methods(html, chapters);
-  write_participants(html, chapters);
-  write_data_quality(html, chapters);
   html.heading(2, "Results");
   write_contrasts(html, source.results);
   for (const ResultsSection& section : source.results.sections) {
-    html.heading(3, section_title(titles, section.name));
-    write_section(html, source.data, source.results, section);
-    if (section.name == "movement") write_movement(html, source, titles);
-    figure_chapters.write_section(section.name);
+    if (is_in_report(section.name)) figure_chapters.write_first(section.name);
   }
+  figure_chapters.write_first("");
+  html.paragraph(
+      "Every other estimate, comparison and figure, everybody’s own values and what was left "
+      "out and why are in the supplement.",
+      "note");
+  write_participants_in_short(html, chapters);
+  write_data_quality_in_short(html, chapters);
+  write_methods(html, chapters);
+  write_references(html, chapters);
+  return whole_document(source, titles.study, "Report on", html);
+}
+
+std::string supplement_html(const ReportSource& source, const std::vector<Figure>& figures,
+                            const std::vector<DrawnFigure>& drawn) {
+  const StudyTitles titles = titles_of(source.data.written);
+  const std::vector<core::SessionRow> sessions = analysed_sessions(source);
+  const std::vector<SessionQuality> quality = session_quality(source.store, sessions);
+  const ChapterSource chapters{source, titles, sessions, quality};
+  HtmlText html("S");
+  FigureChapters figure_chapters(html, figures, drawn, source.results);
+  write_participants(html, chapters);
+  write_data_quality(html, chapters);
+  html.heading(2, "Results");
+  for (const ResultsSection& section : source.results.sections) {
+    html.heading(3, section_title(titles, section.name));
+    write_section(html, source.data, source.results, titles, section);
+    if (section.name == "movement") write_movement(html, source, titles);
+    figure_chapters.write_others_of(section.name);
+  }
+  const HtmlTable published = published_table(source.results, titles);
+  if (!published.rows.empty()) {
+    html.heading(2, "Published values");
+    html.table(published);
+  }
+  figure_chapters.write_others_of("");
+  figure_chapters.write_others_of("delivered");
   figure_chapters.write_others();
   figure_chapters.write_list();
   write_provenance(html, chapters);
-  write_references(html, chapters);
-  return html_document(titles.study,
-                       simulated ? "SIMULATED data" : (source.pilot ? "PILOT data" : ""),
-                       front(source, titles.study) + contents(html) + html.text());
+  return whole_document(source, titles.study, "Supplement to the report on", html);
 }
 
 }  // namespace jnd::analysis

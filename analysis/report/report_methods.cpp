@@ -150,7 +150,22 @@ std::string design_words(const ChapterSource& source) {
   }
   std::map<std::string, int> cells;
   for (const core::SessionRow& session : source.sessions) ++cells[session.cells];
-  if (cells.size() > 1) {
+  // Squares of many conditions have one for every row of every stratum.
+  constexpr std::size_t kMostToldSingly = 6;
+  if (cells.size() > kMostToldSingly) {
+    int fewest = static_cast<int>(source.sessions.size()), most = 0;
+    for (const auto& [cell, count] : cells) {
+      fewest = std::min(fewest, count);
+      most = std::max(most, count);
+    }
+    text += " Counterbalancing: " + std::to_string(cells.size()) + " cells of " +
+            std::to_string(fewest) +
+            (most > fewest ? " to " + std::to_string(most) + " participants" : "") +
+            (most > fewest ? ""
+             : most == 1   ? " participant"
+                           : " participants") +
+            "; everybody’s is in the supplement.";
+  } else if (cells.size() > 1) {
     text += " Counterbalancing, with the number of participants in each cell: ";
     bool first = true;
     for (const auto& [cell, count] : cells) {

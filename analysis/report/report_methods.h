@@ -17,9 +17,11 @@ struct ChapterSource {
 
 /// What was run: design, apparatus, analysis, where everything comes from.
 void write_methods(HtmlText& html, const ChapterSource& source);
-/// The participants who took part.
+/// The participants who took part: a paragraph, and a row for each of them.
+void write_participants_in_short(HtmlText& html, const ChapterSource& source);
 void write_participants(HtmlText& html, const ChapterSource& source);
-/// Missing, resumed, undone, set aside; recordings; timing.
+/// Missing, resumed, undone, set aside; recordings; timing: a paragraph, and tables.
+void write_data_quality_in_short(HtmlText& html, const ChapterSource& source);
 void write_data_quality(HtmlText& html, const ChapterSource& source);
 /// What the methods cite; nothing where they cite nothing.
 void write_references(HtmlText& html, const ChapterSource& source);

@@ -258,7 +258,7 @@ std::vector<std::string> remarks_of(const ChapterSource& source) {
 
 }  // namespace
 
-void write_participants(HtmlText& html, const ChapterSource& source) {
+void write_participants_in_short(HtmlText& html, const ChapterSource& source) {
   html.heading(2, "Participants");
   const StudyData& data = source.report.data;
   std::string text = counted_words(std::ssize(data.participants), "participant");
@@ -279,6 +279,11 @@ void write_participants(HtmlText& html, const ChapterSource& source) {
     text += " " + counted_words(num_pilots, "pilot session") + " left out.";
   }
   html.paragraph(text);
+}
+
+void write_participants(HtmlText& html, const ChapterSource& source) {
+  write_participants_in_short(html, source);
+  const StudyData& data = source.report.data;
   const std::vector<QuestionnaireItem> items = described_items(data);
   HtmlTable table{.caption = "Participants", .columns = {{"Participant"}}};
   for (const QuestionnaireItem& item : items) {
@@ -299,7 +304,7 @@ void write_participants(HtmlText& html, const ChapterSource& source) {
   html.table(table);
 }
 
-void write_data_quality(HtmlText& html, const ChapterSource& source) {
+void write_data_quality_in_short(HtmlText& html, const ChapterSource& source) {
   html.heading(2, "Data quality");
   std::int64_t drawn = 0;
   std::int64_t answered = 0;
@@ -322,6 +327,10 @@ void write_data_quality(HtmlText& html, const ChapterSource& source) {
   text += open == 0 ? "Every session was completed."
                     : counted_words(open, "session") + " did not come to its end.";
   html.paragraph(text);
+}
+
+void write_data_quality(HtmlText& html, const ChapterSource& source) {
+  write_data_quality_in_short(html, source);
   html.table(quality_table(source));
   html.table(movement_table(source));
   html.table(losses_table(source));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "analysis/report/estimate_title.h"
 #include "analysis/results/number_words.h"
 
 namespace jnd::analysis {
@@ -88,14 +89,40 @@ std::string unit_words(const std::string& unit) {
   return words;
 }
 
-HtmlTable published_table(const StudyResults& results) {
+HtmlTable published_in_short(const StudyResults& results, const StudyTitles& titles) {
   const bool has_simulated = results.predictive.num_studies > 0;
   HtmlTable table{.caption = "Ours beside the published values",
-                  .columns = {{"Estimate, and how it was published", false, true},
-                              {"Value", true},
-                              {"95 % interval", true},
-                              {"Unit"},
-                              {"Published", true}}};
+                  .columns = {{.title = "Estimate"},
+                              {.title = "Ours (95 % interval)", .is_number = true},
+                              {.title = "Unit"},
+                              {.title = "Published", .is_number = true}}};
+  if (has_simulated) {
+    table.columns.push_back({.title = "As far out, of simulated studies", .is_number = true});
+  }
+  for (const Estimate* estimate : estimates_where(results, &Estimate::is_published)) {
+    std::vector<std::string> row = {
+        estimate_title(titles, estimate->name, estimate->unit),
+        with_interval(estimate->name, estimate->value, estimate->ci95),
+        unit_words(estimate->unit), published_words(*estimate)};
+    if (has_simulated) {
+      row.push_back(estimate->predictive ? p_words(estimate->predictive->tail) : "–");
+    }
+    table.rows.push_back(std::move(row));
+  }
+  table.notes.emplace_back(
+      "How each was published, and what was simulated to compare it with, is in the "
+      "supplement.");
+  return table;
+}
+
+HtmlTable published_table(const StudyResults& results, const StudyTitles& titles) {
+  const bool has_simulated = results.predictive.num_studies > 0;
+  HtmlTable table{
+      .caption = "Ours beside the published values",
+      .columns = {{.title = "Estimate, and how it was published", .is_titled = true},
+                  {"Ours (95 % interval)", true},
+                  {"Unit"},
+                  {"Published", true}}};
   if (has_simulated) {
     table.columns.push_back({"Simulated studies", true});
     table.columns.push_back({"Tail", true});
@@ -105,11 +132,9 @@ HtmlTable published_table(const StudyResults& results) {
       estimates_where(results, &Estimate::is_published);
   for (const Estimate* estimate : published) {
     std::vector<std::string> row = {
-        estimate->published_statistic.empty()
-            ? estimate->name
-            : estimate->name + "\n" + estimate->published_statistic,
-        number_words(estimate->value),
-        interval_words(estimate->name, estimate->ci95, estimate->value),
+        estimate_title(titles, estimate->name, estimate->unit) + "\n" + estimate->name +
+            (estimate->published_statistic.empty() ? "" : "\n") + estimate->published_statistic,
+        with_interval(estimate->name, estimate->value, estimate->ci95),
         unit_words(estimate->unit), published_words(*estimate)};
     if (has_simulated) {
       row.push_back(simulated_words(*estimate));

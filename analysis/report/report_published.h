@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/charts/study_titles.h"
 #include "analysis/report/html_text.h"
 #include "analysis/results/study_results.h"
 
@@ -34,8 +35,12 @@ std::vector<const Estimate*> estimates_where(const StudyResults& results, Condit
   return found;
 }
 
-/// Everything that has a published value, beside it, and what simulated studies come to where
-/// that is known; without rows where nothing was published.
-[[nodiscard]] HtmlTable published_table(const StudyResults& results);
+/// Everything that has a published value, beside it, a line each.
+[[nodiscard]] HtmlTable published_in_short(const StudyResults& results,
+                                           const StudyTitles& titles);
+
+/// Everything that has a published value, beside it, how it was published, and what simulated
+/// studies come to where that is known; without rows where nothing was published.
+[[nodiscard]] HtmlTable published_table(const StudyResults& results, const StudyTitles& titles);
 
 }  // namespace jnd::analysis

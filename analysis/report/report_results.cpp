@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "analysis/report/estimate_title.h"
 #include "analysis/report/report_contrasts.h"
 #include "analysis/report/report_published.h"
 #include "analysis/results/number_words.h"
@@ -74,31 +75,35 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
 
 HtmlTable estimates_table(const std::string& caption) {
   return {.caption = caption,
-          .columns = {{"Estimate, and what it is", false, true},
+          .columns = {{.title = "Estimate, and what it is", .is_titled = true},
                       {"Value", true},
                       {"95 % interval", true},
                       {"Unit"},
                       {"n", true}}};
 }
 
-std::vector<std::string> estimate_row(const Estimate& estimate) {
+std::vector<std::string> estimate_row(const StudyTitles& titles, const Estimate& estimate) {
   const std::string words = estimate.meaning +
                             (estimate.reason.empty() ? "" : ". No value: " + estimate.reason) +
                             caution_words(estimate.cautions);
-  return {estimate.name + "\n" + words, number_words(estimate.value),
+  return {estimate_title(titles, estimate.name, estimate.unit) + "\n" + estimate.name + "\n" +
+              words,
+          number_words(estimate.value),
           interval_words(estimate.name, estimate.ci95, estimate.value),
           unit_words(estimate.unit), std::to_string(estimate.n)};
 }
 
-void write_estimates(HtmlText& html, const StudyResults& results,
-                     const ResultsSection& section) {
+/// Estimates of a section that are the answer to what was asked, or those that are not.
+void write_estimates(HtmlText& html, const StudyResults& results, const StudyTitles& titles,
+                     const ResultsSection& section, bool primary, const char* caption) {
   const bool any_published = std::ranges::any_of(section.estimates, &Estimate::is_published);
-  HtmlTable table = estimates_table("Estimates");
+  HtmlTable table = estimates_table(caption);
   if (any_published) table.columns.push_back({"Published", true});
   if (any_published && results.simulated) table.columns.push_back({"Basis"});
   std::vector<const Estimate*> published;
   for (const Estimate& estimate : section.estimates) {
-    std::vector<std::string> row = estimate_row(estimate);
+    if (estimate.primary != primary) continue;
+    std::vector<std::string> row = estimate_row(titles, estimate);
     if (any_published) row.push_back(published_words(estimate));
     if (any_published && results.simulated) row.push_back(basis_words(estimate));
     table.rows.push_back(std::move(row));
@@ -255,10 +260,10 @@ void write_free_answers(HtmlText& html, const ResultsSection& section) {
 }
 
 /// What each block was asked for.
-HtmlTable primary_table(const StudyResults& results) {
+HtmlTable primary_table(const StudyResults& results, const StudyTitles& titles) {
   HtmlTable table = estimates_table("Primary values");
   for (const Estimate* estimate : estimates_where(results, &Estimate::primary)) {
-    table.rows.push_back(estimate_row(*estimate));
+    table.rows.push_back(estimate_row(titles, *estimate));
   }
   return table;
 }
@@ -296,9 +301,9 @@ std::string section_title(const StudyTitles& titles, const std::string& name) {
   return title;
 }
 
-void write_at_a_glance(HtmlText& html, const StudyResults& results) {
-  const HtmlTable primary = primary_table(results);
-  const HtmlTable published = published_table(results);
+void write_at_a_glance(HtmlText& html, const StudyResults& results, const StudyTitles& titles) {
+  const HtmlTable primary = primary_table(results, titles);
+  const HtmlTable published = published_in_short(results, titles);
   const ResultsSection comparisons = primary_comparisons(results);
   if (primary.rows.empty() && published.rows.empty()) return;
   html.heading(2, "At a glance");
@@ -309,11 +314,15 @@ void write_at_a_glance(HtmlText& html, const StudyResults& results) {
 }
 
 void write_section(HtmlText& html, const StudyData& data, const StudyResults& results,
-                   const ResultsSection& section) {
+                   const StudyTitles& titles, const ResultsSection& section) {
   if (section.name == "questionnaires") {
     write_questionnaires(html, data, section);
   } else {
-    write_estimates(html, results, section);
+    const bool any_primary = std::ranges::any_of(section.estimates, &Estimate::primary);
+    write_estimates(html, results, titles, section, true, "The answer to what was asked");
+    write_estimates(
+        html, results, titles, section, false,
+        any_primary ? "How else it can be estimated, and what else was found" : "Estimates");
   }
   write_comparisons(html, section);
   write_excluded(html, section);

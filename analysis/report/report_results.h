@@ -7,13 +7,14 @@
 namespace jnd::analysis {
 
 /// Before all else what each block was asked for, the primary tests between blocks, and
-/// everything that has a published value.
-void write_at_a_glance(HtmlText& html, const StudyResults& results);
+/// everything that has a published value, in short.
+void write_at_a_glance(HtmlText& html, const StudyResults& results, const StudyTitles& titles);
 
-/// One section of the results: estimates, comparisons, who was left out and why, everybody's
-/// own values, answers in their own words. Whatever is in the section is shown.
+/// One section of the results: what is the answer, how else it was estimated, comparisons, who
+/// was left out and why, everybody's own values, answers in their own words. Whatever is in the
+/// section is shown.
 void write_section(HtmlText& html, const StudyData& data, const StudyResults& results,
-                   const ResultsSection& section);
+                   const StudyTitles& titles, const ResultsSection& section);
 
 /// The estimates of a section "questionnaires", a row an item.
 void write_questionnaires(HtmlText& html, const StudyData& data, const ResultsSection& section);

@@ -46,15 +46,20 @@ nlohmann::json figures_json(const analysis::ReportOutcome& outcome) {
   return figures;
 }
 
-nlohmann::json pdf_json(const analysis::ReportOutcome& outcome) {
-  return outcome.pdf.empty() ? nlohmann::json(nullptr) : nlohmann::json(outcome.pdf.string());
+nlohmann::json file_json(const std::filesystem::path& file) {
+  return file.empty() ? nlohmann::json(nullptr) : nlohmann::json(file.string());
 }
 
 nlohmann::json report_json(const analysis::StudyResults& results, const ReportOptions& options,
                            const analysis::ReportOutcome& outcome) {
-  return {{"study", results.study},      {"simulated", results.simulated},
-          {"out", options.out},          {"html", outcome.html.string()},
-          {"pdf", pdf_json(outcome)},    {"figures", figures_json(outcome)},
+  return {{"study", results.study},
+          {"simulated", results.simulated},
+          {"out", options.out},
+          {"html", outcome.html.string()},
+          {"pdf", file_json(outcome.pdf)},
+          {"figures", figures_json(outcome)},
+          {"supplement_html", file_json(outcome.supplement_html)},
+          {"supplement_pdf", file_json(outcome.supplement_pdf)},
           {"problems", outcome.problems}};
 }
 
@@ -90,7 +95,7 @@ int run_commissioning_report(const ReportOptions& options) {
   if (options.json) {
     const nlohmann::json document = {
         {"record", options.commissioning},  {"out", options.out},
-        {"html", outcome.html.string()},    {"pdf", pdf_json(outcome)},
+        {"html", outcome.html.string()},    {"pdf", file_json(outcome.pdf)},
         {"figures", figures_json(outcome)}, {"problems", outcome.problems}};
     std::puts(json_text(document).c_str());
     return kDone;
@@ -120,7 +125,9 @@ int run_report(const ReportOptions& options) {
   std::printf("%s: report of %d participants%s with %zu figures written to %s%s\n",
               options.folder.c_str(), results.num_participants,
               results.simulated ? ", SIMULATED," : "", outcome.figures.size(),
-              outcome.html.c_str(), outcome.pdf.empty() ? "" : " and report.pdf");
+              outcome.html.c_str(),
+              outcome.pdf.empty() ? "; all else is in supplement.html"
+                                  : " and report.pdf; all else is in supplement.html and .pdf");
   return kDone;
 }
 

@@ -40,6 +40,15 @@ std::string without_breaks(std::string html) {
   return html;
 }
 
+/// Report and supplement.
+std::string whole(const ReportOutcome& outcome) {
+  return read_file(outcome.html) + read_file(outcome.supplement_html);
+}
+std::string whole_report(const ReportSource& source, const std::vector<Figure>& figures,
+                         const std::vector<DrawnFigure>& drawn) {
+  return report_html(source, figures, drawn) + supplement_html(source, figures, drawn);
+}
+
 /// Estimation, production and one comparison, of three people; the last one tells nothing
 /// apart.
 class ReportTest : public ::testing::Test {
@@ -100,7 +109,7 @@ class ReportTest : public ::testing::Test {
 };
 
 TEST_F(ReportTest, ShowsEveryEstimateAndComparisonThatTheResultsHave) {
-  const std::string html = without_breaks(read_file(report(out()).html));
+  const std::string html = without_breaks(whole(report(out())));
   const StudyData data = load_study(study_.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 100});
   for (const ResultsSection& section : results.sections) {
@@ -117,7 +126,7 @@ TEST_F(ReportTest, ShowsEveryEstimateAndComparisonThatTheResultsHave) {
 }
 
 TEST_F(ReportTest, OfPublishedValuesSaysWhatTheyAre) {
-  const std::string html = without_breaks(read_file(report(out()).html));
+  const std::string html = without_breaks(whole(report(out())));
   EXPECT_TRUE(has(html, "<code>group_d.individual_weber_fraction_lsq_mean</code>"))
       << "an estimate of its own, for it is published of another statistic than ours";
   EXPECT_TRUE(has(html, "mean of individual Weber fractions, least squares"));
@@ -131,13 +140,13 @@ TEST_F(ReportTest, OfAStudyWithoutTrialsSpeaksOfNone) {
   study.say("about", "age_years", "26");
   const StudyData data = load_study(study.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 100});
-  const std::string html = without_breaks(report_html({.store = study.store(),
-                                                       .data = data,
-                                                       .results = results,
-                                                       .results_options = {},
-                                                       .movement = {},
-                                                       .program_version = "1"},
-                                                      {}, {}));
+  const std::string html = without_breaks(whole_report({.store = study.store(),
+                                                        .data = data,
+                                                        .results = results,
+                                                        .results_options = {},
+                                                        .movement = {},
+                                                        .program_version = "1"},
+                                                       {}, {}));
   EXPECT_TRUE(has(html, "This study has no trials"));
   for (const char* none :
        {"0 of 0", "no whole stroke", "Weber", "Blinding", ">Drawn<", "p value", "Hesterberg"}) {
@@ -184,7 +193,7 @@ TEST(PublishedFigure, OfSimulatedStudiesIsADistributionAndAPoint) {
 }
 
 TEST_F(ReportTest, SaysWhatWasRunWithWhichSeedsAndHashes) {
-  const std::string html = without_breaks(read_file(report(out()).html));
+  const std::string html = without_breaks(whole(report(out())));
   const core::ProtocolRow protocol =
       study_.store().protocol(load_study(study_.store()).protocol_sha256);
   EXPECT_TRUE(has(html, protocol.sha256));
@@ -251,8 +260,7 @@ TEST_F(ReportTest, WordsOfTheThesisStandInItsOwnStudiesAlone) {
     EXPECT_FALSE(has(figure.caption, "Schmidt")) << figure.caption;
     EXPECT_TRUE(has(figure.caption, "times the reference. One circle")) << figure.caption;
   }
-  EXPECT_FALSE(has(read_file(report(out()).html), "<th>Schmidt (2018)"))
-      << "of Somebody (2018)";
+  EXPECT_FALSE(has(whole(report(out())), "<th>Schmidt (2018)")) << "of Somebody (2018)";
 }
 
 TEST_F(ReportTest, TellsBothNumbersOfTwoGroupsAndOneOfPairs) {
@@ -262,7 +270,7 @@ TEST_F(ReportTest, TellsBothNumbersOfTwoGroupsAndOneOfPairs) {
   const StudyResults results{.study = "by_hand"};
   const auto written = [&](const Comparison& comparison) {
     HtmlText html;
-    write_section(html, data, results,
+    write_section(html, data, results, {},
                   {.name = "x", .comparisons = {{.name = "test", .comparison = comparison}}});
     return html.text();
   };
@@ -294,13 +302,13 @@ TEST_F(ReportTest, OfAdaptiveBlocksTellsWhatWasRunAndOfPracticeWhatItWas) {
   }
   const StudyData data = load_study(study.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 50});
-  const std::string html = without_breaks(report_html({.store = study.store(),
-                                                       .data = data,
-                                                       .results = results,
-                                                       .results_options = {},
-                                                       .movement = {},
-                                                       .program_version = "1"},
-                                                      {}, {}));
+  const std::string html = without_breaks(whole_report({.store = study.store(),
+                                                        .data = data,
+                                                        .results = results,
+                                                        .results_options = {},
+                                                        .movement = {},
+                                                        .program_version = "1"},
+                                                       {}, {}));
   EXPECT_TRUE(has(html, "trials a participant as the answers led to: mean 5.5, from 4 to 7."));
   EXPECT_FALSE(has(html, "7 trials a participant"));
   EXPECT_TRUE(has(html, "; 7 levels from 9 to 15 Pa s; reference 8 Pa s; trials"));
@@ -322,13 +330,13 @@ TEST_F(ReportTest, MethodsTellHowTheOrderOfTheIntervalsCameAboutAndLeaveNoGap) {
   study.compare_ten("thicker", 8);
   const StudyData data = load_study(study.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 50});
-  const std::string html = without_breaks(report_html({.store = study.store(),
-                                                       .data = data,
-                                                       .results = results,
-                                                       .results_options = {},
-                                                       .movement = {},
-                                                       .program_version = "1"},
-                                                      {}, {}));
+  const std::string html = without_breaks(whole_report({.store = study.store(),
+                                                        .data = data,
+                                                        .results = results,
+                                                        .results_options = {},
+                                                        .movement = {},
+                                                        .program_version = "1"},
+                                                       {}, {}));
   EXPECT_TRUE(has(html,
                   "staircase as a two-interval task (order balanced); viscosity; "
                   "reference 8 Pa s; without feedback"));
@@ -348,13 +356,13 @@ TEST_F(ReportTest, ScalesWithoutABetterEndHaveATableOfTheirOwn) {
   study.say("form", "side", "2");
   const StudyData data = load_study(study.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 50});
-  const std::string html = without_breaks(report_html({.store = study.store(),
-                                                       .data = data,
-                                                       .results = results,
-                                                       .results_options = {},
-                                                       .movement = {},
-                                                       .program_version = "1"},
-                                                      {}, {}));
+  const std::string html = without_breaks(whole_report({.store = study.store(),
+                                                        .data = data,
+                                                        .results = results,
+                                                        .results_options = {},
+                                                        .movement = {},
+                                                        .program_version = "1"},
+                                                       {}, {}));
   EXPECT_TRUE(has(html, "Steps of scales without a better end"));
   EXPECT_TRUE(has(html, "1: left, 7: right"));
   EXPECT_FALSE(has(html, "the worst"));
@@ -369,13 +377,13 @@ TEST_F(ReportTest, WhoAnswersTheWrongWayRoundIsNamedBesideEveryNumberThatHasThem
   }
   const StudyData data = load_study(study.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 50});
-  const std::string html = without_breaks(report_html({.store = study.store(),
-                                                       .data = data,
-                                                       .results = results,
-                                                       .results_options = {},
-                                                       .movement = {},
-                                                       .program_version = "1"},
-                                                      {}, {}));
+  const std::string html = without_breaks(whole_report({.store = study.store(),
+                                                        .data = data,
+                                                        .results = results,
+                                                        .results_options = {},
+                                                        .movement = {},
+                                                        .program_version = "1"},
+                                                       {}, {}));
   EXPECT_TRUE(has(html, "Cautions: in the numbers all the same"));
   EXPECT_TRUE(has(html, "as of somebody who answers the wrong way round"));
   const std::size_t primary = html.find("Primary values");
@@ -385,7 +393,7 @@ TEST_F(ReportTest, WhoAnswersTheWrongWayRoundIsNamedBesideEveryNumberThatHasThem
 }
 
 TEST_F(ReportTest, DegenerateDataAreSaidToBeSoAndNoNumberIsMadeUp) {
-  const std::string html = read_file(report(out()).html);
+  const std::string html = whole(report(out()));
   EXPECT_TRUE(has(html, "P03"));
   EXPECT_TRUE(has(html, "separated"));
   for (const char* no_number : {">nan<", ">inf<", "nan to", " inf ", "-nan"}) {
@@ -437,7 +445,10 @@ TEST_F(ReportTest, ABrowserThatFailsIsSaidAndTheRestIsWhole) {
       report(out(), {.browser = tool("chromium", "echo no display >&2\nexit 1\n")});
   EXPECT_TRUE(outcome.pdf.empty());
   EXPECT_FALSE(fs::exists(out() / "report.pdf"));
-  EXPECT_TRUE(has(outcome.problems.back(), "there is no report.pdf: chromium: no display"));
+  ASSERT_GE(outcome.problems.size(), 2U);
+  EXPECT_TRUE(has(outcome.problems.back(), "there is no supplement.pdf: chromium: no display"));
+  EXPECT_TRUE(has(outcome.problems[outcome.problems.size() - 2],
+                  "there is no report.pdf: chromium: no display"));
   EXPECT_TRUE(fs::exists(outcome.html));
 }
 
@@ -470,10 +481,10 @@ TEST_F(ReportTest, NothingOfAReportStaysThatCouldNotBeFinished) {
 TEST_F(ReportTest, PilotsAreLeftOutUnlessAskedFor) {
   (void)study_.add("PILOT", true, kLaboratory);
   study_.compare_ten("group_d", 9);
-  const std::string without = read_file(report(out("a")).html);
+  const std::string without = whole(report(out("a")));
   EXPECT_FALSE(has(without, "PILOT"));
   EXPECT_TRUE(has(without, "1 pilot session left out"));
-  const std::string with = read_file(report(out("b"), {}, /*pilot=*/true).html);
+  const std::string with = whole(report(out("b"), {}, /*pilot=*/true));
   EXPECT_TRUE(has(with, "PILOT sessions are among these data"));
   EXPECT_TRUE(has(with, "4 participants"));
 }
@@ -494,13 +505,13 @@ TEST_F(ReportTest, CountsWhatWasUndoneSetAsideAndNeverAnswered) {
   EXPECT_EQ(quality[0].num_undone, 1);
   EXPECT_FALSE(quality[0].completed);
   EXPECT_FALSE(quality[0].timing);
-  EXPECT_TRUE(has(read_file(report(out()).html), "P04: trial 3 set aside"));
+  EXPECT_TRUE(has(whole(report(out())), "P04: trial 3 set aside"));
 }
 
 TEST_F(ReportTest, AParticipantWithAMissingBlockDoesNotSpoilTheOthers) {
   (void)study_.add("P05", false, kLaboratory);
   study_.estimate(1.0, 100.0);
-  const std::string html = without_breaks(read_file(report(out()).html));
+  const std::string html = without_breaks(whole(report(out())));
   EXPECT_TRUE(has(html, "no answers in group_d"));
   EXPECT_TRUE(has(html, "<code>combined.k</code>"));
 }

@@ -55,7 +55,7 @@ TEST_F(ThresholdReportTest, ANumberThatMayBeWrongSaysSoBesideIt) {
   section.participants = {{"P01", "felt.threshold", 0.2, {}, "", {"one answer"}},
                           {"P02", "felt.threshold", 0.3, {}, "", {"one answer"}}};
   HtmlText html;
-  write_section(html, data_, results_, section);
+  write_section(html, data_, results_, {}, section);
   const auto has = [&](const std::string& part) {
     return html.text().find(part) != std::string::npos;
   };
@@ -65,7 +65,7 @@ TEST_F(ThresholdReportTest, ANumberThatMayBeWrongSaysSoBesideIt) {
   EXPECT_TRUE(has("§ P02, felt.threshold: one answer"));
   HtmlText glance;
   StudyResults results{.study = "by_hand", .sections = {section}};
-  write_at_a_glance(glance, results);
+  write_at_a_glance(glance, results, {});
   EXPECT_NE(glance.text().find(". Caution: few answers"), std::string::npos);
 }
 

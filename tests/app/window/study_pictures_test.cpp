@@ -63,8 +63,8 @@ TEST_F(StudyPicturesTest, OfTheStartAndOfStudiesWithTheirSessionsResultsAndFiles
 
 TEST_F(StudyPicturesTest, OfResultsOfThresholdsStaircasesAndMatches) {
   window_->start();
-  for (const char* study :
-       {"viscosity_threshold", "viscosity_staircase", "viscosity_matching"}) {
+  for (const char* study : {"viscosity_threshold", "viscosity_staircase", "viscosity_matching",
+                            "viscosity_priming", "viscosity_oddity"}) {
     const fs::path folder = path(std::string(study) + ".study");
     ASSERT_EQ(
         jnd({"simulate", study, "--participants", "4", "--fast", "--study", folder.string()})
