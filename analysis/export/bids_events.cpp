@@ -190,8 +190,8 @@ void write_bids_beh(const fs::path& folder, const BidsTask& task, const BidsBloc
   for (const char* tick : {"first_tick", "last_tick"}) {
     sidecar[tick]["Description"] = sidecar[tick]["Description"].get<std::string>() +
                                    ", counted in the session; less FirstTick it is the row in "
-                                   "the motion file, if there is "
-                                   "one, from 0";
+                                   "the motion file, if there is one, from 0, where that has "
+                                   "the rate of the loop";
   }
   sidecar["excluded"]["Description"] =
       "1: set aside with a reason, which the study in sourcedata has";

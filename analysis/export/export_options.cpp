@@ -57,7 +57,7 @@ ExpectedSize expected_size(const core::StudyStore& store, const ExportOptions& o
                            bool is_text) {
   // What a value takes on average: seen in sessions of the shipped studies, whose hands mostly
   // move along one axis. A person's take more.
-  constexpr double kBytesAsText = 6.0, kBytesAsSteps = 0.5;
+  constexpr double kBytesAsText = 7.5, kBytesAsSteps = 0.5;
   ExpectedSize size;
   for (const core::SessionRow& session : exported_sessions(store, options)) {
     const ExportedRecording recording(store, session, options);

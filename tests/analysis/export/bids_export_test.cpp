@@ -158,6 +158,25 @@ TEST_F(BidsExportTest, MotionHasARowATickAndAChannelAColumn) {
   EXPECT_FALSE(fs::exists(out(std::string(kBeh) + "_events.tsv"))) << "told once";
 }
 
+TEST_F(BidsExportTest, AtAFifthOfTheRateMotionHasARowEveryFiveTicksOfTheChosenChannels) {
+  record();
+  (void)write({.selection = {.channels = {"position_m"}, .rate_hz = 200.0},
+               .recordings = true});
+  const auto rows = cells(out(std::string(kMotion) + "_motion.tsv"));
+  const nlohmann::json sidecar = json(out(std::string(kMotion) + "_motion.json"));
+  ASSERT_EQ(rows.size(), 2U) << "ticks 100 to 109";
+  EXPECT_EQ(rows[0][0], "0");
+  EXPECT_EQ(rows[1][0], "0.005");
+  // Ticks 100 to 104 without 103, which is lost.
+  EXPECT_EQ(rows[0][1], "0.0000102") << "the mean of 100, 101, 102 and 104 steps";
+  EXPECT_EQ(rows[0].size(), 1U + 15U + 4U) << "latency, positions of five points, flags";
+  EXPECT_EQ(sidecar["SamplingFrequency"], 200.0);
+  EXPECT_EQ(sidecar["RecordingDuration"], 0.01);
+  EXPECT_EQ(cells(out(std::string(kMotion) + "_channels.tsv"))[2][5], "200");
+  EXPECT_FALSE(fs::exists(out("sourcedata/jnd.study/recordings")))
+      << "who chooses some of it does not want all of it beside";
+}
+
 TEST_F(BidsExportTest, LostSamplesAreRowsOfNothingAndEvents) {
   record();
   (void)write({.recordings = true});
