@@ -1,0 +1,150 @@
+#include "analysis/statistics/sequential_estimate.h"
+
+#include <algorithm>
+#include <boost/math/distributions/non_central_t.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+
+#include "core/require.h"
+
+namespace jnd::analysis {
+namespace {
+
+/// The z that is exceeded with this probability; finite.
+double z_above(double probability) {
+  constexpr double kSmallest = std::numeric_limits<double>::min();
+  // Of the smaller tail, where the digits are.
+  if (probability > 0.5) return -z_above(1.0 - probability);
+  return boost::math::quantile(
+      boost::math::complement(boost::math::normal(), std::max(probability, kSmallest)));
+}
+
+/// The z that is exceeded as often as this t.
+double z_of_t(double t, double degrees_of_freedom) {
+  const double above = boost::math::cdf(
+      boost::math::complement(boost::math::students_t(degrees_of_freedom), std::fabs(t)));
+  return std::copysign(z_above(above), t);
+}
+
+/// Where a statistic with mean `mean` and sd 1 is beyond the boundary as often as a noncentral
+/// t is beyond that of t: at mean 0 it is the boundary of z itself.
+double boundary_under(double z_boundary, double degrees_of_freedom, double mean) {
+  using namespace boost::math;
+  if (!std::isfinite(z_boundary)) return z_boundary;
+  const students_t central(degrees_of_freedom);
+  const double tail = 0.5 * std::erfc(z_boundary / std::sqrt(2.0));
+  const double t_boundary = quantile(complement(central, tail));
+  // So far out that nearly all or none of it is beyond: the approximation of Johnson and Welch
+  // (1940) says which.
+  constexpr double kFar = 30.0;
+  if (std::fabs(mean) > kFar) {
+    const double spread = std::sqrt(1.0 + 0.5 * t_boundary * t_boundary / degrees_of_freedom);
+    return z_boundary + mean * (1.0 - 1.0 / spread);
+  }
+  // Where its series do not converge, what they came to is near enough 0 or 1.
+  using Forgiving = policies::policy<policies::evaluation_error<policies::ignore_error>,
+                                     policies::overflow_error<policies::ignore_error>>;
+  const non_central_t_distribution<double, Forgiving> shifted(degrees_of_freedom, mean);
+  const double above = std::clamp(cdf(complement(shifted, t_boundary)), 0.0, 1.0);
+  const double below = std::clamp(cdf(shifted, t_boundary), 0.0, 1.0);
+  return mean + (above < below ? z_above(above) : -z_above(below));
+}
+
+}  // namespace
+
+std::optional<SequentialEstimate> SequentialEstimate::of(const SequentialBoundaries& boundaries,
+                                                         const SequentialOutcome& outcome) {
+  if (!outcome.ended || outcome.estimates.empty() || !outcome.estimates.back()) {
+    return std::nullopt;
+  }
+  return SequentialEstimate(boundaries, outcome);
+}
+
+double SequentialEstimate::probability_above(double effect) const {
+  const std::vector<int>& looks = boundaries_.rule.looks;
+  const std::size_t num_taken = outcome_.estimates.size();
+  const EffectEstimate& last = *outcome_.estimates.back();
+  // One-sided, the whole is turned so that its boundary is above.
+  const bool is_turned = boundaries_.rule.tail == Tail::kLess;
+  const double sign = is_turned ? -1.0 : 1.0;
+  const double people = looks[num_taken - 1];
+  const double drift = sign * effect / (last.standard_error * std::sqrt(people));
+  SequentialPaths paths({looks.begin(), looks.begin() + static_cast<std::ptrdiff_t>(num_taken)},
+                        drift);
+  double above = 0.0;
+  for (std::size_t look = 0; look + 1 < num_taken; ++look) {
+    const auto& estimate = outcome_.estimates[look];
+    const double mean = drift * std::sqrt(looks[look]);
+    double upper = core::kInfinity, lower = -core::kInfinity;
+    if (estimate) {
+      const double z = boundaries_.z[look], df = estimate->degrees_of_freedom;
+      upper = boundary_under(z, df, mean);
+      if (boundaries_.rule.tail == Tail::kTwoSided) lower = -boundary_under(z, df, -mean);
+    }
+    above += paths.above(upper);
+    paths.go_on(lower, upper);
+  }
+  const double own =
+      z_of_t(sign * (last.effect - effect) / last.standard_error, last.degrees_of_freedom);
+  above += paths.above(own + drift * std::sqrt(people));
+  above = std::clamp(above, 0.0, 1.0);
+  return is_turned ? 1.0 - above : above;
+}
+
+double SequentialEstimate::probability_below(double effect) const {
+  return 1.0 - probability_above(effect);
+}
+
+double SequentialEstimate::p_value() const {
+  const double above = probability_above(0.0);
+  switch (boundaries_.rule.tail) {
+    case Tail::kGreater:
+      return above;
+    case Tail::kLess:
+      return 1.0 - above;
+    case Tail::kTwoSided:
+      break;
+  }
+  return 2.0 * std::min(above, 1.0 - above);
+}
+
+std::optional<double> SequentialEstimate::effect_at(double probability) const {
+  const EffectEstimate& last = *outcome_.estimates.back();
+  double low = last.effect, high = low, reach = last.standard_error;
+  // The larger the effect, the likelier an outcome further up.
+  constexpr int kDoublings = 12;
+  for (int i = 0; i < kDoublings && probability_above(low) >= probability; ++i) {
+    low -= reach;
+    reach *= 2.0;
+  }
+  reach = last.standard_error;
+  for (int i = 0; i < kDoublings && probability_above(high) <= probability; ++i) {
+    high += reach;
+    reach *= 2.0;
+  }
+  if (!(probability_above(low) < probability && probability < probability_above(high))) {
+    return std::nullopt;
+  }
+  const double tolerance = 1e-6 * last.standard_error;
+  std::uintmax_t num_steps = 100;
+  std::tie(low, high) = boost::math::tools::toms748_solve(
+      [&](double effect) { return probability_above(effect) - probability; }, low, high,
+      [=](double a, double b) { return std::fabs(b - a) <= tolerance; }, num_steps);
+  return 0.5 * (low + high);
+}
+
+std::optional<double> SequentialEstimate::median_unbiased() const { return effect_at(0.5); }
+
+Interval SequentialEstimate::interval(double confidence) const {
+  core::require(confidence > 0.0 && confidence < 1.0, "confidence", "a number between 0 and 1",
+                confidence);
+  const double outside = 0.5 * (1.0 - confidence);
+  return {effect_at(outside), effect_at(1.0 - outside)};
+}
+
+}  // namespace jnd::analysis
