@@ -92,6 +92,24 @@ void find_other_arms(StudyData& data, const core::StudyStore& store, StoredStudi
   }
 }
 
+std::vector<TakenLook> looks_of(const core::StudyStore& store) {
+  std::map<std::int64_t, std::string> participants;
+  for (const core::SessionRow& row : store.sessions()) {
+    participants[row.session] = row.participant;
+  }
+  std::vector<TakenLook> looks;
+  for (const core::SequentialLookRow& row : store.looks()) {
+    TakenLook& look = looks.emplace_back();
+    look.num_sessions = static_cast<int>(row.sessions.size());
+    look.ended = row.decision == "stop";
+    for (const std::int64_t session : row.sessions) {
+      const auto known = participants.find(session);
+      if (known != participants.end()) look.participants.push_back(known->second);
+    }
+  }
+  return looks;
+}
+
 /// Places of the stages in their study file.
 std::map<std::string, int> places_in(const experiments::Study& study) {
   std::map<std::string, int> places;
@@ -239,6 +257,8 @@ StudyData load_study(const core::StudyStore& store, bool with_pilots) {
   for (BlockDesign& block : data.blocks) bring_to_common_modulus(data, block);
   add_practice_runs(data, store, studies);
   add_adaptive_runs(data);
+  data.looks = looks_of(store);
+  data.unsealings = store.unsealings();
   return data;
 }
 

@@ -111,6 +111,13 @@ struct MissingSessions {
   std::int64_t num_withdrawn = 0;              ///< Of participants who withdrew: no data left.
 };
 
+/// A look at a sequential study that was taken and told.
+struct TakenLook {
+  std::vector<std::string> participants;  ///< Who came to it since the look before, and stayed.
+  int num_sessions = 0;  ///< That came to it; more than those where somebody withdrew since.
+  bool ended = false;    ///< It was told to stop.
+};
+
 /// A whole study, ready for analysis. Pilot sessions are left out, and practice but for how it
 /// went.
 struct StudyData {
@@ -129,6 +136,11 @@ struct StudyData {
   std::vector<QuestionnaireItem> items;       ///< In the order of the study file.
   std::vector<AdaptiveRun> runs;  ///< Of blocks whose procedure has a rule of its own.
   std::vector<PracticeRun> practice;
+  std::vector<TakenLook> looks;                ///< Of a sequential study, in order.
+  std::vector<core::UnsealingRow> unsealings;  ///< Of one that was opened before its end.
+
+  /// Its rule has ended it, and that was told.
+  [[nodiscard]] bool ended_by_rule() const { return !looks.empty() && looks.back().ended; }
 };
 
 /// Reads the folder's database. Nothing is computed yet, but that answers of an estimation come

@@ -138,16 +138,10 @@ std::optional<double> contrast_number(const PlannedAnalysis& analysis,
   return std::nullopt;
 }
 
-/// A person's own contrast.
-struct ContrastScore {
-  std::size_t group = 0;
-  double score = 0.0;
-};
-
-std::optional<ContrastScore> contrast_score(const PlannedAnalysis& analysis,
-                                            const PowerContrast& contrast,
-                                            const PlannedPerson& person,
-                                            const experiments::Levels& levels) {
+std::optional<PersonScore> contrast_score(const PlannedAnalysis& analysis,
+                                          const PowerContrast& contrast,
+                                          const PlannedPerson& person,
+                                          const experiments::Levels& levels) {
   const auto is_its = [&](const experiments::Levels& group) {
     return std::ranges::all_of(group, [&](const auto& level) {
       const auto own = levels.find(level.first);
@@ -156,7 +150,7 @@ std::optional<ContrastScore> contrast_score(const PlannedAnalysis& analysis,
   };
   const auto group = std::ranges::find_if(contrast.groups, is_its);
   if (group == contrast.groups.end()) return std::nullopt;
-  ContrastScore score{.group = static_cast<std::size_t>(group - contrast.groups.begin())};
+  PersonScore score{.group = static_cast<std::size_t>(group - contrast.groups.begin())};
   for (std::size_t at = 0; at < contrast.conditions.size(); ++at) {
     const auto number = contrast_number(analysis, contrast, contrast.conditions[at], person);
     if (!number) return std::nullopt;
@@ -166,7 +160,7 @@ std::optional<ContrastScore> contrast_score(const PlannedAnalysis& analysis,
 }
 
 /// By contrast, then by person.
-using ContrastScores = std::vector<std::vector<std::optional<ContrastScore>>>;
+using ContrastScores = std::vector<std::vector<std::optional<PersonScore>>>;
 
 /// The tests of all contrasts with the first `size` people, p values adjusted in their
 /// families.
@@ -177,7 +171,7 @@ std::vector<PlannedTest> contrast_tests(const PlannedAnalysis& analysis,
   for (std::size_t at = 0; at < analysis.contrasts.size(); ++at) {
     std::vector<std::vector<double>> by_group(analysis.contrasts[at].groups.size());
     for (std::size_t person = 0; person < size; ++person) {
-      const std::optional<ContrastScore>& one = scores[at][person];
+      const std::optional<PersonScore>& one = scores[at][person];
       if (one) by_group[one->group].push_back(one->score);
     }
     estimates.push_back(contrast_estimate(by_group));
@@ -437,10 +431,15 @@ PlannedRun analyse_run(const PlannedAnalysis& analysis,
   }
   PlannedRun run;
   for (const int size : analysis.sizes) {
-    run.push_back(SizeAnalysis(analysis, people, numbers, size).result());
+    run.sizes.push_back(SizeAnalysis(analysis, people, numbers, size).result());
     for (PlannedTest& test : contrast_tests(analysis, scores, static_cast<std::size_t>(size))) {
-      run.back().tests.push_back(std::move(test));
+      run.sizes.back().tests.push_back(std::move(test));
     }
+  }
+  for (std::size_t at = 0; analysis.sequential && at < analysis.contrasts.size(); ++at) {
+    if (analysis.contrasts[at].name != analysis.sequential->contrast) continue;
+    run.sequential =
+        sequential_run(*analysis.sequential, scores[at], analysis.contrasts[at].groups.size());
   }
   return run;
 }

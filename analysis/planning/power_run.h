@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "analysis/data/magnitude_means.h"
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/planning/power_contrasts.h"
+#include "analysis/planning/power_sequential.h"
 #include "analysis/statistics/fit_status.h"
 
 namespace jnd::analysis {
@@ -38,7 +40,13 @@ struct PlannedAnalysis {
   std::vector<int> sizes;     ///< Numbers of participants, ascending, each >= 1.
   bool free_pse = true;       ///< False: at the reference, as in blocks of two intervals.
   bool hierarchical = false;  ///< Also the hierarchical fit, which is a thousand times slower.
-  std::vector<PowerContrast> contrasts;  ///< Of the study file, in its order.
+  std::vector<PowerContrast> contrasts;         ///< Of the study file, in its order.
+  std::optional<PlannedSequential> sequential;  ///< Of one of these contrasts.
+
+  /// How many people a run has.
+  [[nodiscard]] int num_people() const {
+    return std::max(sizes.back(), sequential ? sequential->boundaries.rule.looks.back() : 0);
+  }
 };
 
 /// What the numbers of a `PlannedSize` are, in its order.
@@ -90,8 +98,11 @@ struct PlannedSize {
   std::vector<int> num_degenerate;    ///< By block: of these, without a fit of their own.
   std::vector<int> num_at_grid_end;   ///< By block: of these, `PlannedAnswers::at_grid_end`.
 };
-/// One simulated study, at each of its sizes.
-using PlannedRun = std::vector<PlannedSize>;
+/// One simulated study.
+struct PlannedRun {
+  std::vector<PlannedSize> sizes;           ///< At each of its sizes.
+  std::optional<SequentialRun> sequential;  ///< By its looks, where some are planned.
+};
 
 /// Analyses a study at every size: of the same people always the first so many. Each is fitted
 /// once, by maximum likelihood (lines through the logarithms for exponents).
@@ -103,8 +114,8 @@ using PlannedRun = std::vector<PlannedSize>;
 /// second one adds half an answer to everybody
 /// (`with_half_an_answer`), so that nobody is left out: more power, but where levels lie
 /// differently about two references that half moves their fractions differently.
-/// `people` are as many as the largest size. `levels`: what each of them is in the factors that
-/// people differ in; only contrasts look at it. A contrast is Student's t of people's own
+/// `people` are as many as the analysis asks for. `levels`: what each of them is in the factors
+/// that people differ in; only contrasts look at it. A contrast is Student's t of people's own
 /// contrasts, Welch's where there are groups, in the same numbers as the quick test, of Weber
 /// fractions those with half an answer added where there is no fit. Not real time.
 [[nodiscard]] PlannedRun analyse_run(const PlannedAnalysis& analysis,

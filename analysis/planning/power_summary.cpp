@@ -18,7 +18,7 @@ PlannedPower power_of(const std::vector<PlannedRun>& runs, std::size_t size, std
   double sum = 0.0;
   std::int64_t num_differences = 0;
   for (const PlannedRun& run : runs) {
-    const PlannedTest& one = run[size].tests[test];
+    const PlannedTest& one = run.sizes[size].tests[test];
     power.num_undefined += one.p_value ? 0 : 1;
     power.num_significant += one.p_value && *one.p_value < alpha ? 1 : 0;
     if (!one.difference) continue;
@@ -51,9 +51,9 @@ PlannedPrecision precision_of(const std::vector<PlannedRun>& runs, std::size_t s
   std::vector<double> values, half_widths;
   std::int64_t num_intervals = 0, num_holding = 0, num_people = 0, num_degenerate = 0;
   for (const PlannedRun& run : runs) {
-    const PlannedEstimate& one = run[size].estimates[estimate];
-    num_people += run[size].num_with_answers[place];
-    num_degenerate += run[size].num_degenerate[place];
+    const PlannedEstimate& one = run.sizes[size].estimates[estimate];
+    num_people += run.sizes[size].num_with_answers[place];
+    num_degenerate += run.sizes[size].num_degenerate[place];
     if (!one.value) {
       ++precision.num_undefined;
       continue;
@@ -106,8 +106,8 @@ std::vector<PlannedSummary> summary_of_runs(const PlannedAnalysis& analysis,
     for (std::size_t block = 0; block < analysis.blocks.size(); ++block) {
       std::int64_t num_people = 0, num_at_end = 0;
       for (const PlannedRun& run : runs) {
-        num_people += run[size].num_with_answers[block];
-        num_at_end += run[size].num_at_grid_end[block];
+        num_people += run.sizes[size].num_with_answers[block];
+        num_at_end += run.sizes[size].num_at_grid_end[block];
       }
       summary.at_grid_end.push_back(num_people == 0 ? 0.0
                                                     : static_cast<double>(num_at_end) /

@@ -145,6 +145,7 @@ void write_contrasts(HtmlText& html, const StudyResults& results) {
       excluded.rows.push_back({title, left_out.participant, left_out.reason});
     }
     for (const std::string& caution : one.cautions) cautions.push_back(title + ": " + caution);
+    if (const std::string looks = looks_sentence(one); !looks.empty()) html.paragraph(looks);
   }
   answers.notes.emplace_back(
       "Effects are ratios, but of exponents differences. p values are on the side that was "

@@ -176,7 +176,25 @@ std::string contrast_sentence(const ContrastResult& result) {
       *result.p_value_adjusted != *result.test.p_value) {
     sentence += ", " + journal_p_words(*result.p_value_adjusted) + " adjusted for the family";
   }
+  if (result.sequential && result.sequential->ended) sentence += ", adjusted for the looks";
   return sentence + "." + equivalence_words(result);
+}
+
+std::string looks_sentence(const ContrastResult& result) {
+  if (!result.sequential) return "";
+  const SequentialResult& sequential = *result.sequential;
+  std::vector<std::string> looks;
+  for (std::size_t look = 0; look < sequential.looks.size(); ++look) {
+    looks.push_back(std::to_string(sequential.looks[look]) + " (p < " +
+                    fmt::format("{:.2g}", sequential.nominal_levels[look]) + ")");
+  }
+  return "The study was to be looked at by the contrast " + shown(result.plan.name) +
+         " after so many complete sessions, and to end where p is below the level beside: " +
+         joined(looks) + ". " +
+         (sequential.ended
+              ? "Its rule ended it at look " + std::to_string(sequential.num_looks_taken) +
+                    ", with " + std::to_string(sequential.num_participants) + " participants."
+              : "Its rule had not ended it when these results were computed.");
 }
 
 }  // namespace jnd::analysis

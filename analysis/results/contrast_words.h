@@ -15,6 +15,9 @@ namespace jnd::analysis {
 /// 4.10, p = .0015." With what the smallest effect of interest says. "" without an effect.
 [[nodiscard]] std::string contrast_sentence(const ContrastResult& result);
 
+/// When the study was to be looked at and how it ended; "" of a contrast that ends none.
+[[nodiscard]] std::string looks_sentence(const ContrastResult& result);
+
 /// As journals print it: "p = .032", "p < .001".
 [[nodiscard]] std::string journal_p_words(double p_value);
 

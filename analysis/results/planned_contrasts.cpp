@@ -8,6 +8,7 @@
 #include "analysis/hierarchical/hierarchical_contrast.h"
 #include "analysis/results/contrast_answers.h"
 #include "analysis/results/contrast_words.h"
+#include "analysis/results/sequential_results.h"
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/multiplicity.h"
 #include "core/error.h"
@@ -20,21 +21,8 @@ using experiments::ContrastDirection;
 using experiments::ContrastMeasure;
 using experiments::PlannedContrast;
 
-Tail tail_of(const PlannedContrast& plan) {
-  return plan.direction == ContrastDirection::kGreater ? Tail::kGreater
-         : plan.direction == ContrastDirection::kLess  ? Tail::kLess
-                                                       : Tail::kTwoSided;
-}
-
-/// From the scale on which an effect is tested to that in which it is told.
-std::optional<double> told(const PlannedContrast& plan, const std::optional<double>& value) {
-  if (!value) return std::nullopt;
-  const double effect = is_ratio(plan.measure) ? std::exp(*value) : *value;
-  return std::isfinite(effect) ? std::optional(effect) : std::nullopt;
-}
-
 Interval told(const PlannedContrast& plan, const Interval& interval) {
-  return {told(plan, interval.low), told(plan, interval.high)};
+  return {told_effect(plan, interval.low), told_effect(plan, interval.high)};
 }
 
 constexpr double kConfidence = 0.95;
@@ -46,7 +34,7 @@ ContrastTest test_of(const PlannedContrast& plan, const std::optional<EffectEsti
     test.reason = std::move(reason);
     return test;
   }
-  test.effect = told(plan, estimate->effect);
+  test.effect = told_effect(plan, estimate->effect);
   test.ci95 = told(plan, interval_of(*estimate, kConfidence));
   test.statistic = estimate->statistic();
   test.degrees_of_freedom = estimate->degrees_of_freedom;
@@ -71,32 +59,18 @@ struct Scores {
   int num_participants = 0;
 };
 
-Scores scores_of(const ConditionNumbers& own, const ContrastConditions& conditions,
-                 ContrastMeasure measure) {
-  Scores scores{.by_group = std::vector<std::vector<double>>(conditions.groups.size())};
+Scores scores_of(const OwnContrasts& own, std::size_t num_groups, ContrastMeasure measure) {
+  Scores scores{.by_group = std::vector<std::vector<double>>(num_groups)};
   for (std::size_t person = 0; person < own.participants.size(); ++person) {
-    const auto group =
-        static_cast<std::size_t>(std::ranges::find(conditions.groups, own.groups[person],
-                                                   &experiments::ContrastGroup::name) -
-                                 conditions.groups.begin());
-    double score = 0.0;
-    std::string lacking;
-    for (std::size_t at = 0; at < conditions.conditions.size(); ++at) {
-      const double weight = conditions.weights[group][at];
-      const std::optional<double>& number = own.numbers[person][at];
-      if (!number) {
-        lacking = conditions.conditions[at].name;
-        break;
-      }
-      score += weight * *number;
-    }
-    if (!lacking.empty()) {
-      scores.excluded.push_back({own.participants[person], "no " + measure_words(measure) +
-                                                               " of their own in " + lacking});
+    const std::optional<PersonScore>& score = own.scores[person];
+    if (score) {
+      scores.by_group[score->group].push_back(score->score);
+      ++scores.num_participants;
       continue;
     }
-    scores.by_group[group].push_back(score);
-    ++scores.num_participants;
+    scores.excluded.push_back(
+        {own.participants[person],
+         "no " + measure_words(measure) + " of their own in " + own.lacking[person]});
   }
   return scores;
 }
@@ -104,25 +78,6 @@ Scores scores_of(const ConditionNumbers& own, const ContrastConditions& conditio
 std::string people_words(const ContrastConditions& conditions) {
   return conditions.groups.size() == 1 ? "Student's t of people's own contrasts"
                                        : "Welch's t of people's own contrasts";
-}
-
-/// Of what people's own numbers are, in a table of methods.
-std::string number_words_of(ContrastMeasure measure) {
-  switch (measure) {
-    case ContrastMeasure::kWeberFraction:
-      return "ln ln(1 + w)";
-    case ContrastMeasure::kPse:
-      return "ln(pse / reference)";
-    case ContrastMeasure::kExponent:
-      return "exponents";
-    case ContrastMeasure::kMagnitude:
-      return "mean ln magnitudes";
-    case ContrastMeasure::kMatch:
-      return "mean ln matches";
-    case ContrastMeasure::kResponseTime:
-      return "mean ln response times";
-  }
-  return "";
 }
 
 constexpr char kTooFew[] =
@@ -137,7 +92,7 @@ std::optional<ContrastTest> by_ranks(const PlannedContrast& plan, const Scores& 
   ContrastTest test{.method = ranks.method + " of people's own " + numbers + ", two-sided",
                     .num_participants = scores.num_participants,
                     .reason = ranks.reason};
-  test.effect = told(plan, ranks.hodges_lehmann);
+  test.effect = told_effect(plan, ranks.hodges_lehmann);
   test.ci95 = told(plan, ranks.hodges_lehmann_ci95);
   test.statistic = ranks.statistic;
   test.statistic_name = ranks.statistic_name;
@@ -235,8 +190,9 @@ ContrastResult result_of(const StudyData& data, const PlannedContrast& plan) {
   }
   result.conditions = condition_words(conditions);
   const Scores scores =
-      scores_of(condition_numbers(data, plan.measure, conditions), conditions, plan.measure);
-  const std::string numbers = number_words_of(plan.measure);
+      scores_of(own_contrasts(condition_numbers(data, plan.measure, conditions), conditions),
+                conditions.groups.size(), plan.measure);
+  const std::string numbers = own_number_words(plan.measure);
   const std::optional<EffectEstimate> of_people = contrast_estimate(scores.by_group);
   ContrastTest own = test_of(plan, of_people, people_words(conditions) + " in " + numbers,
                              scores.num_participants, kTooFew);
@@ -299,11 +255,67 @@ void adjust(std::vector<ContrastResult>& results) {
 
 }  // namespace
 
+Tail tail_of(const PlannedContrast& plan) {
+  return plan.direction == ContrastDirection::kGreater ? Tail::kGreater
+         : plan.direction == ContrastDirection::kLess  ? Tail::kLess
+                                                       : Tail::kTwoSided;
+}
+
+std::optional<double> told_effect(const PlannedContrast& plan,
+                                  const std::optional<double>& value) {
+  if (!value) return std::nullopt;
+  const double effect = is_ratio(plan.measure) ? std::exp(*value) : *value;
+  return std::isfinite(effect) ? std::optional(effect) : std::nullopt;
+}
+
+std::string own_number_words(ContrastMeasure measure) {
+  switch (measure) {
+    case ContrastMeasure::kWeberFraction:
+      return "ln ln(1 + w)";
+    case ContrastMeasure::kPse:
+      return "ln(pse / reference)";
+    case ContrastMeasure::kExponent:
+      return "exponents";
+    case ContrastMeasure::kMagnitude:
+      return "mean ln magnitudes";
+    case ContrastMeasure::kMatch:
+      return "mean ln matches";
+    case ContrastMeasure::kResponseTime:
+      return "mean ln response times";
+  }
+  return "";
+}
+
+OwnContrasts own_contrasts(const ConditionNumbers& numbers,
+                           const ContrastConditions& conditions) {
+  OwnContrasts own{.participants = numbers.participants};
+  for (std::size_t person = 0; person < numbers.participants.size(); ++person) {
+    const auto group =
+        static_cast<std::size_t>(std::ranges::find(conditions.groups, numbers.groups[person],
+                                                   &experiments::ContrastGroup::name) -
+                                 conditions.groups.begin());
+    PersonScore score{.group = group};
+    std::string lacking;
+    for (std::size_t at = 0; at < conditions.conditions.size(); ++at) {
+      const std::optional<double>& number = numbers.numbers[person][at];
+      if (!number) {
+        lacking = conditions.conditions[at].name;
+        break;
+      }
+      score.score += conditions.weights[group][at] * *number;
+    }
+    own.scores.push_back(lacking.empty() ? std::optional(score) : std::nullopt);
+    own.lacking.push_back(std::move(lacking));
+  }
+  return own;
+}
+
 std::vector<ContrastResult> planned_contrasts(const StudyData& data) {
   std::vector<ContrastResult> results;
   for (const PlannedContrast& plan : data.written.contrasts) {
     results.push_back(result_of(data, plan));
   }
+  adjust_for_looks(results, data);
   adjust(results);
   for (ContrastResult& one : results) one.sentence = contrast_sentence(one);
   return results;

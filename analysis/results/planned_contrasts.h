@@ -7,6 +7,7 @@
 
 #include "analysis/data/study_data.h"
 #include "analysis/statistics/effect_test.h"
+#include "analysis/statistics/sequential_test.h"
 #include "experiments/procedures/contrast_conditions.h"
 #include "experiments/study/design.h"
 
@@ -32,6 +33,16 @@ struct ContrastTest {
   std::string reason{};  ///< Why there is no effect; "" if there is one.
 };
 
+/// How far a study has come that is looked at before all have taken part.
+struct SequentialResult {
+  std::vector<int> looks;              ///< Numbers of complete sessions, as planned.
+  std::vector<double> nominal_levels;  ///< Of p at each of them.
+  int num_looks_taken = 0;
+  int num_participants = 0;  ///< Sessions that the last look taken rests on.
+  bool ended = false;        ///< By its rule; only then values are adjusted for the looks.
+  bool significant = false;  ///< The boundary was crossed.
+};
+
 /// What came of a contrast that the study file plans.
 struct ContrastResult {
   experiments::PlannedContrast plan;
@@ -41,6 +52,7 @@ struct ContrastResult {
   std::optional<double> p_value_adjusted;  ///< Within the family; absent without a p value.
   std::optional<Equivalence> equivalence;  ///< Of a plan with a smallest effect.
   std::vector<ContrastTest> otherwise;     ///< The same by other means.
+  std::optional<SequentialResult> sequential{};  ///< Of the contrast that ends the study.
   std::vector<ExcludedParticipant> excluded;
   std::vector<std::string> cautions;
   std::string sentence;  ///< As a journal prints it; "" without an effect.
@@ -56,10 +68,28 @@ struct ConditionNumbers {
   std::vector<std::vector<std::optional<double>>> numbers;
 };
 
+/// The side of the test that was planned.
+[[nodiscard]] Tail tail_of(const experiments::PlannedContrast& plan);
+/// From the scale on which an effect is tested to that in which it is told: of a logarithm its
+/// ratio.
+[[nodiscard]] std::optional<double> told_effect(const experiments::PlannedContrast& plan,
+                                                const std::optional<double>& value);
+/// What people's own numbers are: "ln ln(1 + w)".
+[[nodiscard]] std::string own_number_words(experiments::ContrastMeasure measure);
+
 /// Everybody's own numbers in the conditions of a contrast. Not real time.
 [[nodiscard]] ConditionNumbers condition_numbers(
     const StudyData& data, experiments::ContrastMeasure measure,
     const experiments::ContrastConditions& conditions);
+
+/// Everybody's weighted sum of their numbers, by participant.
+struct OwnContrasts {
+  std::vector<std::string> participants;
+  std::vector<std::optional<PersonScore>> scores;  ///< None of who lacks a number,
+  std::vector<std::string> lacking;                ///< in this condition; else "".
+};
+[[nodiscard]] OwnContrasts own_contrasts(const ConditionNumbers& numbers,
+                                         const experiments::ContrastConditions& conditions);
 
 /// The contrasts that the study plans, each by its answer and otherwise:
 /// - a Weber fraction or a point of subjective equality by the hierarchical fit of all of its
@@ -67,7 +97,8 @@ struct ConditionNumbers {
 /// - everything else by people's own numbers, whose weighted sums are tested by Student's t, in
 ///   several groups by Welch's (of balanced answers these are the contrasts of a mixed model
 ///   with a slope of every person).
-/// p values are adjusted in their families. Not real time.
+/// p values are adjusted in their families; the contrast that ends a sequential study, for its
+/// looks. Not real time.
 [[nodiscard]] std::vector<ContrastResult> planned_contrasts(const StudyData& data);
 
 }  // namespace jnd::analysis

@@ -112,7 +112,7 @@ void tell_size(const ExportOptions& options, const core::StudyStore& store) {
 int run_export(ExportOptions options) {
   stop_on_signals();
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
-  require_unblinded(store);
+  require_results_open(store);
   options.data.program_version = JND_VERSION;
   std::map<std::string, experiments::Study> studies;
   options.data.stage_names = [&](const core::SessionRow& session) {

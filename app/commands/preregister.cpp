@@ -62,6 +62,12 @@ int run_preregister(const PreregisterOptions& options) {
   if (!options.out.empty()) analysis::require_free_folder(options.out);
   const fs::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
+  if (study.sequential && options.conduct.num_participants != study.sequential->looks.back()) {
+    throw UsageError("--participants: expected " +
+                     std::to_string(study.sequential->looks.back()) +
+                     ", the last of the study's looks, found " +
+                     std::to_string(options.conduct.num_participants));
+  }
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const std::int64_t time_ns =
       std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
@@ -111,7 +117,7 @@ void add_preregister(CLI::App& program, Invocation& invocation) {
       ->required();
   command
       ->add_option("--participants", options->conduct.num_participants,
-                   "How many complete sessions are planned")
+                   "How many complete sessions are planned; with looks, at the last of them")
       ->required()
       ->check(whole_number(1, 100000));
   command->add_option("--power", options->power, "Folder of `jnd power --out`: why so many")
@@ -120,7 +126,8 @@ void add_preregister(CLI::App& program, Invocation& invocation) {
   command->add_option("--exclusions", options->conduct.exclusions,
                       "Which data will be left out, in words; default: none");
   command->add_option("--stopping", options->conduct.stopping,
-                      "When the study ends, in words; default: with the last complete session");
+                      "When the study ends, in words; default: by its looks where it plans "
+                      "some, else with the last complete session");
   command->add_option("--device", options->conduct.device, "Device that all sessions run on");
   command->add_option("--out", options->out,
                       "New folder for preregistration.json, .md and .html");

@@ -9,7 +9,7 @@
   ADD(validate) ADD(schema) ADD(new) ADD(plan) ADD(power) ADD(power_merge) \
   ADD(preregister)                                                         \
   /* Running it. */                                                        \
-  ADD(run) ADD(simulate) ADD(resume)                                       \
+  ADD(run) ADD(simulate) ADD(resume) ADD(look)                             \
   /* Keeping it, and acts on what is kept. */                              \
   ADD(verify) ADD(backup) ADD(restore)                                     \
   ADD(exclude) ADD(unblind) ADD(withdraw) ADD(adverse_event)               \

@@ -62,7 +62,7 @@ const char* force_words(analysis::ForceSource source) {
 int run_results(ResultsOptions options) {
   options.results.compared = compared_names(options.compare);
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
-  require_unblinded(store);
+  require_results_open(store);
   const analysis::StudyData as_commanded = analysis::load_study(store);
   const MeasuredDevices devices =
       options.delivered ? measured_devices(store, as_commanded) : MeasuredDevices();

@@ -59,7 +59,7 @@ ActionOutcome outcome_of(const core::Integrity& integrity, const std::string& wh
 ActionOutcome export_tables(const fs::path& folder, const fs::path& target,
                             WorkControl& control) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
-  require_unblinded(store);
+  require_results_open(store);
   control.progress(0.1);
   control.stop_if_cancelled();
   const std::string forgotten = noted_export(store, target, "csv", /*pilot=*/false);

@@ -340,7 +340,7 @@ const analysis::ParticipantEstimate* ResultsSource::own(const std::string& secti
 
 ResultsModel results_model(const std::filesystem::path& folder, WorkControl& control) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
-  require_unblinded(store);
+  require_results_open(store);
   const analysis::StudyData data = analysis::load_study(store);
   const experiments::Study study = study_in(store);
   control.progress(0.1);

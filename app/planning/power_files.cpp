@@ -181,7 +181,12 @@ MergedPower merge_power_shards(const std::vector<fs::path>& files) {
 void tell_power(const PowerDesign& design, const std::vector<analysis::PlannedRun>& runs,
                 const PowerOutput& output) {
   const auto summaries = analysis::summary_of_runs(design.analysis, runs);
-  const std::string document = json_text(power_result(design, summaries)) + "\n";
+  std::vector<analysis::SequentialRun> by_looks;
+  for (const analysis::PlannedRun& run : runs) {
+    if (run.sequential) by_looks.push_back(*run.sequential);
+  }
+  const auto sequential = analysis::sequential_power(design.analysis.sequential, by_looks);
+  const std::string document = json_text(power_result(design, summaries, sequential)) + "\n";
   if (!output.out.empty()) {
     analysis::UnfinishedFolder folder(output.out);
     analysis::write_text_file(folder.path() / "power.json", document);
@@ -199,7 +204,9 @@ void tell_power(const PowerDesign& design, const std::vector<analysis::PlannedRu
       if (!figure.problem.empty()) std::fprintf(stderr, "jnd: %s\n", figure.problem.c_str());
     }
   }
-  std::fputs(output.json ? document.c_str() : power_table(design, summaries).c_str(), stdout);
+  std::fputs(
+      output.json ? document.c_str() : power_table(design, summaries, sequential).c_str(),
+      stdout);
 }
 
 }  // namespace jnd::app

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,8 @@ void tell_power(const PowerDesign& design, const std::vector<analysis::PlannedRu
                 const PowerOutput& output);
 
 /// The table that is printed.
-[[nodiscard]] std::string power_table(const PowerDesign& design,
-                                      const std::vector<analysis::PlannedSummary>& summaries);
+[[nodiscard]] std::string power_table(
+    const PowerDesign& design, const std::vector<analysis::PlannedSummary>& summaries,
+    const std::optional<analysis::SequentialPower>& sequential);
 
 }  // namespace jnd::app

@@ -95,6 +95,62 @@ ordered_json contrasts_json(const PowerDesign& design) {
   return contrasts;
 }
 
+constexpr std::pair<SpendingFunction, const char*> kSpendings[] = {
+    {SpendingFunction::kObrienFleming, "obrien_fleming"},
+    {SpendingFunction::kPocock, "pocock"}};
+
+constexpr std::pair<Tail, const char*> kTails[] = {
+    {Tail::kTwoSided, "either"}, {Tail::kGreater, "greater"}, {Tail::kLess, "less"}};
+
+/// The rule of the looks; null where none are planned.
+ordered_json rule_json(const std::optional<PlannedSequential>& planned) {
+  if (!planned) return nullptr;
+  const SequentialRule& rule = planned->boundaries.rule;
+  const auto word = [](const auto& table, auto value) {
+    for (const auto& [known, its_word] : table) {
+      if (known == value) return its_word;
+    }
+    return "";
+  };
+  return {{"contrast", planned->contrast},
+          {"looks", rule.looks},
+          {"spending", word(kSpendings, rule.spending)},
+          {"alpha", rule.alpha},
+          {"direction", word(kTails, rule.tail)},
+          {"nominal_levels", planned->boundaries.nominal_level}};
+}
+
+std::optional<PlannedSequential> planned_sequential_of(const ordered_json& json) {
+  if (json.is_null()) return std::nullopt;
+  const auto value = [&json](const auto& table, const char* key) {
+    for (const auto& [its_value, word] : table) {
+      if (json.at(key) == word) return its_value;
+    }
+    throw core::Error(std::string(key) + ": expected one of this program's, found another");
+  };
+  const SequentialRule rule{.looks = json.at("looks").get<std::vector<int>>(),
+                            .spending = value(kSpendings, "spending"),
+                            .alpha = json.at("alpha"),
+                            .tail = value(kTails, "direction")};
+  return PlannedSequential{.contrast = json.at("contrast"), .boundaries = boundaries_of(rule)};
+}
+
+ordered_json sequential_json(const PowerDesign& design, const SequentialPower& power,
+                             bool alike) {
+  ordered_json json = rule_json(design.analysis.sequential);
+  json["power"] = power.power;
+  json["power_is"] = alike ? "false_positive_rate" : "power";
+  json["power_ci95"] = {power.power_low, power.power_high};
+  json["expected_participants"] = power.mean_participants;
+  json["expected_participants_standard_error"] = power.standard_error;
+  json["fixed_power"] = power.fixed_power;
+  json["fixed_participants"] =
+      power.fixed_participants ? ordered_json(*power.fixed_participants) : ordered_json();
+  json["num_ended"] = power.num_ended;
+  json["num_significant"] = power.num_significant;
+  return json;
+}
+
 ordered_json to_json(const PlannedPrecision& precision, const PlannedName& name,
                      const analysis::PlannedBlock& block) {
   return {{"name", name.name},
@@ -131,6 +187,7 @@ ordered_json to_json(const PowerDesign& design) {
   json["durations_s"] = std::move(durations);
   json["left_out"] = design.left_out;
   json["contrasts"] = contrasts_json(design);
+  if (design.analysis.sequential) json["sequential"] = rule_json(design.analysis.sequential);
   return json;
 }
 
@@ -181,6 +238,7 @@ PowerDesign power_design_of(const ordered_json& json) {
                                          .margin = number_of(one.at("margin")),
                                          .is_ratio = one.at("effect_is") == "ratio"});
   }
+  design.analysis.sequential = planned_sequential_of(json.value("sequential", ordered_json()));
   constexpr std::int64_t kMostRuns = 1'000'000;
   if (request.sizes.empty() || design.durations.size() != request.sizes.size() ||
       request.num_runs < 1 || request.num_runs > kMostRuns) {
@@ -191,7 +249,7 @@ PowerDesign power_design_of(const ordered_json& json) {
 
 ordered_json to_json(const PlannedRun& run) {
   auto json = ordered_json::array();
-  for (const PlannedSize& size : run) {
+  for (const PlannedSize& size : run.sizes) {
     auto estimates = ordered_json::array();
     for (const PlannedEstimate& one : size.estimates) {
       estimates.push_back({number(one.value), number(one.ci95.low), number(one.ci95.high)});
@@ -206,13 +264,42 @@ ordered_json to_json(const PlannedRun& run) {
                     {"degenerate", size.num_degenerate},
                     {"at_grid_end", size.num_at_grid_end}});
   }
-  return json;
+  if (!run.sequential) return json;
+  std::string fixed;
+  for (const bool significant : run.sequential->fixed_significant) {
+    fixed += significant ? '1' : '0';
+  }
+  return {{"sizes", std::move(json)},
+          {"sequential",
+           {{"look", run.sequential->look},
+            {"significant", run.sequential->significant},
+            {"fixed_significant", fixed}}}};
 }
+
+namespace {
+
+SequentialRun sequential_run_of(const ordered_json& json, const PlannedSequential& planned) {
+  const std::vector<int>& looks = planned.boundaries.rule.looks;
+  SequentialRun run{.look = json.at("look"), .significant = json.at("significant")};
+  for (const char one : json.at("fixed_significant").get<std::string>()) {
+    run.fixed_significant.push_back(one == '1');
+  }
+  const auto num_sizes = static_cast<std::size_t>(looks.back() - looks.front() + 1);
+  if (run.look >= looks.size() || run.fixed_significant.size() != num_sizes) {
+    throw core::Error("run: expected one that its looks ended, found another");
+  }
+  return run;
+}
+
+}  // namespace
 
 PlannedRun planned_run_of(const ordered_json& json, const PlannedAnalysis& analysis) {
   PlannedRun run;
-  for (const ordered_json& size : json) {
-    PlannedSize& read = run.emplace_back();
+  if (analysis.sequential) {
+    run.sequential = sequential_run_of(json.at("sequential"), *analysis.sequential);
+  }
+  for (const ordered_json& size : analysis.sequential ? json.at("sizes") : json) {
+    PlannedSize& read = run.sizes.emplace_back();
     for (const ordered_json& one : size.at("estimates")) {
       read.estimates.push_back(
           {number_of(one.at(0)), {number_of(one.at(1)), number_of(one.at(2))}});
@@ -231,14 +318,15 @@ PlannedRun planned_run_of(const ordered_json& json, const PlannedAnalysis& analy
       throw core::Error("run: expected as many numbers as its design asks for, found others");
     }
   }
-  if (run.size() != analysis.sizes.size()) {
+  if (run.sizes.size() != analysis.sizes.size()) {
     throw core::Error("run: expected every size of its design, found others");
   }
   return run;
 }
 
 ordered_json power_result(const PowerDesign& design,
-                          const std::vector<PlannedSummary>& summaries) {
+                          const std::vector<PlannedSummary>& summaries,
+                          const std::optional<SequentialPower>& sequential) {
   const std::vector<PlannedName> tests = test_names(design.analysis);
   const std::vector<PlannedName> estimates = estimate_names(design.analysis);
   ordered_json json = request_json(design);
@@ -269,9 +357,14 @@ ordered_json power_result(const PowerDesign& design,
     sizes.push_back(std::move(one));
   }
   json["sizes"] = std::move(sizes);
+  if (sequential) json["sequential"] = sequential_json(design, *sequential, alike);
   json["left_out"] = design.left_out;
   json["warnings"] =
       planning_doubts(design.analysis, summaries, design.request.null_hypothesis);
+  if (sequential && alike) {
+    const std::string doubt = sequential_doubt(*design.analysis.sequential, *sequential);
+    if (!doubt.empty()) json["warnings"].push_back(doubt);
+  }
   return json;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <vector>
 
 #include "analysis/planning/power_summary.h"
@@ -21,6 +22,7 @@ namespace jnd::app {
 
 /// What `jnd power --json` prints.
 [[nodiscard]] nlohmann::ordered_json power_result(
-    const PowerDesign& design, const std::vector<analysis::PlannedSummary>& summaries);
+    const PowerDesign& design, const std::vector<analysis::PlannedSummary>& summaries,
+    const std::optional<analysis::SequentialPower>& sequential);
 
 }  // namespace jnd::app

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "analysis/results/sequential_results.h"
 #include "app/command_line/command.h"
 #include "app/planning/plan_statistics.h"
 #include "app/session/pseudonym.h"
@@ -229,7 +230,7 @@ std::optional<double> value_of_everybody(const Study& study, const Laboratory& l
     for (std::uint64_t seed = 1; seed <= kPeople; ++seed) {
       people.push_back(person_of(of_all, simulator.answers(stages, seed)));
     }
-    return analysis::analyse_run(of_all, people).front().estimates.front().value;
+    return analysis::analyse_run(of_all, people).sizes.front().estimates.front().value;
   }
   return std::nullopt;
 }
@@ -277,18 +278,15 @@ std::vector<analysis::PowerContrast> contrasts_of(const Study& study,
                          measure_words(plan.measure) + ")");
       continue;
     }
-    analysis::PowerContrast one{
-        .name = plan.name,
-        .meaning = contrast_meaning(plan),
-        .alpha = plan.alpha,
-        .is_ratio = is_ratio(plan.measure),
-        .measure = plan.measure,
-        .tail = plan.direction == ContrastDirection::kGreater ? analysis::Tail::kGreater
-                : plan.direction == ContrastDirection::kLess  ? analysis::Tail::kLess
-                                                              : analysis::Tail::kTwoSided,
-        .family = plan.family,
-        .correction = plan.correction,
-        .weights = found.weights};
+    analysis::PowerContrast one{.name = plan.name,
+                                .meaning = contrast_meaning(plan),
+                                .alpha = plan.alpha,
+                                .is_ratio = is_ratio(plan.measure),
+                                .measure = plan.measure,
+                                .tail = analysis::tail_of(plan),
+                                .family = plan.family,
+                                .correction = plan.correction,
+                                .weights = found.weights};
     if (plan.smallest_effect) {
       one.margin = one.is_ratio ? std::log(*plan.smallest_effect) : *plan.smallest_effect;
     }
@@ -309,6 +307,21 @@ std::vector<analysis::PowerContrast> contrasts_of(const Study& study,
     }
   }
   return contrasts;
+}
+
+/// The looks of the study file; named as left out where the contrast that decides is.
+std::optional<analysis::PlannedSequential> sequential_of(
+    const Study& study, const std::vector<analysis::PowerContrast>& contrasts,
+    std::vector<std::string>& left_out) {
+  if (!study.sequential) return std::nullopt;
+  const std::string& name = study.sequential->contrast;
+  if (std::ranges::find(contrasts, name, &analysis::PowerContrast::name) == contrasts.end()) {
+    left_out.push_back("looks at the contrast " + name);
+    return std::nullopt;
+  }
+  return analysis::PlannedSequential{
+      .contrast = name,
+      .boundaries = analysis::boundaries_of(analysis::sequential_rule(study))};
 }
 
 /// A laboratory in which two blocks have the same Weber fraction.
@@ -352,6 +365,7 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
                           .hierarchical = request.hierarchical};
   std::vector<std::string> left_out = left_out_of(study);
   planned.contrasts = contrasts_of(study, blocks, left_out);
+  planned.sequential = sequential_of(study, planned.contrasts, left_out);
   // What the study plans goes before two blocks that nobody asked to compare.
   if (request.compare || planned.contrasts.empty()) {
     planned.compared = compared_places(blocks, request);
@@ -400,7 +414,7 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
 
 std::vector<analysis::PlannedRun> PowerStudy::run(const Work& work) const {
   const AnswerSimulator simulator(study_, laboratory_);
-  const int num_people = design_.request.sizes.back();
+  const int num_people = design_.analysis.num_people();
   const std::vector<std::string> names = next_participants(std::set<std::string>{}, num_people);
   std::map<std::string, std::vector<StageInstance>> stages;
   for (const Cell& cell : cells_of(study_)) stages[to_string(cell)] = stages_of(study_, cell);

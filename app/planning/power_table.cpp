@@ -30,10 +30,44 @@ std::string heading(const PowerDesign& design) {
       design.request.seed);
 }
 
+/// What comes of the looks; "" where none are planned.
+std::string sequential_table(const PlannedSequential& planned, const SequentialPower& power,
+                             bool alike) {
+  const SequentialRule& rule = planned.boundaries.rule;
+  std::string table = fmt::format(
+      "\nBy looks at {}: alpha {:.3g}{}, spent as by {}, boundaries of t tests\n"
+      "  {:>12} {:>10}  {:>10}  {:>20}\n",
+      planned.contrast, rule.alpha, rule.tail == Tail::kTwoSided ? "" : ", one-sided",
+      rule.spending == SpendingFunction::kPocock ? "Pocock" : "O'Brien-Fleming", "participants",
+      "ends if p <", "ends here", "finds a difference");
+  const auto num_runs = static_cast<double>(power.num_runs);
+  for (std::size_t look = 0; look < rule.looks.size(); ++look) {
+    table += fmt::format("  {:>12} {:>10.5f}  {:>10}  {:>20}\n", rule.looks[look],
+                         planned.boundaries.nominal_level[look],
+                         percent(static_cast<double>(power.num_ended[look]) / num_runs),
+                         percent(static_cast<double>(power.num_significant[look]) / num_runs));
+  }
+  table +=
+      fmt::format("  {}: {} ({} .. {}), without looks {} with all {}\n",
+                  alike ? "Differences found where there are none" : "Power",
+                  percent(power.power), percent(power.power_low), percent(power.power_high),
+                  percent(power.fixed_power), rule.looks.back());
+  table += fmt::format("  Expected participants: {:.1f} (standard error {:.1f})",
+                       power.mean_participants, power.standard_error);
+  if (!alike) {
+    table +=
+        power.fixed_participants
+            ? fmt::format("; without looks as much power takes {}", *power.fixed_participants)
+            : fmt::format("; without looks as much power takes more than {}",
+                          rule.looks.back());
+  }
+  return table + "\n";
+}
+
 }  // namespace
 
-std::string power_table(const PowerDesign& design,
-                        const std::vector<PlannedSummary>& summaries) {
+std::string power_table(const PowerDesign& design, const std::vector<PlannedSummary>& summaries,
+                        const std::optional<SequentialPower>& sequential) {
   std::string table = heading(design);
   const std::vector<PlannedName> tests = test_names(design.analysis);
   const bool alike = design.request.null_hypothesis || nothing_differs(design.analysis);
@@ -59,6 +93,9 @@ std::string power_table(const PowerDesign& design,
           fmt::format("{} .. {}", percent(power.power_low), percent(power.power_high)),
           power.num_undefined, decimals(effect_of(power, tests[test])));
     }
+  }
+  if (sequential) {
+    table += sequential_table(*design.analysis.sequential, *sequential, alike);
   }
   const std::vector<PlannedName> estimates = estimate_names(design.analysis);
   for (std::size_t estimate = 0; estimate < estimates.size(); ++estimate) {
@@ -86,6 +123,10 @@ std::string power_table(const PowerDesign& design,
   if (!design.left_out.empty()) {
     table += fmt::format("\nNot planned for, but in the duration: {}\n",
                          fmt::join(design.left_out, ", "));
+  }
+  if (sequential && alike) {
+    const std::string doubt = sequential_doubt(*design.analysis.sequential, *sequential);
+    if (!doubt.empty()) table += "\nWARNING: " + doubt + "\n";
   }
   for (const std::string& doubt :
        planning_doubts(design.analysis, summaries, design.request.null_hypothesis)) {

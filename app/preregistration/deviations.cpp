@@ -91,7 +91,9 @@ void compare_designs(const Json& plan, const analysis::StudyData& data,
       protocols, [&](const std::string& hash) { return hash != registered; });
   if (!is_changed) return;
   const std::size_t num_before = deviations.size();
-  const Json found = planned_design(data.written);
+  Json found = planned_design(data.written);
+  // Where neither plans looks, nothing differs.
+  if (!found.contains("sequential")) found["sequential"] = nullptr;
   for (const auto& [key, value] : found.items()) {
     compare(key_words(key), plan.value(key, Json()), value, deviations);
   }
@@ -156,7 +158,19 @@ class Conduct {
 
 void compare_conduct(const Json& plan, const Conduct& conduct, const analysis::StudyData& data,
                      const core::StudyStore& store, std::vector<Deviation>& deviations) {
-  const int planned = plan.at("num_participants");
+  int planned = plan.at("num_participants");
+  if (data.ended_by_rule()) {
+    // The rule has said how many.
+    planned = 0;
+    for (const analysis::TakenLook& look : data.looks) planned += look.num_sessions;
+  }
+  for (const core::UnsealingRow& unsealing : data.unsealings) {
+    deviations.push_back(
+        {"looks", "sealed until the rule ends the study",
+         "unsealed on " + analysis::date_words(unsealing.time_ns) + " with " +
+             analysis::counted_words(unsealing.num_complete, "complete session") + ": " +
+             unsealing.reason});
+  }
   if (conduct.num_complete != planned) {
     deviations.push_back({"number of participants",
                           analysis::counted_words(planned, "complete session"),

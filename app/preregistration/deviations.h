@@ -17,10 +17,12 @@ struct AnalysisChoices {
 };
 
 /// The study beside what it registered before: nothing where it registered nothing. Looks at
-/// the study file of every session, the number of complete sessions, sessions from before the
-/// registration, sessions that were not finished or are of people who took part before, trials
-/// that were set aside, withdrawals, the device, the version of the program, when the study was
-/// unblinded, and at `choices`. Throws `Error` where what is kept is no preregistration.
+/// the study file of every session, the number of complete sessions (where looks ended the
+/// study, of those they rest on), results that were unsealed before that, sessions from before
+/// the registration, sessions that were not finished or are of people who took part before,
+/// trials that were set aside, withdrawals, the device, the version of the program, when the
+/// study was unblinded, and at `choices`. Throws `Error` where what is kept is no
+/// preregistration.
 [[nodiscard]] analysis::PreregisteredStudy preregistered_study(
     const core::StudyStore& store, const analysis::StudyData& data,
     const AnalysisChoices& choices = {});

@@ -37,6 +37,12 @@ Json contrast_json(const Study& study, const PlannedContrast& plan) {
           {"correction", to_string(plan.correction)}};
 }
 
+Json sequential_json(const SequentialPlan& plan) {
+  return {{"contrast", plan.contrast},
+          {"looks", plan.looks},
+          {"spending", to_string(plan.spending)}};
+}
+
 Json block_json(const Study& study, const Stage& stage, const Block& block) {
   Json levels = Json::object();
   for (const auto& [factor, level] : block.levels) levels[factor] = level;
@@ -90,12 +96,14 @@ Json planned_design(const Study& study) {
                     {"arms", std::move(names)},
                     {"stratify_by", counterbalance->stratify_by}});
   });
-  return {{"blinding", blinding_word(study.blinding)},
-          {"factors", std::move(factors)},
-          {"contrasts", std::move(contrasts)},
-          {"counterbalances", std::move(arms)},
-          {"blocks", std::move(blocks)},
-          {"stages", std::move(stages)}};
+  Json design = {{"blinding", blinding_word(study.blinding)},
+                 {"factors", std::move(factors)},
+                 {"contrasts", std::move(contrasts)}};
+  if (study.sequential) design["sequential"] = sequential_json(*study.sequential);
+  design["counterbalances"] = std::move(arms);
+  design["blocks"] = std::move(blocks);
+  design["stages"] = std::move(stages);
+  return design;
 }
 
 Preregistration preregistration_of(const Study& study, const std::string& study_file,
@@ -119,6 +127,16 @@ Preregistration preregistration_of(const Study& study, const std::string& study_
   plan.update(planned_design(study));
   plan["power"] = Json::array();
   if (!power.is_object()) return plan;
+  if (const Json looks = power.value("sequential", Json()); looks.is_object()) {
+    plan["power"].push_back({{"participants", looks.at("looks").back()},
+                             {"expected_participants", looks.at("expected_participants")},
+                             {"test", looks.at("contrast")},
+                             {"alpha", looks.at("alpha")},
+                             {"power", looks.at("power")},
+                             {"power_ci95", looks.at("power_ci95")},
+                             {"laboratory", power.at("laboratory")},
+                             {"runs", power.at("runs")}});
+  }
   for (const Json& size : power.at("sizes")) {
     for (const Json& test : size.at("tests")) {
       plan["power"].push_back({{"participants", size.at("participants")},

@@ -23,7 +23,8 @@ struct PlannedConduct {
 ///
 /// Keys: format, study, study_file, study_sha256, program_version, registered_on,
 /// registered_time_ns, title, authors, description, num_participants, sample_rationale,
-/// exclusions, stopping, device, factors, contrasts, blocks, stages, power.
+/// exclusions, stopping, device, factors, contrasts, sequential (where looks are planned),
+/// counterbalances, blocks, stages, power.
 using Preregistration = nlohmann::ordered_json;
 
 /// Of a study as its file has it. `power`: the document of `jnd power`, or null.

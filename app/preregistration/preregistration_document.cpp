@@ -118,7 +118,59 @@ std::string blinding_words(const std::string& blinding) {
                                    : "Nobody is blind to the stimuli.";
 }
 
+/// When a study ends whose looks are planned; "" where none are.
+std::string looks_words(const Json& plan) {
+  if (!plan.contains("sequential")) return "";
+  const Json& rule = plan.at("sequential");
+  const Json* decides = nullptr;
+  for (const Json& contrast : plan.at("contrasts")) {
+    if (contrast.at("name") == rule.at("contrast")) decides = &contrast;
+  }
+  const double alpha = decides == nullptr ? 0.05 : decides->at("alpha").get<double>();
+  return fmt::format(
+      "The study is looked at after {} complete sessions, by the contrast {}. It ends at the "
+      "first look at which the p value of the t test of people's own contrasts is below that "
+      "look's nominal level, and at {} complete sessions in any case. The nominal levels spend "
+      "alpha {:g} over the looks as by {} (Lan and DeMets 1983). Whoever runs the study is "
+      "told "
+      "only to go on or to stop; results are sealed until then, and the estimate of the "
+      "contrast is adjusted for the looks (median unbiased, in the stage-wise order).",
+      list_words(rule.at("looks")), spaced(rule.at("contrast")), rule.at("looks").back().dump(),
+      alpha, rule.at("spending") == "pocock" ? "Pocock" : "O'Brien and Fleming");
+}
+
+std::vector<std::string> stopping_paragraphs(const Json& plan) {
+  const std::string looks = looks_words(plan);
+  if (looks.empty()) {
+    return {or_words(plan, "stopping",
+                     "The study ends when " + plan.at("num_participants").dump() +
+                         " sessions are complete, whatever they show.")};
+  }
+  std::vector<std::string> paragraphs = {looks};
+  const std::string more = plan.value("stopping", "");
+  if (!more.empty()) paragraphs.push_back(more);
+  return paragraphs;
+}
+
+std::string sample_words(const Json& plan) {
+  const std::string num = plan.at("num_participants").dump();
+  return plan.contains("sequential")
+             ? "At most " + num +
+                   " participants with a complete session; see the stopping rule."
+             : num + " participants with a complete session.";
+}
+
 std::string power_words(const Json& power) {
+  if (power.contains("expected_participants")) {
+    return fmt::format(
+        "{}, by the looks: power {:.1f} % (95 % {:.1f} to {:.1f} %) at alpha {:g} with {:.1f} "
+        "participants expected and at most {}, in {} simulated studies of the laboratory {}.",
+        spaced(power.at("test")), 100.0 * power.at("power").get<double>(),
+        100.0 * power.at("power_ci95").at(0).get<double>(),
+        100.0 * power.at("power_ci95").at(1).get<double>(), power.at("alpha").get<double>(),
+        power.at("expected_participants").get<double>(), power.at("participants").dump(),
+        power.at("runs").dump(), power.at("laboratory").get<std::string>());
+  }
   return fmt::format(
       "{} with {} participants: {:.1f} % (95 % {:.1f} to {:.1f} %) at alpha "
       "{:g}, in {} simulated studies of the laboratory {}.",
@@ -130,7 +182,6 @@ std::string power_words(const Json& power) {
 }
 
 std::vector<Chapter> chapters_of(const Json& plan) {
-  const std::string num = plan.at("num_participants").dump();
   std::vector<std::string> factors;
   for (const Json& factor : plan.at("factors")) {
     factors.push_back(spaced(factor.at("name")) + ": " + list_words(factor.at("levels")));
@@ -162,15 +213,11 @@ std::vector<Chapter> chapters_of(const Json& plan) {
        {{"Existing data", {"No session of this study was run before the registration."}},
         {"Data collection procedures",
          {"Device: " + or_words(plan, "device", "not said") + "."}},
-        {"Sample size", {num + " participants with a complete session."}},
+        {"Sample size", {sample_words(plan)}},
         {"Sample size rationale",
          {or_words(plan, "sample_rationale", "Not said.")},
          each(plan.at("power"), power_words)},
-        {"Stopping rule",
-         {or_words(plan, "stopping",
-                   "The study ends when " + num +
-                       " sessions are complete, whatever they "
-                       "show.")}}}},
+        {"Stopping rule", stopping_paragraphs(plan)}}},
       {"Variables",
        {{"Manipulated variables",
          factors.empty() ? std::vector<std::string>{"The blocks of the study file."}

@@ -118,6 +118,14 @@ json contrast_json(const analysis::ContrastResult& one) {
                    {"excluded", std::move(excluded)},
                    {"cautions", one.cautions},
                    {"sentence", one.sentence}});
+  if (one.sequential) {
+    contrast["sequential"] = {{"looks", one.sequential->looks},
+                              {"nominal_levels", one.sequential->nominal_levels},
+                              {"num_looks_taken", one.sequential->num_looks_taken},
+                              {"num_participants", one.sequential->num_participants},
+                              {"ended", one.sequential->ended},
+                              {"significant", one.sequential->significant}};
+  }
   return contrast;
 }
 
@@ -197,7 +205,7 @@ json predictive_json(const analysis::Predictive& predictive) {
 analysis::StudyResults results_of_folder(const std::filesystem::path& folder,
                                          const analysis::ResultsOptions& options) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
-  require_unblinded(store);
+  require_results_open(store);
   const analysis::StudyData data = analysis::load_study(store);
   analysis::StudyResults results = results_of_data(data, options);
   results.preregistration = preregistered_study(store, data);

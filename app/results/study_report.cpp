@@ -39,7 +39,7 @@ StudyReport write_study_report(const StudyReportRequest& request) {
   // Of many people the fits take most of the time, of recordings the movement.
   constexpr double kRead = 0.05, kComputed = 0.5, kMoved = 0.65;
   const core::StudyStore store(request.folder, core::StudyStore::Mode::kReadOnly);
-  require_unblinded(store);
+  require_results_open(store);
   analysis::require_free_folder(request.out);
   core::tell(request.on_progress, 0.0);
   analysis::StudyData data = analysis::load_study(store, request.pilot);

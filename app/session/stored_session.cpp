@@ -47,15 +47,32 @@ std::string changed_study_remark(const core::StudyStore& store,
          "); the session goes on with the text it was begun with";
 }
 
-void require_unblinded(const core::StudyStore& store) {
+namespace {
+
+/// Its rule has ended it, and that was told.
+bool has_ended(const core::StudyStore& store) {
+  const std::vector<core::SequentialLookRow> looks = store.looks();
+  return !looks.empty() && looks.back().decision == "stop";
+}
+
+}  // namespace
+
+void require_results_open(const core::StudyStore& store) {
   std::set<std::string> seen;
   for (const core::SessionRow& row : store.sessions()) {
     if (!seen.insert(row.protocol_sha256).second) continue;
-    if (stored_study(store, row.session).blinding != experiments::Blinding::kDouble) continue;
-    if (store.unblinded()) return;
-    throw core::Error(store.folder().string() +
-                      ": expected a study whose levels may be seen, found a double-blind one "
-                      "that nobody has unblinded; `jnd unblind` does, and leaves a record");
+    const experiments::Study study = stored_study(store, row.session);
+    if (study.blinding == experiments::Blinding::kDouble && !store.unblinded()) {
+      throw core::Error(store.folder().string() +
+                        ": expected a study whose levels may be seen, found a double-blind one "
+                        "that nobody has unblinded; `jnd unblind` does, and leaves a record");
+    }
+    if (study.sequential && !has_ended(store) && store.unsealings().empty()) {
+      throw core::Error(store.folder().string() +
+                        ": expected a study that its rule has ended, found one that looks may "
+                        "still end, whose results are sealed until then; `jnd look` says "
+                        "whether to go on, and keeps that it was asked");
+    }
   }
 }
 

@@ -24,8 +24,10 @@ namespace jnd::app {
 [[nodiscard]] std::string changed_study_remark(const core::StudyStore& store,
                                                const core::SessionRow& session);
 
-/// Throws `Error` if a session's study is double-blind and nobody has unblinded the folder.
-void require_unblinded(const core::StudyStore& store);
+/// Throws `Error` where results may not be seen: a session's study is double-blind and nobody
+/// has unblinded the folder, or it plans looks, its rule has not ended it and nobody has
+/// unsealed it.
+void require_results_open(const core::StudyStore& store);
 
 /// A sentence if the folder has sessions of another text of this study, so that no session of
 /// this one can be added; "" otherwise.

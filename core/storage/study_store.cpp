@@ -381,6 +381,74 @@ void StudyStore::add_unblinding(std::int64_t time_ns, const std::string& reason)
       .run();
 }
 
+void StudyStore::add_look(const SequentialLookRow& look) {
+  const auto num_known = static_cast<std::int64_t>(looks().size());
+  if (look.look != num_known + 1) {
+    throw Error(folder().string() + ": expected look " + std::to_string(num_known + 1) +
+                " as the next one, found look " + std::to_string(look.look));
+  }
+  const std::lock_guard guard(implementation_->mutex);
+  Database& database = implementation_->database;
+  Transaction transaction(database);
+  Statement(database, "INSERT INTO sequential_look VALUES (?, ?, ?, ?)")
+      .bind(look.look)
+      .bind(look.decision)
+      .bind(look.time_ns)
+      .bind(look.program_version)
+      .run();
+  for (const std::int64_t session : look.sessions) {
+    Statement(database, "INSERT INTO sequential_look_session VALUES (?, ?)")
+        .bind(look.look)
+        .bind(session)
+        .run();
+  }
+  transaction.commit();
+}
+
+std::vector<SequentialLookRow> StudyStore::looks() const {
+  const std::lock_guard guard(implementation_->mutex);
+  std::vector<SequentialLookRow> all;
+  Statement rows(implementation_->database,
+                 "SELECT look, decision, time_ns, program_version FROM sequential_look"
+                 " ORDER BY look");
+  while (rows.step()) {
+    all.push_back({.look = rows.integer(0),
+                   .decision = rows.text(1),
+                   .time_ns = rows.integer(2),
+                   .program_version = rows.text(3),
+                   .sessions = {}});
+  }
+  for (SequentialLookRow& look : all) {
+    Statement sessions(implementation_->database,
+                       "SELECT session FROM sequential_look_session WHERE look = ?"
+                       " ORDER BY session");
+    sessions.bind(look.look);
+    while (sessions.step()) look.sessions.push_back(sessions.integer(0));
+  }
+  return all;
+}
+
+void StudyStore::add_unsealing(const UnsealingRow& unsealing) {
+  const std::lock_guard guard(implementation_->mutex);
+  Statement(implementation_->database, "INSERT INTO unsealing VALUES (?, ?, ?)")
+      .bind(unsealing.time_ns)
+      .bind(unsealing.num_complete)
+      .bind(unsealing.reason)
+      .run();
+}
+
+std::vector<UnsealingRow> StudyStore::unsealings() const {
+  const std::lock_guard guard(implementation_->mutex);
+  std::vector<UnsealingRow> all;
+  Statement rows(implementation_->database,
+                 "SELECT time_ns, num_complete, reason FROM unsealing ORDER BY rowid");
+  while (rows.step()) {
+    all.push_back(
+        {.time_ns = rows.integer(0), .num_complete = rows.integer(1), .reason = rows.text(2)});
+  }
+  return all;
+}
+
 void StudyStore::add_adverse_event(std::int64_t session, std::int64_t time_ns,
                                    const std::string& text) {
   const std::string participant = this->session(session).participant;

@@ -49,6 +49,23 @@ struct AdverseEventRow {
   std::string text;
 };
 
+/// A look at a sequential study, as it was told.
+struct SequentialLookRow {
+  std::int64_t look = 0;  ///< From 1.
+  std::string decision;   ///< "go_on" or "stop".
+  std::int64_t time_ns = 0;
+  std::string program_version;
+  /// The sessions that came to it since the look before, by number.
+  std::vector<std::int64_t> sessions;
+};
+
+/// Somebody opened the results of a sequential study before its end.
+struct UnsealingRow {
+  std::int64_t time_ns = 0;
+  std::int64_t num_complete = 0;  ///< Complete sessions by then.
+  std::string reason;
+};
+
 /// What a session has come to, as a line of a list.
 struct SessionOverview {
   std::int64_t session = 0;
@@ -146,6 +163,13 @@ class StudyStore {
   /// Whether somebody asked to see what a double-blind study hides.
   [[nodiscard]] bool unblinded() const;
   void add_unblinding(std::int64_t time_ns, const std::string& reason);
+  /// On disk when it returns. Throws `Error` for a look that is not the next one.
+  void add_look(const SequentialLookRow& look);
+  [[nodiscard]] std::vector<SequentialLookRow> looks() const;
+  /// On disk when it returns.
+  void add_unsealing(const UnsealingRow& unsealing);
+  /// In the order of time.
+  [[nodiscard]] std::vector<UnsealingRow> unsealings() const;
   /// On disk when it returns. Throws `Error` for a session that is not there.
   void add_adverse_event(std::int64_t session, std::int64_t time_ns, const std::string& text);
   /// In the order in which they were reported.

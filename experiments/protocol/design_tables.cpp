@@ -118,6 +118,42 @@ const ParameterTable& contrast_table() {
   return kTable;
 }
 
+const ParameterTable& sequential_table() {
+  static const ParameterTable kTable = {
+      .name = "sequential",
+      .meaning =
+          "Looks at the study before all have taken part, and the rule that ends it. After so "
+          "many complete sessions `jnd look` tests one primary contrast by people's own values "
+          "and says only \"go on\" or \"stop\". Results stay sealed until the rule has ended "
+          "the study, and their estimates of that contrast are adjusted for the looks.",
+      .example =
+          R"({"contrast": "thin_against_thick", "looks": [12, 18, 24], "spending": "obrien_fleming"})",
+      .parameters = {
+          {.key = "contrast",
+           .kind = ValueKind::kName,
+           .meaning = "Name of the primary contrast that decides. It is alone in its `family`, "
+                      "and its `alpha` and `direction` are those of the whole study."},
+          {.key = "looks",
+           .kind = ValueKind::kNumbers,
+           .meaning =
+               "After how many complete sessions the study is looked at, ascending. The last "
+               "one is the largest number of participants, at which it ends in any case.",
+           .range = {4.0, 100000.0},
+           .min_items = 2,
+           .max_items = 20},
+          {.key = "spending",
+           .kind = ValueKind::kString,
+           .meaning =
+               "How alpha is spent over the looks (Lan and DeMets 1983). `obrien_fleming`: "
+               "hardly any of it early, so that the last test is nearly that of a study "
+               "without looks. `pocock`: about as much at every look, so that large effects "
+               "end the study earlier and small ones need more people.",
+           .required = false,
+           .default_json = R"("obrien_fleming")",
+           .allowed = {"obrien_fleming", "pocock"}}}};
+  return kTable;
+}
+
 Parameter levels_parameter() {
   return {.key = "levels",
           .kind = ValueKind::kLevels,

@@ -8,6 +8,8 @@ namespace jnd::experiments {
 [[nodiscard]] const ParameterTable& factor_table();
 /// A comparison of conditions that is planned before anybody takes part.
 [[nodiscard]] const ParameterTable& contrast_table();
+/// Looks at a study before all have taken part.
+[[nodiscard]] const ParameterTable& sequential_table();
 /// The levels of a block.
 [[nodiscard]] Parameter levels_parameter();
 

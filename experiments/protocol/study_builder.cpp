@@ -400,6 +400,15 @@ PlannedContrast planned_contrast(const ObjectReader& in) {
   return contrast;
 }
 
+SequentialPlan sequential_plan(const ObjectReader& in) {
+  SequentialPlan plan{.contrast = in.string("contrast")};
+  for (const double look : in.numbers("looks")) plan.looks.push_back(static_cast<int>(look));
+  if (in.string("spending") == to_string(AlphaSpending::kPocock)) {
+    plan.spending = AlphaSpending::kPocock;
+  }
+  return plan;
+}
+
 }  // namespace
 
 Study build_study(const LocatedJson& file, std::string text) {
@@ -436,6 +445,7 @@ Study build_study(const LocatedJson& file, std::string text) {
   in.each_object("contrasts", [&](const ObjectReader& contrast, std::size_t) {
     study.contrasts.push_back(planned_contrast(contrast));
   });
+  if (in.has("sequential")) study.sequential = sequential_plan(in.object("sequential"));
   study.stages = StageBuilder(file).stages(in.list("stages"), "/stages");
   study.text = std::move(text);
   return study;

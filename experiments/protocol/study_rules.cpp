@@ -12,6 +12,7 @@
 #include "experiments/protocol/label_rules.h"
 #include "experiments/protocol/order_rules.h"
 #include "experiments/protocol/participant_field_rules.h"
+#include "experiments/protocol/sequential_rules.h"
 #include "experiments/protocol/session_rules.h"
 #include "experiments/protocol/stage_tables.h"
 #include "experiments/protocol/standard_rules.h"
@@ -352,6 +353,7 @@ void check_study_rules(const LocatedJson& file, std::vector<StudyProblem>& probl
   check_order_rules(file, problems);
   check_participant_field_rules(file, problems);
   check_design_rules(file, problems);
+  check_sequential_rules(file, problems);
 }
 
 }  // namespace jnd::experiments

@@ -263,6 +263,13 @@ const ParameterTable& study_table() {
            .required = false,
            .max_items = 40,
            .nested = &contrast_table()},
+          {.key = "sequential",
+           .kind = ValueKind::kObject,
+           .meaning =
+               "Looks at the study before all have taken part, and the rule that ends it. "
+               "Absent: nobody looks before the last session.",
+           .required = false,
+           .nested = &sequential_table()},
           {.key = "stages",
            .kind = ValueKind::kStages,
            .meaning = "What happens in a session, in order."},
@@ -286,7 +293,8 @@ const std::vector<const ParameterTable*>& all_tables() {
                                                  &participant_field_table(),
                                                  &session_limits_table(),
                                                  &factor_table(),
-                                                 &contrast_table()};
+                                                 &contrast_table(),
+                                                 &sequential_table()};
     for (const ParameterTable* stage : stage_tables()) {
       tables.push_back(stage);
       for (const Parameter& parameter : stage->parameters) {

@@ -50,6 +50,14 @@ std::string to_string(ContrastDirection direction) {
                                                   : "either";
 }
 
+std::string to_string(AlphaSpending spending) {
+  return spending == AlphaSpending::kPocock ? "pocock" : "obrien_fleming";
+}
+
+std::string spending_words(AlphaSpending spending) {
+  return spending == AlphaSpending::kPocock ? "Pocock" : "O'Brien-Fleming";
+}
+
 bool is_ratio(ContrastMeasure measure) noexcept {
   return measure != ContrastMeasure::kExponent;
 }

@@ -56,11 +56,25 @@ struct PlannedContrast {
   Correction correction = Correction::kHolm;
 };
 
+/// How the alpha of a sequential study is spent over its looks.
+enum class AlphaSpending { kObrienFleming, kPocock };
+
+/// When a study is looked at before all have taken part, and what ends it.
+struct SequentialPlan {
+  std::string contrast;  ///< Name of the primary contrast that decides.
+  std::vector<int>
+      looks;  ///< Numbers of complete sessions, ascending; the last ends the study.
+  AlphaSpending spending = AlphaSpending::kObrienFleming;
+};
+
 /// As the study file writes it: "weber_fraction".
 [[nodiscard]] std::string to_string(ContrastMeasure measure);
-/// As the study file writes them: "holm", "greater".
+/// As the study file writes them: "holm", "greater", "obrien_fleming".
 [[nodiscard]] std::string to_string(Correction correction);
 [[nodiscard]] std::string to_string(ContrastDirection direction);
+[[nodiscard]] std::string to_string(AlphaSpending spending);
+/// As a sentence has it: "O'Brien-Fleming".
+[[nodiscard]] std::string spending_words(AlphaSpending spending);
 /// As a sentence has it: "Weber fraction".
 [[nodiscard]] std::string measure_words(ContrastMeasure measure);
 /// In the order of `ContrastMeasure`.

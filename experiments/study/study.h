@@ -240,6 +240,7 @@ struct Study {
   std::vector<ParticipantField> participant_fields;
   std::vector<DesignFactor> factors;
   std::vector<PlannedContrast> contrasts;
+  std::optional<SequentialPlan> sequential;  ///< None: all take part before anybody looks.
   std::vector<Stage> stages;
   std::string text;  ///< The file word for word; its SHA-256 identifies the study.
 };

@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/storage/study_store.h"
 #include "support/temporary_folder.h"
@@ -65,6 +67,12 @@ class HandMadeStudy {
 
   /// The session added last is "session_completed" or "session_ended_early".
   void end(const char* kind) { store_.append(event(kind)); }
+
+  /// The next look, "go_on" or "stop", to which these sessions came since the one before.
+  void look(const std::string& decision, std::vector<std::int64_t> sessions) {
+    const auto number = static_cast<std::int64_t>(store_.looks().size()) + 1;
+    store_.add_look({.look = number, .decision = decision, .sessions = std::move(sessions)});
+  }
 
   /// One answered trial of the session added last. Its number.
   std::int64_t answer(core::TrialRow row) {

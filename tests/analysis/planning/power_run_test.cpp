@@ -51,7 +51,7 @@ double own_log_log(const PlannedAnswers& one) {
 TEST(PowerRun, IsTheTestOfTheIndividualFitsThatTheResultsPrint) {
   const std::vector<PlannedPerson> everybody = people(6, 0.5, 0.3, 2);
   const PlannedRun run = analyse_run(two_blocks(), everybody);
-  ASSERT_EQ(run.size(), 2U);
+  ASSERT_EQ(run.sizes.size(), 2U);
   for (const auto& [size, count] : {std::pair(0, 3), std::pair(1, 6)}) {
     std::vector<double> a, b;
     for (int person = 0; person < count; ++person) {
@@ -59,7 +59,7 @@ TEST(PowerRun, IsTheTestOfTheIndividualFitsThatTheResultsPrint) {
       b.push_back(own_log_log(everybody[static_cast<std::size_t>(person)][1]));
     }
     const Comparison expected = paired_t_test(a, b);
-    const PlannedSize& found = run[static_cast<std::size_t>(size)];
+    const PlannedSize& found = run.sizes[static_cast<std::size_t>(size)];
     EXPECT_NEAR(*found.tests[0].p_value, *expected.p_value, 1e-9);
     EXPECT_NEAR(*found.tests[0].difference, *expected.estimate, 1e-9);
     double mean = 0.0;
@@ -77,8 +77,8 @@ TEST(PowerRun, AStudyOfFewIsTheFirstOfMany) {
   few.sizes = {3};
   everybody.resize(3);
   const PlannedRun alone = analyse_run(few, everybody);
-  EXPECT_EQ(*alone[0].tests[0].p_value, *both[0].tests[0].p_value);
-  EXPECT_EQ(*alone[0].estimates[1].value, *both[0].estimates[1].value);
+  EXPECT_EQ(*alone.sizes[0].tests[0].p_value, *both.sizes[0].tests[0].p_value);
+  EXPECT_EQ(*alone.sizes[0].estimates[1].value, *both.sizes[0].estimates[1].value);
 }
 
 TEST(PowerRun, WhoSeparatesTheStimuliPerfectlyIsLeftOutOrGivenHalfAnAnswer) {
@@ -87,16 +87,16 @@ TEST(PowerRun, WhoSeparatesTheStimuliPerfectlyIsLeftOutOrGivenHalfAnAnswer) {
     count.num_yes = count.intensity > 1.0 ? count.num_trials : 0;
   }
   const PlannedRun run = analyse_run(two_blocks(), everybody);
-  EXPECT_EQ(run[1].num_degenerate, (std::vector<int>{1, 0}));
-  EXPECT_EQ(run[1].num_with_answers, (std::vector<int>{6, 6}));
+  EXPECT_EQ(run.sizes[1].num_degenerate, (std::vector<int>{1, 0}));
+  EXPECT_EQ(run.sizes[1].num_with_answers, (std::vector<int>{6, 6}));
   // Left out as a pair, from the first test alone.
   std::vector<PlannedPerson> without = everybody;
   without.erase(without.begin() + 1);
   PlannedAnalysis five = two_blocks();
   five.sizes = {5};
   const PlannedRun others = analyse_run(five, without);
-  EXPECT_EQ(*run[1].tests[0].p_value, *others[0].tests[0].p_value);
-  EXPECT_NE(*run[1].tests[1].p_value, *others[0].tests[1].p_value);
+  EXPECT_EQ(*run.sizes[1].tests[0].p_value, *others.sizes[0].tests[0].p_value);
+  EXPECT_NE(*run.sizes[1].tests[1].p_value, *others.sizes[0].tests[1].p_value);
 }
 
 TEST(PowerRun, FalsePositivesAreFivePercentWhereBothBlocksAreAlike) {
@@ -108,8 +108,8 @@ TEST(PowerRun, FalsePositivesAreFivePercentWhereBothBlocksAreAlike) {
   for (int run = 0; run < kRuns; ++run) {
     const PlannedRun outcome =
         analyse_run(planned, people(13, 0.25, 0.25, static_cast<std::uint64_t>(1000 + run)));
-    num_significant += *outcome[0].tests[0].p_value < 0.05 ? 1 : 0;
-    num_corrected += *outcome[0].tests[1].p_value < 0.05 ? 1 : 0;
+    num_significant += *outcome.sizes[0].tests[0].p_value < 0.05 ? 1 : 0;
+    num_corrected += *outcome.sizes[0].tests[1].p_value < 0.05 ? 1 : 0;
   }
   // 5 % of 1000 with three standard deviations, 20.7.
   EXPECT_NEAR(num_significant, 50, 20);
@@ -131,13 +131,13 @@ TEST(PowerRun, ExponentsAreMeansOfLinesThroughLogarithms) {
     }
   }
   const PlannedRun run = analyse_run(planned, everybody);
-  EXPECT_NEAR(*run[0].estimates[0].value, 0.6, 1e-12);
-  EXPECT_NEAR(*run[0].estimates[1].value, 2.0, 1e-12);
+  EXPECT_NEAR(*run.sizes[0].estimates[0].value, 0.6, 1e-12);
+  EXPECT_NEAR(*run.sizes[0].estimates[1].value, 2.0, 1e-12);
   // Student's t with one degree of freedom, 12.7062, of sd 0.1414 / sqrt 2 = 0.1.
-  EXPECT_NEAR(*run[0].estimates[0].ci95.high, 0.6 + 1.27062, 1e-5);
-  EXPECT_NEAR(*run[0].estimates[1].ci95.low, 1.0 / (0.5 + 1.27062), 1e-5);
-  EXPECT_FALSE(run[0].estimates[1].ci95.high) << "open: a slope of 0 is in the interval";
-  EXPECT_TRUE(run[0].tests.empty());
+  EXPECT_NEAR(*run.sizes[0].estimates[0].ci95.high, 0.6 + 1.27062, 1e-5);
+  EXPECT_NEAR(*run.sizes[0].estimates[1].ci95.low, 1.0 / (0.5 + 1.27062), 1e-5);
+  EXPECT_FALSE(run.sizes[0].estimates[1].ci95.high) << "open: a slope of 0 is in the interval";
+  EXPECT_TRUE(run.sizes[0].tests.empty());
 }
 
 TEST(PowerRun, WhereNobodyGetsBothBlocksTheTestIsUnpaired) {
@@ -146,13 +146,13 @@ TEST(PowerRun, WhereNobodyGetsBothBlocksTheTestIsUnpaired) {
   PlannedAnalysis planned = two_blocks();
   planned.paired = false;
   const PlannedRun run = analyse_run(planned, everybody);
-  EXPECT_EQ(run[1].num_with_answers, (std::vector<int>{3, 3}));
+  EXPECT_EQ(run.sizes[1].num_with_answers, (std::vector<int>{3, 3}));
   const Comparison expected =
       welch_t_test({own_log_log(everybody[1][0]), own_log_log(everybody[3][0]),
                     own_log_log(everybody[5][0])},
                    {own_log_log(everybody[0][1]), own_log_log(everybody[2][1]),
                     own_log_log(everybody[4][1])});
-  EXPECT_NEAR(*run[1].tests[0].p_value, *expected.p_value, 1e-9);
+  EXPECT_NEAR(*run.sizes[1].tests[0].p_value, *expected.p_value, 1e-9);
 }
 
 PowerContrast contrast_of(std::vector<std::vector<std::size_t>> conditions,
@@ -170,7 +170,7 @@ TEST(PowerRun, APlannedContrastOfTwoBlocksIsThePairedTest) {
   ASSERT_EQ(test_names(analysis).size(), 3U);
   EXPECT_TRUE(test_names(analysis).back().of_contrast);
   const PlannedRun run = analyse_run(analysis, people(6, 0.5, 0.3, 2));
-  for (const PlannedSize& size : run) {
+  for (const PlannedSize& size : run.sizes) {
     ASSERT_EQ(size.tests.size(), 3U);
     ASSERT_EQ(size.num_degenerate, (std::vector<int>{0, 0})) << "both tests have everybody";
     EXPECT_NEAR(*size.tests[2].difference, *size.tests[0].difference, 1e-9);
@@ -197,8 +197,9 @@ TEST(PowerRun, BlocksOfOneConditionAreTakenTogether) {
   alone.contrasts = {contrast_of({{0}, {1}}, {{1.0, -1.0}})};
   const PlannedRun of_three = analyse_run(pooled, everybody);
   const PlannedRun of_two = analyse_run(alone, doubled);
-  EXPECT_NEAR(*of_three[1].tests[0].difference, *of_two[1].tests[0].difference, 1e-9);
-  EXPECT_NEAR(*of_three[1].tests[0].p_value, *of_two[1].tests[0].p_value, 1e-9);
+  EXPECT_NEAR(*of_three.sizes[1].tests[0].difference, *of_two.sizes[1].tests[0].difference,
+              1e-9);
+  EXPECT_NEAR(*of_three.sizes[1].tests[0].p_value, *of_two.sizes[1].tests[0].p_value, 1e-9);
 }
 
 TEST(PowerRun, GroupsOfAContrastAreThoseOfTheirLevels) {
@@ -214,7 +215,7 @@ TEST(PowerRun, GroupsOfAContrastAreThoseOfTheirLevels) {
     levels.push_back({{"priming", is_primed ? "primed" : "control"}});
     (is_primed ? primed : control).push_back(own_log_log(everybody[person][0]));
   }
-  const PlannedTest test = analyse_run(analysis, everybody, levels)[1].tests.at(0);
+  const PlannedTest test = analyse_run(analysis, everybody, levels).sizes[1].tests.at(0);
   const Comparison expected = welch_t_test(primed, control);
   EXPECT_NEAR(*test.difference, *expected.estimate, 1e-9);
   EXPECT_NEAR(*test.p_value, *expected.p_value, 1e-9);
@@ -229,10 +230,29 @@ TEST(PowerRun, AFamilyIsAdjustedAndEquivalenceIsItsOwnTest) {
   analysis.contrasts = {one, one};
   analysis.contrasts[1].margin = 3.0;
   const PlannedRun both = analyse_run(analysis, people(6, 0.5, 0.3, 2));
-  ASSERT_EQ(both[1].tests.size(), 3U);
-  EXPECT_NEAR(*both[1].tests[0].p_value, 2.0 * *alone[1].tests[0].p_value, 1e-12);
-  EXPECT_LT(*both[1].tests[2].p_value, 0.05) << "well within so wide a margin";
+  ASSERT_EQ(both.sizes[1].tests.size(), 3U);
+  EXPECT_NEAR(*both.sizes[1].tests[0].p_value, 2.0 * *alone.sizes[1].tests[0].p_value, 1e-12);
+  EXPECT_LT(*both.sizes[1].tests[2].p_value, 0.05) << "well within so wide a margin";
   EXPECT_EQ(test_names(analysis).back().name, "planned: equivalence");
+}
+
+TEST(PowerRun, LooksAreAtTheContrastThatTheyName) {
+  PlannedAnalysis analysis = two_blocks();
+  analysis.compared.reset();
+  analysis.contrasts = {contrast_of({{0}, {1}}, {{1.0, -1.0}}),
+                        contrast_of({{1}, {0}}, {{1.0, -1.0}})};
+  analysis.contrasts[1].name = "decides";
+  const std::vector<PlannedPerson> everybody = people(8, 0.5, 0.3, 2);
+  EXPECT_FALSE(analyse_run(analysis, everybody).sequential);
+  analysis.sequential = PlannedSequential{
+      .contrast = "decides",
+      .boundaries = boundaries_of({.looks = {4, 8}, .alpha = 0.4, .tail = Tail::kGreater})};
+  EXPECT_EQ(analysis.num_people(), 8) << "more than the sizes ask for";
+  const PlannedRun less = analyse_run(analysis, everybody);
+  ASSERT_TRUE(less.sequential);
+  EXPECT_FALSE(less.sequential->significant) << "the second block has less, not more";
+  analysis.sequential->contrast = "planned";
+  EXPECT_TRUE(analyse_run(analysis, everybody).sequential->significant);
 }
 
 }  // namespace power_run_test

@@ -18,11 +18,11 @@ PlannedAnalysis small() {
 }
 
 PlannedRun run_of(std::optional<double> p_value, double value, Interval ci95) {
-  return {{.estimates = {{value, ci95}, {}},
-           .tests = {{0.5, p_value}, {{}, 0.5}},
-           .num_with_answers = {4, 4},
-           .num_degenerate = {1, 0},
-           .num_at_grid_end = {0, 0}}};
+  return {.sizes = {{.estimates = {{value, ci95}, {}},
+                     .tests = {{0.5, p_value}, {{}, 0.5}},
+                     .num_with_answers = {4, 4},
+                     .num_degenerate = {1, 0},
+                     .num_at_grid_end = {0, 0}}}};
 }
 
 TEST(PowerSummary, CountsByHand) {
@@ -81,12 +81,13 @@ TEST(PowerSummary, AQuickEstimateIsNoDoubtWhereTheHierarchicalOneIsBesideIt) {
   both.hierarchical = true;
   std::vector<PlannedRun> runs = hundred_runs(69, 5);
   for (PlannedRun& run : runs) {
-    std::vector<PlannedEstimate>& all = run.front().estimates;
+    std::vector<PlannedEstimate>& all = run.sizes.front().estimates;
     all = {all[0], {.value = 0.3, .ci95 = {0.2, 0.4}}, all[1], {}};
-    run.front().tests.push_back({});
+    run.sizes.front().tests.push_back({});
   }
   EXPECT_TRUE(planning_doubts(both, summary_of_runs(both, runs), false).empty());
-  for (PlannedRun& run : runs) std::swap(run.front().estimates[0], run.front().estimates[1]);
+  for (PlannedRun& run : runs)
+    std::swap(run.sizes.front().estimates[0], run.sizes.front().estimates[1]);
   const auto doubts = planning_doubts(both, summary_of_runs(both, runs), false);
   ASSERT_EQ(doubts.size(), 1U);
   EXPECT_EQ(doubts.front().find("a.weber_fraction_hierarchical: "), 0U) << doubts.front();
@@ -96,7 +97,7 @@ TEST(PowerSummary, GridsOfQuestPlusThatEndTooEarlyAreADoubt) {
   const auto summary_with = [](int num_at_grid_end) {
     std::vector<PlannedRun> runs = hundred_runs(95, 5);
     for (int run = 0; run < num_at_grid_end; ++run) {
-      runs[static_cast<std::size_t>(run)].front().num_at_grid_end = {0, 1};
+      runs[static_cast<std::size_t>(run)].sizes.front().num_at_grid_end = {0, 1};
     }
     return summary_of_runs(small(), runs);
   };

@@ -211,6 +211,36 @@ TEST(Deviations, EachThatIsSeededIsFoundAndNoOther) {
   }
 }
 
+TEST(Deviations, ResultsThatWereUnsealedBeforeTheEndAreTold) {
+  Folder folder(as_planned());
+  folder.store().add_unsealing(
+      {.time_ns = kRegistered_ns + 30, .num_complete = 2, .reason = "the device broke"});
+  const std::vector<Deviation> found = folder.deviations({});
+  ASSERT_EQ(found.size(), 1U) << told(found);
+  EXPECT_EQ(found[0].topic, "looks");
+  EXPECT_TRUE(found[0].found.ends_with("with 2 complete sessions: the device broke"))
+      << found[0].found;
+}
+
+TEST(Deviations, WhereLooksEndedTheStudyTheySayHowMany) {
+  Conducted run = as_planned();
+  run.num_participants = 3;
+  Folder folder(run);
+  folder.store().add_look({.look = 1, .decision = "go_on", .sessions = {1, 2}});
+  EXPECT_TRUE(told(folder.deviations({})).starts_with("number of participants: 4 "));
+  folder.store().add_look({.look = 2, .decision = "stop", .sessions = {3}});
+  EXPECT_EQ(told(folder.deviations({})), "");
+}
+
+TEST(Deviations, ARuleThatIsPlannedAfterwardsIsOne) {
+  Conducted run = as_planned();
+  const std::string at = "\"factors\":";
+  run.text.replace(run.text.find(at), at.size(),
+                   R"("sequential": {"contrast": "fluids", "looks": [4, 6]}, "factors":)");
+  EXPECT_EQ(told(Folder(run).deviations({})),
+            "sequential: nothing -> {contrast:fluids,looks:[4,6],spending:obrien_fleming}\n");
+}
+
 TEST(Deviations, SessionsThatDidNotEndAreTold) {
   Conducted run = as_planned();
   run.last_ends = "session_ended_early";

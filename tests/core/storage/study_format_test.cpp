@@ -95,6 +95,14 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
       EXPECT_EQ(store.question_answers(row.session).size(),
                 has(8) && row.session == 5 ? 1U : 0U);
     }
+    if (has(9)) {
+      ASSERT_EQ(store.trials(7).size(), 1U);
+      EXPECT_EQ(store.trials(7)[0].intervals, "rtr");
+      EXPECT_EQ(store.trials(7)[0].right_interval, 2);
+      EXPECT_EQ(store.trials(7)[0].measures.chosen_interval, 2);
+    }
+    EXPECT_THAT(store.looks(), IsEmpty());
+    EXPECT_THAT(store.unsealings(), IsEmpty());
   }
 
   static void expect_adaptive_trials(const StudyStore& store) {

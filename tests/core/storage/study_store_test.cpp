@@ -253,6 +253,49 @@ TEST_F(StudyStoreTest, NoDeviceProfileIsChangedOrDeleted) {
   EXPECT_THROW(database.execute("DELETE FROM device_profile"), Error);
 }
 
+TEST_F(StudyStoreTest, KeepsLooksAndUnsealingsAsTheyWereTold) {
+  {
+    StudyStore store(folder(), StudyStore::Mode::kCreate);
+    store.add_look({.look = 1,
+                    .decision = "go_on",
+                    .time_ns = 5,
+                    .program_version = "0.1.0",
+                    .sessions = {3, 1}});
+    store.add_look({.look = 2, .decision = "stop", .sessions = {4}});
+    store.add_unsealing({.time_ns = 7, .num_complete = 2, .reason = "a visit"});
+    EXPECT_THROW(store.add_look({.look = 2, .decision = "go_on"}), Error)
+        << "a look is told once";
+    EXPECT_THROW(store.add_look({.look = 4, .decision = "go_on"}), Error) << "none is left out";
+  }
+  const StudyStore store(folder(), StudyStore::Mode::kReadOnly);
+  const std::vector<SequentialLookRow> looks = store.looks();
+  ASSERT_EQ(looks.size(), 2U);
+  EXPECT_EQ(looks[0].decision, "go_on");
+  EXPECT_EQ(looks[0].time_ns, 5);
+  EXPECT_EQ(looks[0].program_version, "0.1.0");
+  EXPECT_EQ(looks[0].sessions, (std::vector<std::int64_t>{1, 3}));
+  EXPECT_EQ(looks[1].decision, "stop");
+  ASSERT_EQ(store.unsealings().size(), 1U);
+  EXPECT_EQ(store.unsealings()[0].num_complete, 2);
+  EXPECT_EQ(store.unsealings()[0].reason, "a visit");
+}
+
+TEST_F(StudyStoreTest, NoLookAndNoUnsealingIsChangedOrDeleted) {
+  {
+    StudyStore store(folder(), StudyStore::Mode::kCreate);
+    store.add_look({.look = 1, .decision = "go_on", .sessions = {1}});
+    store.add_unsealing({.reason = "a visit"});
+  }
+  Database database(folder() / "study.sqlite", Database::Mode::kReadWrite,
+                    Durability::kEveryCommit);
+  for (const char* sql :
+       {"UPDATE sequential_look SET decision = 'stop'", "DELETE FROM sequential_look_session",
+        "UPDATE sequential_look_session SET session = 2", "DELETE FROM sequential_look",
+        "UPDATE unsealing SET reason = ''", "DELETE FROM unsealing"}) {
+    EXPECT_THROW(database.execute(sql), Error) << sql;
+  }
+}
+
 TEST_F(StudyStoreTest, ListsItsProtocolsInTheOrderInWhichTheyCame) {
   StudyStore store(folder(), StudyStore::Mode::kCreate);
   EXPECT_TRUE(store.protocols().empty());
