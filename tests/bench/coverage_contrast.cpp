@@ -53,21 +53,6 @@ struct Count {
   }
 };
 
-/// ln ln(1 + w) of one person by their own fit, with half an answer added where there is none.
-std::optional<double> own_number(const std::vector<AnswerCount>& rows) {
-  for (const bool corrected : {false, true}) {
-    const PsychometricFit fit = fit_psychometric(corrected ? with_half_an_answer(rows) : rows,
-                                                 {.reference = kHardLevels.reference,
-                                                  .free_pse = true,
-                                                  .intervals = false,
-                                                  .solver = Solver::kNewton});
-    if (!fit.weber_fraction) continue;
-    const double number = std::log(std::log1p(*fit.weber_fraction));
-    if (std::isfinite(number)) return number;
-  }
-  return std::nullopt;
-}
-
 std::string cover_design(const Design& design, int num_sets, std::uint64_t seed) {
   const std::size_t num_conditions = design.weber_fractions.size();
   const std::size_t num_met = design.has_groups ? num_conditions / 2 : num_conditions;
@@ -131,6 +116,20 @@ std::string cover_design(const Design& design, int num_sets, std::uint64_t seed)
 }
 
 }  // namespace
+
+std::optional<double> own_number(const std::vector<AnswerCount>& rows) {
+  for (const bool corrected : {false, true}) {
+    const PsychometricFit fit = fit_psychometric(corrected ? with_half_an_answer(rows) : rows,
+                                                 {.reference = kHardLevels.reference,
+                                                  .free_pse = true,
+                                                  .intervals = false,
+                                                  .solver = Solver::kNewton});
+    if (!fit.weber_fraction) continue;
+    const double number = std::log(std::log1p(*fit.weber_fraction));
+    if (std::isfinite(number)) return number;
+  }
+  return std::nullopt;
+}
 
 void cover_contrasts(int num_sets, std::uint64_t seed) {
   std::printf(

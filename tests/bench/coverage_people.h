@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -85,6 +86,10 @@ inline std::vector<AnswerCount> answers_of(const Person& person, const Levels& l
   return rows;
 }
 
+/// ln ln(1 + w) of one person by their own fit about the reference of `kHardLevels`, with half
+/// an answer added where there is none.
+[[nodiscard]] std::optional<double> own_number(const std::vector<AnswerCount>& rows);
+
 /// How often an interval held the truth; an open end holds whatever lies there.
 struct Coverage {
   int num_sets = 0, num_without = 0, num_held = 0;
@@ -141,5 +146,6 @@ void cover_curves(int num_sets, std::uint64_t seed);
 void cover_groups(int num_sets, std::uint64_t seed);
 void cover_contrasts(int num_sets, std::uint64_t seed);
 void cover_difference(int num_sets, std::uint64_t seed);
+void cover_sequential(int num_sets, std::uint64_t seed);
 
 }  // namespace jnd::coverage
