@@ -18,8 +18,7 @@ std::map<std::pair<std::int64_t, std::string>, std::vector<AnsweredTrial>> answe
     const ParticipantData& participant) {
   std::map<std::pair<std::int64_t, std::string>, std::vector<AnsweredTrial>> answered;
   for (const core::TrialRow& row : participant.practice_trials) {
-    if (!row.response) continue;
-    answered[{row.session, row.block}].push_back({planned_trial(row), *row.response});
+    answered[{row.session, row.block}].push_back({planned_trial(row), row.response});
   }
   return answered;
 }

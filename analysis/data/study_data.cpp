@@ -270,7 +270,14 @@ void name_without_answers(std::vector<ExcludedParticipant>& excluded,
     excluded.push_back({participant.participant, left_out->second});
     return;
   }
-  excluded.push_back({participant.participant, "no answers in " + stage});
+  const std::vector<core::TrialRow> trials = participant.trials_in(stage);
+  const bool are_open =
+      !trials.empty() && std::ranges::none_of(trials, [](const core::TrialRow& trial) {
+        return trial.response.has_value();
+      });
+  excluded.push_back(
+      {participant.participant,
+       (are_open ? "no answer but \"cannot tell\" in " : "no answers in ") + stage});
 }
 
 }  // namespace jnd::analysis

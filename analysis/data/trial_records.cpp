@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/data/json_fields.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -22,6 +23,12 @@ std::optional<double> level_of(const core::DesignRow& row) {
   return row.starting_intensity ? row.reference_intensity : row.intensity;
 }
 
+bool missed_deadline(const core::EventRow& event) {
+  const nlohmann::json data = object_in(event.data);
+  const auto found = data.find("missed_deadline");
+  return found != data.end() && found->is_boolean() && found->get<bool>();
+}
+
 void add_events(const core::StudyStore& store, std::int64_t session, ByTrial& records) {
   TrialRecord* under_way = nullptr;
   for (const core::EventRow& event : store.events(session)) {
@@ -33,7 +40,9 @@ void add_events(const core::StudyStore& store, std::int64_t session, ByTrial& re
     }
     if (record == nullptr) continue;
     record->num_undone += event.kind == "answer_undone" ? 1 : 0;
-    record->num_discarded += event.kind == "attempt_discarded" ? 1 : 0;
+    if (event.kind != "attempt_discarded") continue;
+    ++record->num_discarded;
+    record->num_missed_deadline += missed_deadline(event) ? 1 : 0;
   }
 }
 

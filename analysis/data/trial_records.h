@@ -17,11 +17,12 @@ struct TrialRecord {
   /// production in percent, the standard of a matching.
   std::optional<double> level;
   bool is_catch = false;
-  bool is_answered = false;   ///< The answer stands and counts.
-  bool is_set_aside = false;  ///< Answered, and set aside by hand.
-  int num_undone = 0;         ///< Answers taken back, after each of which it was run again.
-  int num_discarded = 0;      ///< Attempts without an answer that were given up.
-  bool is_faulted = false;    ///< The loop latched a fault while it was under way.
+  bool is_answered = false;     ///< The answer stands and counts.
+  bool is_set_aside = false;    ///< Answered, and set aside by hand.
+  int num_undone = 0;           ///< Answers taken back, after each of which it was run again.
+  int num_discarded = 0;        ///< Attempts without an answer that were given up.
+  int num_missed_deadline = 0;  ///< Those among them whose answer missed its deadline.
+  bool is_faulted = false;      ///< The loop latched a fault while it was under way.
   // Of the attempt whose answer stands:
   bool is_limited = false;     ///< The limiter changed the force of a stimulus.
   bool is_strokeless = false;  ///< Test or reference was never felt over a whole stroke; not of

@@ -84,6 +84,32 @@ std::string practice_words(const experiments::Block& block) {
          " were right, at most " + counted_words(practice.max_trials, "trial") + ".";
 }
 
+/// What bounds a trial: its stimuli, going back to them, its answer.
+std::string answering_words(const experiments::Block& block) {
+  const auto seconds = [](double duration_s) { return shortest_words(duration_s) + " s"; };
+  std::string words;
+  if (block.min_stimulus_s > 0.0 && block.max_stimulus_s == block.min_stimulus_s) {
+    words += "; each stimulus was felt for " + seconds(block.min_stimulus_s);
+  } else {
+    if (block.min_stimulus_s > 0.0)
+      words += "; each stimulus was felt for " + seconds(block.min_stimulus_s) + " at least";
+    if (block.max_stimulus_s)
+      words += "; each stimulus ended after " + seconds(*block.max_stimulus_s) + " at most";
+  }
+  if (block.max_returns) {
+    words += *block.max_returns == 0
+                 ? "; nobody went back to a stimulus"
+                 : "; at most " + counted_words(*block.max_returns, "return") +
+                       " to stimuli in a trial";
+  }
+  if (block.answer_deadline_s) {
+    words += "; a trial without an answer " + seconds(*block.answer_deadline_s) +
+             " after the start of the stimulus with which all had been felt was run again";
+  }
+  if (block.cannot_tell) words += "; “cannot tell” was an answer, too";
+  return words;
+}
+
 /// What a block presented, from its answered trials.
 std::string block_words(const StudyData& data, const BlockDesign& block) {
   std::set<double> intensities;
@@ -125,6 +151,7 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
              shortest_words(block.written.settings.number("num_steps", 10.0)) + ", “" +
              in_english(block.written.high_label) + "”";
   }
+  words += answering_words(block.written);
   for (const experiments::QuestionnaireItem& item : block.written.questions) {
     words += "; after each trial “" + in_english(item.question) + "”";
     if (item.kind == "scale") words += " on " + std::to_string(item.num_steps) + " steps";

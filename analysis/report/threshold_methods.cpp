@@ -82,6 +82,21 @@ void add_threshold_methods(
     add("Feedback", "Participants were told after every answer whether it was right in " +
                         with_feedback + ".");
   }
+  if (std::ranges::any_of(data.blocks,
+                          [](const BlockDesign& block) { return block.written.cannot_tell; })) {
+    add("Cannot tell",
+        "Where “cannot tell” was an answer, it is in no curve and in no rate, neither as right "
+        "nor as wrong nor as half of either. What is estimated rests on the answers in which a "
+        "choice was made, so that a Weber fraction comes out smaller than where everybody has "
+        "to choose; the share of “cannot tell” is told beside it (cannot_tell_ratio).");
+  }
+  if (std::ranges::any_of(data.blocks, [](const BlockDesign& block) {
+        return block.written.answer_deadline_s.has_value();
+      })) {
+    add("Deadline",
+        "An answer that missed the deadline of its block is in no estimate; its trial was run "
+        "again, and the share of such answers is told (missed_deadline_ratio).");
+  }
   if (!data.practice.empty()) {
     add("Practice",
         "Listed among the results are the trials that everybody practised (num_trials), how "

@@ -13,6 +13,7 @@
 #include "analysis/results/test_families.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/results/trial_losses.h"
+#include "analysis/results/unanswered_results.h"
 
 namespace jnd::analysis {
 namespace {
@@ -144,6 +145,7 @@ StudyResults results_of(const StudyData& data, const Published& published,
   }
 
   caution_of_inverted(results, data);
+  caution_of_unanswered(results, data);
   explain_missing(results);
   mark_primary(results, data);
   add_without_affected(results, data, options);

@@ -16,6 +16,9 @@ namespace jnd::analysis {
 /// How long answers took, block by block: everybody's median, and over people its geometric
 /// mean with Student's interval of the logarithms. Nothing where no time was kept.
 [[nodiscard]] std::optional<ResultsSection> response_time_results(const StudyData& data);
+/// How often answers were "cannot tell" and how often they missed their deadline, in the blocks
+/// where they can: everybody's counts, and over people the mean of their shares.
+[[nodiscard]] std::optional<ResultsSection> unanswered_results(const StudyData& data);
 /// What was answered outside of trials, item by item, as in tables D.3 and D.4 of the thesis:
 /// - scales: mean, standard deviation and median, turned so that 1 is the worst step, where one
 ///   end is the favourable one, with everybody's own;
@@ -28,6 +31,6 @@ namespace jnd::analysis {
 
 /// In the order of results and report. A new one is a file of its own and a place here.
 inline constexpr std::optional<ResultsSection> (*kStudySections[])(const StudyData&) = {
-    practice_results, response_time_results, questionnaire_results};
+    practice_results, unanswered_results, response_time_results, questionnaire_results};
 
 }  // namespace jnd::analysis

@@ -110,6 +110,7 @@ void OperatedSession::advance(double duration_s) {
     watch_apparatus();
     if (presenter_.waits_for_ramp() && presenter_.ramp_has_passed()) presenter_.ramp_is_over();
     carry_out_requests();
+    watch_times();
     follow_session();
   } catch (const core::Error& error) {
     give_up(error.what());

@@ -79,6 +79,7 @@ class OperatedSession {
   void watch_for_faults();
   void arming_succeeded();
   void watch_for_loose_points();
+  void watch_times();
   [[nodiscard]] std::uint8_t loose_bits() const;
   void follow_session();
   void enter_stage();
@@ -90,6 +91,15 @@ class OperatedSession {
   void remember_stop() const;
   void forget_stop() const;
   void move_simulated_hand(double height_m);
+
+  /// A stimulus is under way, and not free space in a trial.
+  [[nodiscard]] bool feels_stimulus() const;
+  /// Of the stimulus under way, that it has to be felt yet; 0 where there is none.
+  [[nodiscard]] double least_left_s() const;
+  /// To answer the trial under way; none where no answer can be given yet, or at any time.
+  [[nodiscard]] std::optional<double> deadline_left_s() const;
+  /// The last stimulus came to its longest time, and nothing has followed.
+  [[nodiscard]] bool stimulus_is_over() const;
 
   [[nodiscard]] bool is_alone() const { return row_.device == "mouse"; }
   [[nodiscard]] double now_s() const;

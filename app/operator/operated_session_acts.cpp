@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/safety/fault.h"
 #include "experiments/procedures/stimulus.h"
+#include "experiments/session/trial_course.h"
 #include "experiments/study/media.h"
 
 namespace jnd::app {
@@ -23,6 +24,12 @@ constexpr double kTouchingM = -0.005;  ///< Of the surface, for a solid.
 constexpr int kMostFaults = 3;         ///< In one sitting; after them somebody has to look.
 
 [[noreturn]] void refuse(const std::string& sentence) { throw core::Error(sentence); }
+
+/// An answer that did not count, for the reason that is stored.
+std::string given_words(const operate::Answer& answer) {
+  if (!answer.value) return as_is("; the answer was \"cannot tell\"");
+  return fmt::format(fmt::runtime(as_is("; the answer was {:g}")), *answer.value);
+}
 
 /// Where the trial's intervals have an order of their own, what cannot be asked for by name.
 void require_order(const TrialForm& form, const TrialState& trial,
@@ -123,7 +130,10 @@ struct OperatedSession::Act {
   void operator()(const operate::Present& present) const {
     const TrialState& trial = require_trial(present.trial);
     require_order(my.session_.current_form(), trial, present.interval);
+    require_return(trial, present.interval);
     my.session_.require_interval(present.interval);
+    require_felt();
+    require_in_time();
     begin_feeling();
     if (!trial.under_way) {
       my.first_felt_s_.reset();
@@ -137,18 +147,27 @@ struct OperatedSession::Act {
 
   void operator()(const operate::Answer& answer) const {
     const TrialState& trial = require_trial(answer.trial);
-    if (!my.presenter_.under_way() || !can_answer(my.session_.current_form(), trial)) {
+    const TrialForm form = my.session_.current_form();
+    const bool is_over = my.stimulus_is_over() && !form.adjustable;
+    if (!(my.presenter_.under_way() || is_over) || !can_answer(form, trial)) {
       refuse(tr("the test has not been felt yet"));
     }
-    if (my.session_.current_form().adjustable &&
-        trial.presentations.back().interval == "reference") {
+    if (form.adjustable && trial.presentations.back().interval == "reference") {
       refuse(tr("the fluid to adjust is not being felt"));
     }
     my.session_.require_answer(answer.value);
+    require_felt();
+    require_in_time(given_words(answer));
+    if (is_over) {
+      const std::int64_t now_tick = my.running_.apparatus().next_tick() - 1;
+      const auto since = static_cast<double>(now_tick - trial.presentations.back().first_tick);
+      return my.session_.answer(
+          answer.value, {.response_time_s = since / my.parameters_.study.device.rate_hz},
+          now_tick);
+    }
     const double response_time_s = my.presenter_.felt_s();
     const Presenter::Felt felt = my.presenter_.end(Presenter::Afterwards::kFreeSpace);
-    require_ticks(felt,
-                  fmt::format(fmt::runtime(as_is("; the answer was {:g}")), answer.value));
+    require_ticks(felt, given_words(answer));
     my.session_.answer(answer.value, {.response_time_s = response_time_s}, felt.last_tick);
   }
 
@@ -163,6 +182,8 @@ struct OperatedSession::Act {
       refuse(adjust.direction == Direction::kLower ? tr("it cannot go lower")
                                                    : tr("it cannot go higher"));
     }
+    require_felt();
+    require_in_time();
     end_presentation();
     my.session_.adjust(adjust.direction, adjust.size);
     my.presenter_.begin(*my.block(), "test");
@@ -266,7 +287,42 @@ struct OperatedSession::Act {
     my.session_.pause(leave.reason.empty() ? as_is("left by the operator") : leave.reason);
   }
 
+  // What happens by itself; as the requests, throws `Error` where that comes to something else.
+
+  /// No answer came in time, but `given` too late, if anything.
+  void miss_deadline(const std::string& given) const {
+    if (my.presenter_.under_way()) {
+      require_ticks(my.presenter_.end(Presenter::Afterwards::kFreeSpace), given);
+    }
+    my.session_.miss_deadline(given);
+    my.resting_for_trial_ = 0;
+  }
+
+  /// The stimulus came to its longest time. The trial goes on in free space.
+  void end_stimulus() const { end_presentation(Presenter::Afterwards::kFreeSpace); }
+
  private:
+  /// Nobody goes on from a stimulus that was not felt for as long as the study asks.
+  void require_felt() const {
+    if (const double left_s = my.least_left_s(); left_s > 0.0) {
+      refuse(tr("it has to be felt for {:.1f} s more", left_s));
+    }
+  }
+
+  /// The deadline has passed, and nobody has seen it yet.
+  void require_in_time(const std::string& given = "") const {
+    if (my.deadline_left_s().value_or(1.0) > 0.0) return;
+    miss_deadline(given);
+    refuse(tr("that was too late, and the trial comes again"));
+  }
+
+  void require_return(const TrialState& trial, const std::string& interval) const {
+    if (trial.under_way && felt(trial, interval) && interval != "free_space" &&
+        my.block()->max_returns && num_returns(trial) >= *my.block()->max_returns) {
+      refuse(tr("this trial allows no more going back"));
+    }
+  }
+
   void require_begun_and_armed() const {
     if (!my.begun_) refuse(tr("the session has not begun yet"));
     if (my.state().ended) refuse(tr("the session is over"));
@@ -315,13 +371,14 @@ struct OperatedSession::Act {
     return my.state().trial(number);
   }
 
-  void end_presentation() const {
+  void end_presentation(
+      Presenter::Afterwards afterwards = Presenter::Afterwards::kSameMedium) const {
     if (!my.presenter_.under_way()) return;
     const TrialForm form = my.session_.current_form();
     const TrialState& trial = my.state().trial(*my.state().current_trial());
     const bool was_first =
         form.has_reference && shown_interval(form, trial) == first_interval(form);
-    const Presenter::Felt felt = my.presenter_.end();
+    const Presenter::Felt felt = my.presenter_.end(afterwards);
     require_ticks(felt);
     if (was_first) my.first_felt_s_ = felt.duration_s;
   }
@@ -343,6 +400,26 @@ struct OperatedSession::Act {
 
 void OperatedSession::carry_out(const OperatorRequest& request) {
   std::visit(Act{*this}, request);
+}
+
+/// What a stimulus' longest time and the deadline of an answer end, without anybody's asking.
+void OperatedSession::watch_times() {
+  if (!failure_.empty() || left_ || !begun_ || state().paused || block() == nullptr) return;
+  const bool is_late = deadline_left_s().value_or(1.0) <= 0.0;
+  const std::optional<double>& longest_s = block()->max_stimulus_s;
+  const bool is_long = longest_s && presenter_.under_way() && feels_stimulus() &&
+                       presenter_.felt_s() >= *longest_s;
+  if (!is_late && !is_long) return;
+  try {
+    const Act act{*this};
+    if (is_late) return act.miss_deadline("");
+    act.end_stimulus();
+  } catch (const StorageError&) {
+    throw;
+  } catch (const core::Error& error) {
+    refusal_ = error.what();
+    ++num_refusals_;
+  }
 }
 
 }  // namespace jnd::app

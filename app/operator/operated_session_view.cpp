@@ -15,6 +15,7 @@
 #include "experiments/procedures/task.h"
 #include "experiments/session/plan.h"
 #include "experiments/session/session_limits.h"
+#include "experiments/session/trial_course.h"
 #include "experiments/study/media.h"
 
 namespace jnd::app {
@@ -113,7 +114,7 @@ Step OperatedSession::step_in_stage() const {
     if (session_.open_question()) return Step::kItem;
     const TrialState* trial = current_state(state());
     if (trial == nullptr) return Step::kStageDone;
-    if (presenter_.under_way()) return Step::kPresenting;
+    if (presenter_.under_way() || stimulus_is_over()) return Step::kPresenting;
     return now_s() < rest_until_s_ ? Step::kRest : Step::kReady;
   }
   if (next_medium()) return Step::kMedium;
@@ -240,7 +241,7 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
     ++view.num_in_block;
     view.num_repetitions = std::max(view.num_repetitions, other.planned.repetition);
     // By what was answered: a trial that was put off comes later than its number.
-    if (other.response || other.is_void) ++view.in_block;
+    if (other.is_answered || other.is_void) ++view.in_block;
   }
   if (analysis::length_is_expected(*block()) || block()->practice) {
     view.num_is_expected = true;
@@ -250,9 +251,24 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
     view.interval = shown_interval(form, trial);
     view.felt_s = presenter_.felt_s();
     if (!hides_levels_) view.num_strokes = running_.apparatus().num_metered_strokes();
+  } else if (stimulus_is_over()) {
+    const PresentationState& last = trial.presentations.back();
+    view.interval = "free_space";
+    view.stimulus_is_over = true;
+    view.felt_s =
+        static_cast<double>(last.last_tick.value_or(last.first_tick) - last.first_tick) /
+        parameters_.study.device.rate_hz;
+  }
+  view.least_left_s = least_left_s();
+  view.deadline_left_s = deadline_left_s();
+  if (trial.under_way && block()->max_returns && num_returns(trial) >= *block()->max_returns) {
+    for (const char* interval : {"reference", "test", "first", "second", "third"}) {
+      if (felt(trial, interval)) view.closed_intervals.emplace_back(interval);
+    }
   }
   view.first_felt_s = first_felt_s_;
   view.can_answer = can_answer(form, trial);
+  view.takes_cannot_tell = block()->cannot_tell;
   view.question = words(block()->question);
   const auto [yes, no] = labels_of(*block());
   view.yes_label = yes;
@@ -331,6 +347,7 @@ std::vector<TrialView::Choice> OperatedSession::choices_of(const Block& block,
 /// As it was given: a chosen interval does not tell which held the test.
 std::string OperatedSession::answer_in_words(const Block& block, AnswerKind kind,
                                              const TrialState& trial) const {
+  if (!trial.response) return tr("cannot tell");
   const double answer =
       answer_of(kind, trial.planned, *trial.response, trial.measures.chosen_interval);
   if (kind == AnswerKind::kInterval) {
@@ -359,13 +376,14 @@ std::vector<AnswerLine> OperatedSession::answer_lines() const {
     const TrialState& trial = state().trials[i];
     const auto its_stage = static_cast<std::size_t>(trial.stage);
     ++in_block[its_stage];
-    if (!trial.response) continue;
+    if (!trial.is_answered) continue;
     const Block& its_block = std::get<Block>(session_.stages().at(its_stage)->content);
     const AnswerKind kind = procedure_named(its_block.procedure).form(its_block).answer;
     AnswerLine line{.trial = static_cast<std::int64_t>(i) + 1,
                     .in_block = in_block[its_stage],
                     .block = title_of(its_stage),
                     .kind = kind,
+                    .takes_cannot_tell = its_block.cannot_tell,
                     .response_time_s = trial.measures.response_time_s.value_or(0.0)};
     line.answer = answer_in_words(its_block, kind, trial);
     line.can_undo = last == line.trial && trial.stage == state().stage && !state().ended;
@@ -472,6 +490,7 @@ SessionView OperatedSession::view() const {
   if (!state().ended && block() != nullptr && state().stage_open) {
     // Told before a question it would decide how sure somebody says to have been.
     if (!session_.open_question()) view.feedback_right = state().feedback_right;
+    view.missed_deadline = state().missed_deadline;
     if (block()->practice && !view.trial) {
       view.practice = practice_words(
           *block(), practice_state(*block(), state().answered_in(state().stage)));
@@ -484,7 +503,7 @@ SessionView OperatedSession::view() const {
   view.answers = answer_lines();
   view.trials_on_disk = static_cast<std::int64_t>(
       std::count_if(state().trials.begin(), state().trials.end(),
-                    [](const TrialState& trial) { return trial.response.has_value(); }));
+                    [](const TrialState& trial) { return trial.is_answered; }));
   view.notes = state().notes;
   describe_loop(view);
   describe_progress(view);

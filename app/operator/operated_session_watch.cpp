@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include "app/language/words.h"
 #include "app/operator/operated_session.h"
 #include "core/safety/fault.h"
+#include "experiments/session/trial_course.h"
 
 namespace jnd::app {
 
@@ -71,6 +74,34 @@ void OperatedSession::watch_for_loose_points() {
   session_.pause(reason);
   paused_for_bits_ = came_off;
   running_.apparatus().put_fingers_back();
+}
+
+bool OperatedSession::feels_stimulus() const {
+  const std::optional<std::int64_t> trial = state().current_trial();
+  return presenter_.under_way() && trial && block() != nullptr &&
+         state().trial(*trial).presentations.back().interval != "free_space";
+}
+
+double OperatedSession::least_left_s() const {
+  return feels_stimulus() ? std::max(0.0, block()->min_stimulus_s - presenter_.felt_s()) : 0.0;
+}
+
+std::optional<double> OperatedSession::deadline_left_s() const {
+  const std::optional<std::int64_t> number = state().current_trial();
+  if (block() == nullptr || !block()->answer_deadline_s || !number) return std::nullopt;
+  const experiments::TrialState& trial = state().trial(*number);
+  if (!trial.under_way) return std::nullopt;
+  const auto asked = experiments::asked_tick(session_.current_form(), trial);
+  if (!asked) return std::nullopt;
+  const auto since = static_cast<double>(running_.apparatus().next_tick() - *asked);
+  return *block()->answer_deadline_s - since / parameters_.study.device.rate_hz;
+}
+
+bool OperatedSession::stimulus_is_over() const {
+  const std::optional<std::int64_t> number = state().current_trial();
+  if (block() == nullptr || presenter_.under_way() || !number) return false;
+  const experiments::TrialState& trial = state().trial(*number);
+  return trial.under_way && !trial.presentations.empty();
 }
 
 }  // namespace jnd::app

@@ -45,10 +45,10 @@ struct Present {
 };
 
 /// Percent, 1 and 0, or the interval that was chosen. In a production `value` is ignored: it
-/// matches.
+/// matches. None is "cannot tell".
 struct Answer {
   std::int64_t trial = 0;
-  double value = 0.0;
+  std::optional<double> value = 0.0;
 };
 
 struct Adjust {
@@ -65,7 +65,7 @@ struct Undo {
 /// Sets an answer of any block right, its presentations untouched.
 struct Correct {
   std::int64_t trial = 0;
-  double value = 0.0;
+  std::optional<double> value = 0.0;  ///< None: "cannot tell".
   std::string reason;
 };
 struct AddNote {

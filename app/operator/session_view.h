@@ -97,10 +97,16 @@ struct TrialView {
                                 ///< nowhere in a view.
   /// Being felt: "test", "reference", "first", "second", "third", "free_space"; "" for none.
   std::string interval;
-  double felt_s = 0.0;                 ///< For how long already.
-  int num_strokes = 0;                 ///< Whole ones, in this presentation.
+  double felt_s = 0.0;  ///< For how long already.
+  /// The last stimulus came to its longest time, after `felt_s`; what is felt is free space.
+  bool stimulus_is_over = false;
+  double least_left_s = 0.0;              ///< That it has to be felt yet, before anything else.
+  std::optional<double> deadline_left_s;  ///< To answer; none where there is no deadline.
+  std::vector<std::string> closed_intervals;  ///< That nobody may go back to any more.
+  int num_strokes = 0;                        ///< Whole ones, in this presentation.
   std::optional<double> first_felt_s;  ///< Reference or first interval, the last time before.
   bool can_answer = false;             ///< What is asked about was felt in this attempt.
+  bool takes_cannot_tell = false;      ///< "Cannot tell" is an answer, too.
   std::string question;
   std::string yes_label, no_label;  ///< What the two answers are called; the intervals.
   /// The intervals that can be chosen, and what they are called.
@@ -133,6 +139,7 @@ struct AnswerLine {
   std::string block;   ///< Title, or "Block 1".
   std::string answer;  ///< "yes", "120 %", "2.4" ("set" where it is hidden).
   experiments::AnswerKind kind = experiments::AnswerKind::kYesNo;
+  bool takes_cannot_tell = false;
   double response_time_s = 0.0;
   bool can_undo = false;  ///< The last one of the block under way.
 };
@@ -173,6 +180,7 @@ struct SessionView {
   std::optional<MediumView> medium;
   double break_left_s = 0.0, break_s = 0.0;
   std::optional<bool> feedback_right;  ///< To be told of the last answer.
+  bool missed_deadline = false;        ///< To be told: the last answer did.
   std::string practice;                ///< What a practice has come to, once it is over.
   /// What the answers of a block say against it, once it is over; "" where nothing does, and
   /// where levels are hidden.

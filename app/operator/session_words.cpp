@@ -15,16 +15,18 @@ using experiments::AnswerKind;
 
 /// What the participant's screen says of itself, in the language of the session; studies bring
 /// the rest.
-enum class Own { kPause, kWait, kThanks, kRight, kWrong };
+enum class Own { kPause, kWait, kThanks, kRight, kWrong, kTooLate };
 
 std::string own_words(Own what, const std::string& language) {
-  static const std::map<std::string, std::array<const char*, 5>> kWords = {
+  static const std::map<std::string, std::array<const char*, 6>> kWords = {
       {"en",
        {as_is("Pause. Rest your hand."), as_is("One moment, please."), as_is("Thank you!"),
-        as_is("That was right."), as_is("That was wrong.")}},
+        as_is("That was right."), as_is("That was wrong."),
+        as_is("The time to answer was over. The trial comes again.")}},
       {"de",
        {as_is("Pause. Ruhen Sie Ihre Hand aus."), as_is("Einen Moment bitte."),
-        as_is("Vielen Dank!"), as_is("Das war richtig."), as_is("Das war falsch.")}},
+        as_is("Vielen Dank!"), as_is("Das war richtig."), as_is("Das war falsch."),
+        as_is("Die Zeit für die Antwort war um. Der Durchgang kommt noch einmal.")}},
   };
   const auto known = kWords.find(language);
   return (known == kWords.end() ? kWords.at("en")
@@ -38,6 +40,7 @@ struct TrialSentences {
       *estimation, *number, *rating;
   const char *comparison, *present_first, *while_feeling_first, *while_feeling_second,
       *before_third, *while_feeling_third;
+  const char *over_typed, *over_rating, *over_choice;
 };
 constexpr TrialSentences kForTwo = {
     .present_reference = tr_later("Show the fist, then present the reference."),
@@ -60,6 +63,9 @@ constexpr TrialSentences kForTwo = {
     .before_third =
         tr_later("When the participant is ready, show three fingers and present the third."),
     .while_feeling_third = tr_later("Show three fingers. At the ready sign, ask:"),
+    .over_typed = tr_later("Ask; type the answer and press Enter."),
+    .over_rating = tr_later("Ask for a step of the scale:"),
+    .over_choice = tr_later("Ask:"),
 };
 constexpr TrialSentences kForOne = {
     .present_reference = tr_later("Present the reference."),
@@ -79,15 +85,45 @@ constexpr TrialSentences kForOne = {
     .while_feeling_second = tr_later("Feel the second, then answer:"),
     .before_third = tr_later("Feel the second, then present the third."),
     .while_feeling_third = tr_later("Feel the third, then answer:"),
+    .over_typed = tr_later("Type your answer and press Enter."),
+    .over_rating = tr_later("Choose a step:"),
+    .over_choice = tr_later("Answer:"),
 };
 
 /// What is told of the answer before, in front of what is said anyway.
 void add_feedback(SessionView& view) {
-  const std::string told =
-      own_words(*view.feedback_right ? Own::kRight : Own::kWrong, view.language);
+  if (!view.feedback_right && !view.missed_deadline) return;
+  const std::string told = own_words(view.missed_deadline   ? Own::kTooLate
+                                     : *view.feedback_right ? Own::kRight
+                                                            : Own::kWrong,
+                                     view.language);
   view.say = told + (view.say.empty() ? "" : " " + view.say);
   view.participant_text =
       told + (view.participant_text.empty() ? "" : "\n" + view.participant_text);
+}
+
+/// A stimulus has ended by itself: the question, or what has to be felt first.
+void add_words_of_over(SessionView& view, const TrialSentences& sentences) {
+  const TrialView& trial = *view.trial;
+  view.heading = tr("The stimulus is over");
+  view.sign = HandSign::kOpenHand;
+  if (!trial.can_answer) {
+    view.sentence = tr(trial.next_interval == "second"  ? sentences.while_feeling_first
+                       : trial.next_interval == "third" ? sentences.before_third
+                                                        : sentences.while_feeling_reference);
+    view.participant_text.clear();
+    return;
+  }
+  if (trial.adjustable) {
+    view.sentence = tr(trial.is_solid ? sentences.back_to_surface : sentences.back_to_fluid);
+    return;
+  }
+  view.sentence =
+      tr(trial.answer == AnswerKind::kStep ? sentences.over_rating
+         : trial.answer == AnswerKind::kPercent || trial.answer == AnswerKind::kNumber
+             ? sentences.over_typed
+             : sentences.over_choice);
+  view.say = trial.question;
 }
 
 void add_trial_words(SessionView& view, std::string_view instruction) {
@@ -101,7 +137,7 @@ void add_trial_words(SessionView& view, std::string_view instruction) {
     view.heading = view.step == Step::kRest ? tr("Free space") : tr("Next trial");
     view.say = first ? std::string(instruction) : target;
     view.participant_text = view.say;
-    if (view.feedback_right) add_feedback(view);
+    add_feedback(view);
     if (trial.order_is_drawn) {
       view.sentence = tr(sentences.present_first);
       view.sign = HandSign::kOneFinger;
@@ -148,6 +184,8 @@ void add_trial_words(SessionView& view, std::string_view instruction) {
     view.sign = HandSign::kThreeFingers;
     view.sentence = tr(sentences.while_feeling_third);
     view.say = trial.question;
+  } else if (trial.stimulus_is_over) {
+    add_words_of_over(view, sentences);
   } else if (trial.interval == "free_space") {
     view.heading = tr("Free space");
     view.sign = HandSign::kOpenHand;
@@ -266,7 +304,7 @@ void add_words(SessionView& view, std::string_view stage_title, std::string_view
     case Step::kStageDone:
       view.sentence = tr("Done. Go on, or take the last answer back first.");
       if (!view.practice.empty()) view.sentence = tr("Done: {}. Go on?", view.practice);
-      if (view.feedback_right) add_feedback(view);
+      add_feedback(view);
       return;
     case Step::kPaused:
       view.heading = tr("Paused");

@@ -76,7 +76,7 @@ class Interruption {
       for (const experiments::TrialState& trial : state.trials) {
         if (trial.stage != state.stage) continue;
         ++session.num_trials;
-        if (trial.response || trial.is_void) ++session.trial;
+        if (trial.is_answered || trial.is_void) ++session.trial;
       }
       expect_trials(*stages_of_session(study_, row.cells).at(stage), session);
     }

@@ -133,6 +133,27 @@ class Outliner {
     line.what = trn("{} example", "{} examples", training.examples.size());
     describe_media(training.examples, line);
   }
+  static void describe_answering(const Block& block, OutlineStage& line) {
+    if (block.cannot_tell) line.details.emplace_back(tr("\"cannot tell\" is an answer, too"));
+    if (block.answer_deadline_s) {
+      line.details.push_back(
+          tr("an answer has {:g} s, or it is missed and the trial comes again",
+             *block.answer_deadline_s));
+    }
+    if (block.min_stimulus_s > 0.0) {
+      line.details.push_back(
+          tr("a stimulus is felt for {:g} s at least", block.min_stimulus_s));
+    }
+    if (block.max_stimulus_s) {
+      line.details.push_back(
+          tr("a stimulus is felt for {:g} s at most", *block.max_stimulus_s));
+    }
+    if (block.max_returns) {
+      line.details.push_back(trn("a trial allows {} return to a stimulus",
+                                 "a trial allows {} returns to a stimulus",
+                                 *block.max_returns));
+    }
+  }
   void describe(const Block& block, OutlineStage& line) const {
     line.kind = name_words(block.procedure, /*as_title=*/true);
     const Procedure& procedure = procedure_named(block.procedure);
@@ -163,6 +184,7 @@ class Outliner {
     }
     if (block.feedback)
       line.details.emplace_back(tr("right or wrong is told after each answer"));
+    describe_answering(block, line);
     if (!block.questions.empty()) {
       line.details.push_back(trn("{} more question after each trial",
                                  "{} more questions after each trial",

@@ -59,20 +59,20 @@ PlannedAnswers answers_of(const std::vector<AnsweredTrial>& trials, PlannedQuant
   PlannedAnswers answers;
   std::map<std::pair<double, double>, analysis::AnswerCount> counts;
   for (const auto& [planned, response] : trials) {
-    if (planned.is_catch) continue;
+    if (planned.is_catch || !response) continue;
     if (quantity == PlannedQuantity::kWeberFraction) {
       const double order = analysis::order_of(planned.test_interval);
       analysis::AnswerCount& count = counts[{planned.intensity.value(), order}];
       count.intensity = *planned.intensity;
       count.order = order;
-      count.num_yes += response > 0.5 ? 1 : 0;
+      count.num_yes += *response > 0.5 ? 1 : 0;
       ++count.num_trials;
     } else if (quantity == PlannedQuantity::kProductionExponent) {
-      answers.magnitudes[planned.target_percent.value()].push_back(response);
+      answers.magnitudes[planned.target_percent.value()].push_back(*response);
     } else if (quantity == PlannedQuantity::kMatch) {
-      answers.magnitudes[planned.reference_intensity.value()].push_back(response);
+      answers.magnitudes[planned.reference_intensity.value()].push_back(*response);
     } else {
-      answers.magnitudes[planned.intensity.value()].push_back(response * kRatioPerPercent);
+      answers.magnitudes[planned.intensity.value()].push_back(*response * kRatioPerPercent);
     }
   }
   for (const auto& [key, count] : counts) answers.counts.push_back(count);

@@ -79,7 +79,7 @@ class ReplayCheck {
     }
     for (std::size_t i = 0; i < state_.trials.size(); ++i) {
       const auto number = static_cast<std::int64_t>(i) + 1;
-      if (state_.trials[i].response.has_value() != answered.contains(number)) {
+      if (state_.trials[i].is_answered != answered.contains(number)) {
         problem(number, "answer");
       }
     }

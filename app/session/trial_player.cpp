@@ -11,6 +11,7 @@
 #include "experiments/procedures/rating.h"
 #include "experiments/procedures/stimulus.h"
 #include "experiments/procedures/task.h"
+#include "experiments/session/trial_course.h"
 #include "experiments/study/media.h"
 
 namespace jnd::app {
@@ -40,6 +41,23 @@ struct TrialPlayer::CameOff {
 struct TrialPlayer::Missed {
   std::string reason;
 };
+
+/// Thrown when the time to answer is over, and nobody has.
+struct TrialPlayer::TooLate {};
+
+/// Free space again, and the trial later.
+void TrialPlayer::miss_deadline() {
+  apparatus_.render(core::free_space());
+  apparatus_.go_home();
+  session_.miss_deadline();
+  presenter_.tell_exposure();
+}
+
+/// Who has been too late, or was cut off, is in time when the trial comes again.
+bool TrialPlayer::hurries(const Block& block) const {
+  return block.answer_deadline_s &&
+         session_.state().trial(*session_.state().current_trial()).attempt > 1;
+}
 
 /// Free space again, and the trial later. A machine that cannot keep up does not get better by
 /// asking once more and once more.
@@ -188,29 +206,51 @@ void TrialPlayer::rise_above(double surface_m) {
   }
 }
 
-/// Until the strokes are done and the hand has visibly turned, or far too much time is over.
-void TrialPlayer::run_strokes(const StrokeIntent& intent, StiffnessMeter& stiffness) {
+/// The stimulus under way, for so long: to the nearest tick.
+bool TrialPlayer::has_felt(double duration_s) const {
+  return presenter_.felt_s() > duration_s - 0.5 / run_.study.device.rate_hz;
+}
+
+/// Lets this much time pass, but not beyond what ends the stimulus. False once that is reached.
+bool TrialPlayer::pass(double duration_s, double end_s) {
+  stop_if_cancelled(run_);
+  if (!has_felt(end_s)) {
+    apparatus_.run_for(std::min(duration_s, end_s - presenter_.felt_s()));
+  }
+  stop_if_loose();
+  return !has_felt(end_s);
+}
+
+/// Until the strokes are done and the hand has visibly turned, or far too much time is over;
+/// and no longer than to `end_s` after the stimulus began.
+void TrialPlayer::run_strokes(const StrokeIntent& intent, StiffnessMeter& stiffness,
+                              double end_s) {
   constexpr double kGlanceS = 0.020;  // How often the person looks whether it is enough.
   const double limit_s = 3.0 * static_cast<double>(intent.num_strokes + 1) * intent.period_s;
   double elapsed_s = 0.0;
   while (apparatus_.strokes_finished() < intent.num_strokes && elapsed_s < limit_s) {
-    stop_if_cancelled(run_);
-    apparatus_.run_for(kGlanceS);
+    const bool goes_on = pass(kGlanceS, end_s);
     elapsed_s += kGlanceS;
-    stop_if_loose();
     stiffness.look(apparatus_.telemetry());
+    if (!goes_on) return;
   }
-  apparatus_.run_for(intent.turning_s());
-  stop_if_loose();
+  if (!pass(intent.turning_s(), end_s)) return;
   // The arm is done; in a thick fluid the hand trails behind it.
   constexpr double kLongestTrailS = 1.5;
   for (double trail_s = 0.0;
        apparatus_.num_metered_strokes() < intent.num_strokes && trail_s < kLongestTrailS;
        trail_s += kGlanceS) {
-    stop_if_cancelled(run_);
-    apparatus_.run_for(kGlanceS);
-    stop_if_loose();
+    if (!pass(kGlanceS, end_s)) return;
   }
+}
+
+/// Until the deadline; endless where there is none, or nothing is asked yet.
+double TrialPlayer::left_to_answer_s(const Block& block) const {
+  const TrialState& trial = session_.state().trial(*session_.state().current_trial());
+  const auto asked = asked_tick(session_.current_form(), trial);
+  if (!block.answer_deadline_s || !asked) return std::numeric_limits<double>::infinity();
+  const auto since = static_cast<double>(apparatus_.next_tick() - *asked);
+  return *block.answer_deadline_s - since / run_.study.device.rate_hz;
 }
 
 TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& interval) {
@@ -219,6 +259,8 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   const double surface_m = run_.study.device.immersion.origin_z_m;
   const bool is_pressed = block.is_pressed_in(interval);
   if (is_pressed) rise_above(surface_m);
+  const double tick_s = 1.0 / run_.study.device.rate_hz;
+  if (left_to_answer_s(block) < tick_s) throw TooLate{};
   presenter_.begin(block, interval);
   const std::int64_t number = *session_.state().current_trial();
   const TrialState& trial = session_.state().trial(number);
@@ -227,17 +269,27 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   apparatus_.begin_strokes(
       plan_of(intent), stroke_stream(number, trial.attempt,
                                      static_cast<std::int64_t>(trial.presentations.size())));
-  apparatus_.run_for(run_.study.device.ramp_s);
-  while (run_.realtime && !presenter_.ramp_has_passed()) {
-    apparatus_.run_for(1.0 / run_.study.device.rate_hz);
-  }
+  // Who hurries answers in the last moment at the latest.
+  const double deadline_s = left_to_answer_s(block);
+  const double last_s = hurries(block) ? deadline_s - tick_s : deadline_s;
+  apparatus_.run_for(std::clamp(deadline_s, 0.0, run_.study.device.ramp_s));
+  while (run_.realtime && !presenter_.ramp_has_passed()) apparatus_.run_for(tick_s);
   presenter_.ramp_is_over();
   StiffnessMeter stiffness(surface_m, apparatus_.share_ratio());
-  run_strokes(intent, stiffness);
-  const Presenter::Felt felt = presenter_.end();
+  const double longest_s = block.max_stimulus_s.value_or(deadline_s);
+  run_strokes(intent, stiffness, std::min(longest_s, last_s));
+  // Who has felt enough before goes on stroking.
+  while (!has_felt(block.min_stimulus_s) &&
+         pass(std::max(tick_s, block.min_stimulus_s - presenter_.felt_s()), deadline_s)) {
+  }
+  const bool is_too_late = has_felt(deadline_s);
+  const bool ended_by_itself = has_felt(longest_s);
+  const Presenter::Felt felt = presenter_.end(
+      ended_by_itself ? Presenter::Afterwards::kFreeSpace : Presenter::Afterwards::kSameMedium);
   if (const std::string reason = presenter_.missed_reason(felt); !reason.empty()) {
     throw Missed{reason};
   }
+  if (is_too_late) throw TooLate{};
   return {.amount = is_pressed ? stiffness.stiffness_n_per_m()
                                : felt.delivered_damping_n_s_per_m + device_damping(felt),
           .last_tick = felt.last_tick,
@@ -261,6 +313,14 @@ Moment TrialPlayer::moment(const Block& block) const {
           .trial_in_block = trial_in_block(block, trial.planned)};
 }
 
+/// As far as the block lets anybody go back to each stimulus.
+bool TrialPlayer::looks_again(const Block& block) const {
+  const Moment now = moment(block);
+  if (block.max_returns && now.presentation > *block.max_returns) return false;
+  if (hurries(block)) return false;
+  return participant_.perceiver(block).looks_again(now);
+}
+
 double TrialPlayer::read(const Felt& felt, const Block& block) const {
   return participant_.perceiver(block).reading_ln(felt.amount, moment(block));
 }
@@ -273,6 +333,8 @@ void TrialPlayer::run_trial(const Block& block) {
   try {
     play_trial(block, trial);
     num_missed_in_a_row_ = 0;
+  } catch (const TooLate&) {
+    miss_deadline();
   } catch (const CameOff& off) {
     put_fingers_back(off.bits);
   } catch (const Missed& missed) {
@@ -311,7 +373,7 @@ void TrialPlayer::estimate(const Block& block, const TrialForm& form) {
     felt = present(block, "test");
     sum_ln += read(felt, block);
     ++looks;
-  } while (participant_.perceiver(block).looks_again(moment(block)));
+  } while (looks_again(block));
   std::optional<double> previous;
   if (const auto last = session_.state().last_answered_trial()) {
     const TrialState& before = session_.state().trial(*last);
@@ -347,10 +409,16 @@ void TrialPlayer::detect(const Block& block) {
     felt = present(block, "test");
     test_ln += read(felt, block);
     ++looks;
-  } while (perceiver.looks_again(moment(block)));
+  } while (looks_again(block));
   const bool there =
       perceiver.says_present(test_ln / looks, perceiver.free_space_ln(), moment(block));
-  session_.answer(there ? 1.0 : 0.0, {.response_time_s = felt.duration_s}, felt.last_tick);
+  session_.answer(perceiver.answer_or_cannot_tell(
+                      block, there ? 1.0 : 0.0,
+                      [&] {
+                        return perceiver.certainty_of_present(
+                            test_ln / looks, perceiver.free_space_ln(), looks, moment(block));
+                      }),
+                  {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 
 void TrialPlayer::compare(const Block& block) {
@@ -363,10 +431,17 @@ void TrialPlayer::compare(const Block& block) {
     felt = present(block, "test");
     test_ln += read(felt, block);
     ++looks;
-  } while (participant_.perceiver(block).looks_again(moment(block)));
-  const bool thicker = participant_.perceiver(block).says_thicker(
-      test_ln / looks, reference_ln / looks, moment(block));
-  session_.answer(thicker ? 1.0 : 0.0, {.response_time_s = felt.duration_s}, felt.last_tick);
+  } while (looks_again(block));
+  const Perceiver& person = participant_.perceiver(block);
+  const bool thicker =
+      person.says_thicker(test_ln / looks, reference_ln / looks, moment(block));
+  session_.answer(person.answer_or_cannot_tell(block, thicker ? 1.0 : 0.0,
+                                               [&] {
+                                                 return person.certainty_of_thicker(
+                                                     test_ln / looks, reference_ln / looks,
+                                                     looks, moment(block));
+                                               }),
+                  {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 
 /// Of three intervals.
@@ -381,10 +456,14 @@ void TrialPlayer::choose_interval(const Block& block) {
       readings_ln[i] += read(felt, block);
     }
     ++looks;
-  } while (person.looks_again(moment(block)));
+  } while (looks_again(block));
   for (double& reading : readings_ln) reading /= looks;
-  session_.answer(person.choose_interval(task_of(block), readings_ln, moment(block)),
-                  {.response_time_s = felt.duration_s}, felt.last_tick);
+  const Task task = task_of(block);
+  session_.answer(
+      person.answer_or_cannot_tell(
+          block, person.choose_interval(task, readings_ln, moment(block)),
+          [&] { return person.certainty_of_choice(task, readings_ln, looks, moment(block)); }),
+      {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 
 void TrialPlayer::compare_intervals(const Block& block, AnswerKind asked) {
@@ -399,14 +478,20 @@ void TrialPlayer::compare_intervals(const Block& block, AnswerKind asked) {
     felt = present(block, "second");
     second_ln += read(felt, block);
     ++looks;
-  } while (person.looks_again(moment(block)));
-  double answer = 0.0;
+  } while (looks_again(block));
+  first_ln /= looks;
+  second_ln /= looks;
+  std::optional<double> answer;
   if (asked == AnswerKind::kInterval) {
-    const bool second = person.says_thicker(second_ln / looks, first_ln / looks, moment(block));
-    answer = second ? 2.0 : 1.0;
+    const bool second = person.says_thicker(second_ln, first_ln, moment(block));
+    answer = person.answer_or_cannot_tell(block, second ? 2.0 : 1.0, [&] {
+      return person.certainty_of_thicker(second_ln, first_ln, looks, moment(block));
+    });
   } else {
-    answer =
-        person.says_different(first_ln / looks, second_ln / looks, moment(block)) ? 1.0 : 0.0;
+    const bool different = person.says_different(first_ln, second_ln, moment(block));
+    answer = person.answer_or_cannot_tell(block, different ? 1.0 : 0.0, [&] {
+      return person.certainty_of_different(first_ln, second_ln, looks, moment(block));
+    });
   }
   session_.answer(answer, {.response_time_s = felt.duration_s}, felt.last_tick);
 }
@@ -445,13 +530,14 @@ void TrialPlayer::adjust(const Block& block, std::int64_t trial, bool has_refere
   using Wish = Perceiver::Wish;
   Wish last_wish = Wish::kMatches;
   for (int step = 0; step < kMaxSteps; ++step) {
+    if (hurries(block) && left_to_answer_s(block) < felt.duration_s) break;
     const Wish wish =
         has_reference
             ? perceiver.wish_to_match(reading_ln, first_ln, standard_ln, moment(block))
             : perceiver.wish(reading_ln, first_ln, planned.target_percent.value(),
                              moment(block));
     if (wish == Wish::kMatches) {
-      if (!has_reference || !perceiver.looks_again(moment(block))) break;
+      if (!has_reference || !looks_again(block)) break;
       feel_standard();
       reading_ln = look();
       continue;

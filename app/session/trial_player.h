@@ -35,7 +35,8 @@ class TrialPlayer {
   void explore(const experiments::Exploration& exploration);
   /// The session's current trial, to its answer; or to where a finger came off, which is put
   /// back, or the loop missed more ticks than the study allows: then it comes again later, see
-  /// `Session::put_off_attempt`. Throws `core::Error` where that is so three times in a row.
+  /// `Session::put_off_attempt`. Throws `core::Error` where that is so three times in a row. An
+  /// answer that misses the block's deadline ends the attempt likewise, at the deadline.
   void run_trial(const experiments::Block& block);
   /// Questions that wait after a trial, also of one before an interruption.
   void answer_questions(const experiments::Block& block);
@@ -50,12 +51,15 @@ class TrialPlayer {
   [[nodiscard]] double device_damping(const Presenter::Felt& felt) const;
   struct CameOff;
   struct Missed;
+  struct TooLate;
   class StiffnessMeter;
 
   void feel(const experiments::Exploration& exploration);
   void stop_if_loose() const;
   void put_fingers_back(std::uint8_t loose_bits);
   void begin_anew(const std::string& reason);
+  void miss_deadline();
+  [[nodiscard]] bool hurries(const experiments::Block& block) const;
   void play_trial(const experiments::Block& block, std::int64_t trial);
   void wait(double duration_s);
   void rest(double duration_s);
@@ -63,7 +67,12 @@ class TrialPlayer {
   [[nodiscard]] core::RandomStream stroke_stream(std::int64_t trial, std::int64_t attempt,
                                                  std::int64_t presentation) const;
   void rise_above(double surface_m);
-  void run_strokes(const experiments::StrokeIntent& intent, StiffnessMeter& stiffness);
+  [[nodiscard]] bool has_felt(double duration_s) const;
+  bool pass(double duration_s, double end_s);
+  void run_strokes(const experiments::StrokeIntent& intent, StiffnessMeter& stiffness,
+                   double end_s);
+  [[nodiscard]] double left_to_answer_s(const experiments::Block& block) const;
+  [[nodiscard]] bool looks_again(const experiments::Block& block) const;
   Felt present(const experiments::Block& block, const std::string& interval);
   [[nodiscard]] experiments::Moment moment(const experiments::Block& block) const;
   [[nodiscard]] double read(const Felt& felt, const experiments::Block& block) const;

@@ -230,7 +230,8 @@ inline constexpr auto kColumns<TrialRow> = std::tuple{
         &TrialRow::response, "response", "",
         "Percent, or a number in another modulus; a step of a scale; 1: yes, "
         "different, the interval "
-        "of the test, or of three the right one, 0: otherwise; of an adjustment the value set"},
+        "of the test, or of three the right one, 0: otherwise; empty: \"cannot tell\"; of an "
+        "adjustment the value set"},
     StoredPart{&TrialRow::measures},
     StoredColumn{&TrialRow::num_presentations, "num_presentations", "",
                  "Stimuli felt in this attempt"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/error.h"
@@ -36,15 +37,46 @@ class BlockPlayer {
                      ? participant.presses(block.procedure, device.immersion.origin_z_m)
                      : participant.strokes(block.procedure)),
         stroking_(participant.strokes(block.procedure)),
-        presentation_s_(device.ramp_s + strokes_.duration_s()),
+        presentation_s_(
+            std::clamp(device.ramp_s + strokes_.duration_s(), block.min_stimulus_s,
+                       std::max(block.min_stimulus_s, block.max_stimulus_s.value_or(kNoEnd)))),
+        deadline_s_(block.answer_deadline_s.value_or(kNoEnd)),
         perceiver_(participant.perceiver(block)) {}
 
-  /// The response to a trial. `answered`: those before it in the block.
-  double respond(const PlannedTrial& planned, std::int64_t trial,
-                 const std::vector<AnsweredTrial>& answered) {
-    moment_ = {.trial = trial,
-               .presentation = 0,
-               .trial_in_block = static_cast<std::int64_t>(answered.size()) + 1};
+  /// The response to a trial, none for "cannot tell". `answered`: those before it in the block.
+  std::optional<double> respond(const PlannedTrial& planned, std::int64_t trial,
+                                const std::vector<AnsweredTrial>& answered) {
+    for (int attempt = 1;; ++attempt) {
+      moment_ = {.trial = trial,
+                 .attempt = attempt,
+                 .presentation = 0,
+                 .trial_in_block = static_cast<std::int64_t>(answered.size()) + 1};
+      const double felt_before_s = felt_s_;
+      const std::optional<double> answer = respond_once(planned, answered);
+      const double before_question_s = (num_stimuli(planned) - 1) * presentation_s_;
+      if (felt_s_ - felt_before_s - before_question_s < deadline_s_) return answer;
+      // It was not felt any longer.
+      felt_s_ = felt_before_s + before_question_s + deadline_s_;
+      if (hurries()) return answer;
+    }
+  }
+
+  [[nodiscard]] double felt_s() const noexcept { return felt_s_; }
+
+ private:
+  static constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+
+  /// Whose answer missed the deadline is in time when the trial comes again.
+  [[nodiscard]] bool hurries() const noexcept { return moment_.attempt > 1; }
+
+  /// Before which it cannot be answered.
+  [[nodiscard]] int num_stimuli(const PlannedTrial& planned) const {
+    if (form_.order_is_drawn) return form_.num_intervals;
+    return form_.has_reference && planned.reference_intensity ? 2 : 1;
+  }
+
+  std::optional<double> respond_once(const PlannedTrial& planned,
+                                     const std::vector<AnsweredTrial>& answered) {
     if (form_.adjustable) return adjust(planned);
     if (form_.order_is_drawn) return compare_intervals(planned);
     if (form_.answer == AnswerKind::kYesNo && !form_.has_reference) return detect(planned);
@@ -52,9 +84,6 @@ class BlockPlayer {
     return estimate(planned, answered);
   }
 
-  [[nodiscard]] double felt_s() const noexcept { return felt_s_; }
-
- private:
   /// What the next presentation feels like, in ln(N s/m), of a solid in ln(N/m).
   double present(const char* interval, double intensity) {
     ++moment_.presentation;
@@ -88,7 +117,12 @@ class BlockPlayer {
     return stroking_.max_speed_m_per_s * sum / strokes_.num_strokes;
   }
 
-  [[nodiscard]] bool looks_again() const { return perceiver_.looks_again(moment_); }
+  /// As far as the block lets anybody go back to each stimulus.
+  [[nodiscard]] bool looks_again() const {
+    if (block_.max_returns && moment_.presentation > *block_.max_returns) return false;
+    if (hurries()) return false;
+    return perceiver_.looks_again(moment_);
+  }
 
   double estimate(const PlannedTrial& planned, const std::vector<AnsweredTrial>& answered) {
     double sum_ln = 0.0, standard_ln = 0.0;
@@ -117,7 +151,7 @@ class BlockPlayer {
   }
 
   /// Whether anything is there, against free space as it is remembered.
-  double detect(const PlannedTrial& planned) {
+  std::optional<double> detect(const PlannedTrial& planned) {
     double test_ln = 0.0;
     int looks = 0;
     do {
@@ -125,10 +159,13 @@ class BlockPlayer {
       ++looks;
     } while (looks_again());
     const double nothing_ln = perceiver_.free_space_ln();
-    return perceiver_.says_present(test_ln / looks, nothing_ln, moment_) ? 1.0 : 0.0;
+    const bool there = perceiver_.says_present(test_ln / looks, nothing_ln, moment_);
+    return perceiver_.answer_or_cannot_tell(block_, there ? 1.0 : 0.0, [&] {
+      return perceiver_.certainty_of_present(test_ln / looks, nothing_ln, looks, moment_);
+    });
   }
 
-  double compare(const PlannedTrial& planned) {
+  std::optional<double> compare(const PlannedTrial& planned) {
     double reference_ln = 0.0, test_ln = 0.0;
     int looks = 0;
     do {
@@ -136,10 +173,15 @@ class BlockPlayer {
       test_ln += present("test", planned.intensity.value());
       ++looks;
     } while (looks_again());
-    return perceiver_.says_thicker(test_ln / looks, reference_ln / looks, moment_) ? 1.0 : 0.0;
+    const bool thicker =
+        perceiver_.says_thicker(test_ln / looks, reference_ln / looks, moment_);
+    return perceiver_.answer_or_cannot_tell(block_, thicker ? 1.0 : 0.0, [&] {
+      return perceiver_.certainty_of_thicker(test_ln / looks, reference_ln / looks, looks,
+                                             moment_);
+    });
   }
 
-  double choose_interval(const PlannedTrial& planned) {
+  std::optional<double> choose_interval(const PlannedTrial& planned) {
     std::vector<double> sums_ln(planned.intervals.size(), 0.0);
     int looks = 0;
     do {
@@ -152,11 +194,15 @@ class BlockPlayer {
       ++looks;
     } while (looks_again());
     for (double& sum : sums_ln) sum /= looks;
-    return response_of(form_.answer, planned,
-                       perceiver_.choose_interval(task_of(block_), sums_ln, moment_));
+    const Task task = task_of(block_);
+    return response_of(
+        form_.answer, planned,
+        perceiver_.answer_or_cannot_tell(
+            block_, perceiver_.choose_interval(task, sums_ln, moment_),
+            [&] { return perceiver_.certainty_of_choice(task, sums_ln, looks, moment_); }));
   }
 
-  double compare_intervals(const PlannedTrial& planned) {
+  std::optional<double> compare_intervals(const PlannedTrial& planned) {
     if (!planned.intervals.empty()) return choose_interval(planned);
     const double test = planned.intensity.value();
     const double reference = planned.reference_intensity.value();
@@ -168,12 +214,20 @@ class BlockPlayer {
       second_ln += present("second", test_first ? reference : test);
       ++looks;
     } while (looks_again());
+    first_ln /= looks;
+    second_ln /= looks;
     if (form_.answer != AnswerKind::kInterval) {
-      return perceiver_.says_different(first_ln / looks, second_ln / looks, moment_) ? 1.0
-                                                                                     : 0.0;
+      const bool different = perceiver_.says_different(first_ln, second_ln, moment_);
+      return perceiver_.answer_or_cannot_tell(block_, different ? 1.0 : 0.0, [&] {
+        return perceiver_.certainty_of_different(first_ln, second_ln, looks, moment_);
+      });
     }
-    const bool second = perceiver_.says_thicker(second_ln / looks, first_ln / looks, moment_);
-    return response_of(form_.answer, planned, second ? 2.0 : 1.0);
+    const bool second = perceiver_.says_thicker(second_ln, first_ln, moment_);
+    return response_of(form_.answer, planned,
+                       perceiver_.answer_or_cannot_tell(block_, second ? 2.0 : 1.0, [&] {
+                         return perceiver_.certainty_of_thicker(second_ln, first_ln, looks,
+                                                                moment_);
+                       }));
   }
 
   /// What a step is to do, of a production or of a matching.
@@ -209,6 +263,7 @@ class BlockPlayer {
     const double first_ln = reading_ln;
     Wish last_wish = Wish::kMatches;
     for (int step = 0; step < kMaxSteps; ++step) {
+      if (hurries() && (looks + 1) * presentation_s_ > deadline_s_) break;
       const Wish next = wish(planned, reading_ln, first_ln, standard_ln);
       if (next == Wish::kMatches) {
         if (!form_.has_reference || !looks_again()) break;
@@ -242,6 +297,7 @@ class BlockPlayer {
   StrokeIntent strokes_;
   StrokeIntent stroking_;  ///< Through a fluid, where `strokes_` press.
   double presentation_s_;
+  double deadline_s_;
   const Perceiver perceiver_;
   Moment moment_;
   double felt_ = 0.0;

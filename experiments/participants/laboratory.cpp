@@ -235,6 +235,7 @@ void read_perceiver(const json& file, Laboratory::Perceiver& perceiver,
   in.positive("learning_trials", perceiver.learning_trials);
   in.number("fatigue_ratio_per_trial", perceiver.fatigue_ratio_per_trial, 0.0, 1.0);
   in.number("look_again_probability", perceiver.look_again_probability, 0.0, 0.99);
+  in.optional_number("cannot_tell_certainty", perceiver.cannot_tell_certainty, 0.0, 1.0);
   in.positive("match_tolerance_ln", perceiver.match_tolerance_ln);
   in.positive("coarse_step_ln", perceiver.coarse_step_ln);
   if (in.has("free_modulus")) {

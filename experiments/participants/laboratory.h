@@ -72,8 +72,10 @@ struct Laboratory {
     double learning_trials = 0.0;     ///< Trials until it has fallen to 37 %, > 0.
     double fatigue_ratio_per_trial = 0.0;  ///< Noise gained a trial.
     double look_again_probability = 0.0;   ///< [0, 1)
-    double match_tolerance_ln = 0.0;       ///< Production: what passes for equal, > 0.
-    double coarse_step_ln = 0.0;           ///< Production: beyond this, a coarse step, > 0.
+    /// Who is less certain says "cannot tell", where that is an answer, [0, 1].
+    double cannot_tell_certainty = 0.2;
+    double match_tolerance_ln = 0.0;  ///< Production: what passes for equal, > 0.
+    double coarse_step_ln = 0.0;      ///< Production: beyond this, a coarse step, > 0.
     /// The number that people give water who choose their own, > 0; without it nobody does.
     std::optional<double> free_modulus;
     double free_modulus_sd_ln = 0.0;  ///< Between persons.

@@ -119,6 +119,17 @@ class Perceiver {
   [[nodiscard]] double certainty_of_different(double first_ln, double second_ln, int num_looks,
                                               const Moment& moment) const;
 
+  /// The answer of somebody who is so certain of it; none, "cannot tell", where the block takes
+  /// that and they are less certain than the laboratory's `cannot_tell_certainty`. Who lapses
+  /// is certain of nothing. `certainty()` is one of those above.
+  template <typename Certainty>
+  [[nodiscard]] std::optional<double> answer_or_cannot_tell(const Block& block, double answer,
+                                                            const Certainty& certainty) const {
+    if (!block.cannot_tell) return answer;
+    return certainty() < laboratory_.perceiver.cannot_tell_certainty ? std::nullopt
+                                                                     : std::optional(answer);
+  }
+
   /// A step from 1 to `num_steps` for a stimulus that is felt this part of the way from the
   /// weakest to the strongest one (`magnitude_ratio` of trial_feeling.h), drawn toward the
   /// middle by the person's `shrink`, and by the laboratory's assimilation toward the step

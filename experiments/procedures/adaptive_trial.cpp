@@ -27,7 +27,7 @@ int with_catch_trials(const Block& block, int num_trials) noexcept {
 std::vector<LevelAnswer> level_answers(const std::vector<AnsweredTrial>& answered, int series) {
   std::vector<LevelAnswer> answers;
   for (const AnsweredTrial& trial : answered) {
-    if (trial.planned.is_catch || !trial.planned.intensity) continue;
+    if (trial.planned.is_catch || !trial.planned.intensity || !trial.response) continue;
     if (series > 0 && trial.planned.series != series) continue;
     answers.push_back({.level = *trial.planned.intensity, .yes = trial.response == 1.0});
   }
@@ -38,6 +38,7 @@ std::vector<BlockKey> adaptive_keys() {
   std::vector<BlockKey> keys = {task_key(), reference_key(), interval_order_key(),
                                 catch_probability_key()};
   for (BlockKey& key : right_answer_keys()) keys.push_back(std::move(key));
+  keys.push_back(max_returns_key());
   for (BlockKey& label : answer_label_keys()) keys.push_back(std::move(label));
   return keys;
 }

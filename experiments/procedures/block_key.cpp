@@ -174,6 +174,20 @@ std::vector<BlockKey> right_answer_keys() {
                      .nested = &practice_table()}}};
 }
 
+BlockKey cannot_tell_key() {
+  return {
+      .parameter = {.key = "cannot_tell",
+                    .kind = ValueKind::kBoolean,
+                    .meaning =
+                        "Whether \"cannot tell\" is an answer, too. It is stored with its time "
+                        "and without a response, is in no curve or rate, neither right nor "
+                        "wrong nor half of either, and is counted in the results. `practice` "
+                        "takes it for an answer that is not right. Adaptive procedures go by "
+                        "every answer and have no such key.",
+                    .required = false,
+                    .default_json = "false"}};
+}
+
 std::vector<BlockKey> standard_keys() {
   BlockKey medium{.parameter = {.key = "standard_medium",
                                 .kind = ValueKind::kString,
@@ -199,6 +213,15 @@ std::vector<BlockKey> standard_keys() {
                      .of_standard = true,
                      .is_positive = true};
   return {medium, standards};
+}
+
+BlockKey max_returns_key() {
+  return {.parameter = {.key = "max_returns",
+                        .kind = ValueKind::kInteger,
+                        .meaning = "How often in a trial a stimulus may be presented that was "
+                                   "presented before: 0 is each once. Absent: any number.",
+                        .required = false,
+                        .range = {0, 1000}}};
 }
 
 BlockKey repetitions_key() {

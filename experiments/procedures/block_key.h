@@ -41,8 +41,12 @@ struct BlockKey {
 [[nodiscard]] BlockKey catch_probability_key();
 /// What a block can have whose trials have right answers: feedback and practice.
 [[nodiscard]] std::vector<BlockKey> right_answer_keys();
+/// Whether a choice may be left open.
+[[nodiscard]] BlockKey cannot_tell_key();
 /// What is felt as the standard: a medium, and how much of it.
 [[nodiscard]] std::vector<BlockKey> standard_keys();
+/// How often stimuli may be felt again.
+[[nodiscard]] BlockKey max_returns_key();
 /// How often every test stimulus is shown.
 [[nodiscard]] BlockKey repetitions_key();
 /// In which order the test stimuli are shown.

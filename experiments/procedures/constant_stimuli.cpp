@@ -128,6 +128,8 @@ std::vector<BlockKey> ConstantStimuli::keys() const {
                                 interval_order_key(), catch_trials_key(), repetitions_key(),
                                 order_key()};
   for (BlockKey& key : right_answer_keys()) keys.push_back(std::move(key));
+  keys.push_back(cannot_tell_key());
+  keys.push_back(max_returns_key());
   for (BlockKey& label : answer_label_keys()) keys.push_back(std::move(label));
   return keys;
 }

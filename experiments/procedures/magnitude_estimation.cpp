@@ -30,7 +30,8 @@ std::string MagnitudeEstimation::meaning() const {
 }
 
 std::vector<BlockKey> MagnitudeEstimation::keys() const {
-  std::vector<BlockKey> keys = {stimuli_key(), repetitions_key(), order_key(), modulus_key()};
+  std::vector<BlockKey> keys = {stimuli_key(), repetitions_key(), order_key(),
+                                max_returns_key(), modulus_key()};
   for (BlockKey& standard : standard_keys()) keys.push_back(std::move(standard));
   keys.push_back({.parameter = {.key = "modulus_value",
                                 .kind = ValueKind::kNumber,

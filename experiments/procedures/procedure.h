@@ -15,7 +15,7 @@ namespace jnd::experiments {
 /// A trial with its answer, as an adaptive procedure needs it.
 struct AnsweredTrial {
   PlannedTrial planned;
-  double response = 0.0;
+  std::optional<double> response = 0.0;  ///< As it is stored; none: "cannot tell".
 };
 
 enum class AnswerKind {

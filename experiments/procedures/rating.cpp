@@ -19,6 +19,7 @@ std::vector<BlockKey> Rating::keys() const {
   return {stimuli_key(),
           repetitions_key(),
           order_key(),
+          max_returns_key(),
           {.parameter = {.key = "num_steps",
                          .kind = ValueKind::kInteger,
                          .meaning = "Steps of the scale, counted from 1. An even number has no "

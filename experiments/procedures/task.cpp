@@ -133,6 +133,11 @@ double response_of(AnswerKind kind, const PlannedTrial& trial, double answer) {
   return answer == right ? 1.0 : 0.0;
 }
 
+std::optional<double> response_of(AnswerKind kind, const PlannedTrial& trial,
+                                  const std::optional<double>& answer) {
+  return answer ? std::optional(response_of(kind, trial, *answer)) : std::nullopt;
+}
+
 double answer_of(AnswerKind kind, const PlannedTrial& trial, double response,
                  std::optional<std::int64_t> chosen) {
   if (kind != AnswerKind::kInterval) return response;

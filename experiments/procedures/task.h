@@ -66,6 +66,9 @@ struct IntervalChoice {
 /// one, or of two the one that holds the test, and else 0. Other answers are stored as they
 /// are.
 [[nodiscard]] double response_of(AnswerKind kind, const PlannedTrial& trial, double answer);
+/// The same; none, "cannot tell", stays none.
+[[nodiscard]] std::optional<double> response_of(AnswerKind kind, const PlannedTrial& trial,
+                                                const std::optional<double>& answer);
 /// And back. `chosen`: the interval, where it was stored.
 [[nodiscard]] double answer_of(AnswerKind kind, const PlannedTrial& trial, double response,
                                std::optional<std::int64_t> chosen = std::nullopt);

@@ -131,6 +131,41 @@ const ParameterTable& block_table() {
                    .default_json = "0.0",
                    .unit = "s",
                    .range = {0.0, 600.0}});
+    own.push_back({.key = "min_stimulus_s",
+                   .kind = ValueKind::kNumber,
+                   .meaning = "How long a stimulus has to be felt before the trial is answered "
+                              "or goes on: to another stimulus, to free space, or by a step of "
+                              "an adjustment. A pause and the emergency stop do not wait.",
+                   .required = false,
+                   .default_json = "0.0",
+                   .unit = "s",
+                   .range = {0.0, 600.0}});
+    own.push_back({.key = "max_stimulus_s",
+                   .kind = ValueKind::kNumber,
+                   .meaning =
+                       "How long a stimulus is felt at most, from step to step of an "
+                       "adjustment: then free space comes back over the device's "
+                       "`ramp_s`. With `min_stimulus_s` of the same value every stimulus "
+                       "is felt equally long. Absent: until the answer, or what comes "
+                       "next.",
+                   .required = false,
+                   .unit = "s",
+                   .range = {0.0, 600.0, true}});
+    own.push_back({.key = "answer_deadline_s",
+                   .kind = ValueKind::kNumber,
+                   .meaning =
+                       "Until when a trial has to be answered, from the start of the "
+                       "stimulus with which all of its stimuli were felt once: from then "
+                       "on the question is asked, and whoever goes back to a stimulus "
+                       "gets no more time. At the deadline free space comes, and the "
+                       "attempt counts as missed. The trial comes again later in the "
+                       "block, at a drawn place; of a procedure that adapts, and where "
+                       "it is the last, it comes again at once. Missed answers are "
+                       "counted in the results and are in no other number. Absent: there "
+                       "is no deadline.",
+                   .required = false,
+                   .unit = "s",
+                   .range = {0.0, 3600.0, true}});
     own.push_back(
         {.key = "expected_trial_s",
          .kind = ValueKind::kNumber,

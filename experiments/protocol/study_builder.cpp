@@ -256,6 +256,10 @@ Block block(const ObjectReader& in) {
   block.intensities = block.settings.numbers("");
   block.free_space_between_s = in.number("free_space_between_s");
   block.expected_trial_s = in.number("expected_trial_s");
+  block.min_stimulus_s = in.number("min_stimulus_s");
+  block.max_stimulus_s = in.optional_number("max_stimulus_s");
+  block.answer_deadline_s = in.optional_number("answer_deadline_s");
+  if (in.has("max_returns")) block.max_returns = in.integer("max_returns");
   if (in.has("order")) block.order = stimulus_order(in.object("order"));
   if (in.has("repetitions")) block.repetitions = in.integer("repetitions");
   block.standards = block.settings.numbers("standard");
@@ -265,6 +269,7 @@ Block block(const ObjectReader& in) {
   block.max_intensity = block.settings.optional_number("max");
   block.reference_intensity = block.settings.optional_number("reference");
   block.feedback = in.boolean("feedback");
+  block.cannot_tell = in.boolean("cannot_tell");
   if (in.has("practice")) block.practice = practice(in.object("practice"));
   block.levels = in.names("levels");
   block.questions = questions(in, "questions");

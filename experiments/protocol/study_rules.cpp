@@ -18,6 +18,7 @@
 #include "experiments/protocol/standard_rules.h"
 #include "experiments/protocol/study_check.h"
 #include "experiments/protocol/task_rules.h"
+#include "experiments/protocol/timing_rules.h"
 #include "experiments/study/media.h"
 #include "experiments/study/parameter_table.h"
 #include "experiments/study/rule_values.h"
@@ -350,6 +351,7 @@ void check_study_rules(const LocatedJson& file, std::vector<StudyProblem>& probl
   check_session_rules(file, problems);
   check_label_rules(file, problems);
   check_task_rules(file, problems);
+  check_timing_rules(file, problems);
   check_order_rules(file, problems);
   check_participant_field_rules(file, problems);
   check_design_rules(file, problems);

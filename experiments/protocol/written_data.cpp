@@ -66,13 +66,17 @@ Columns of_blocks() {
       {"trials.csv", "response", unit, "The value that was set", only(adjustments)},
       {"trials.csv", "response", "", "The step of the scale, from 1", only({"rating"})},
       {"trials.csv", "response", "",
-       "1: yes, different, the interval of the test, or of three the right one; 0: otherwise",
+       "1: yes, different, the interval of the test, or of three the right one; 0: otherwise; "
+       "with `cannot_tell` empty where nobody could tell",
        asked},
       {"trials.csv", "response_time_s", "s",
        "From the start of the last stimulus to the answer"},
       {"trials.csv", "num_presentations", "", "Stimuli felt in this attempt"},
       {"trials.csv", "first_tick", "tick", "First sample of the trial in the recording"},
       {"trials.csv", "last_tick", "tick", "Last sample of the trial in the recording"},
+      {"events.csv", "kind", "",
+       "`attempt_discarded`: the trial comes again, with `reason` in `data`, and "
+       "`missed_deadline` where its answer missed `answer_deadline_s`"},
       {"questions.csv", "trial", "",
        "One row a trial and question of `questions`, with `block` and `question`"},
       {"questions.csv", "answer", "",

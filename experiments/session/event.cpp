@@ -148,7 +148,7 @@ struct Writer {
   void operator()(const TrialAnswered& e) const {
     place(e.trial, e.attempt);
     row.last_tick = e.last_tick;
-    data = {{"response", e.response}};
+    data = {{"response", json_of(e.response)}};
     write_columns(e.measures, data);
     if (e.feedback_right) data["feedback_right"] = *e.feedback_right;
   }
@@ -164,13 +164,14 @@ struct Writer {
   void operator()(const AnswerCorrected& e) const {
     place(e.trial, e.attempt);
     row.supersedes = e.answer_sequence;
-    data = {{"response", e.response}, {"reason", e.reason}};
+    data = {{"response", json_of(e.response)}, {"reason", e.reason}};
     if (e.chosen_interval) data["chosen_interval"] = *e.chosen_interval;
   }
   void operator()(const AttemptDiscarded& e) const {
     place(e.trial, e.attempt);
     data = {{"reason", e.reason}};
     if (e.again_after != 0) data["again_after"] = e.again_after;
+    if (e.missed_deadline) data["missed_deadline"] = true;
   }
   void operator()(const TrialExcluded& e) const {
     row.trial = e.trial;
@@ -287,7 +288,7 @@ struct Reader {
   void operator()(TrialAnswered& e) const {
     place(e);
     e.last_tick = column(row.last_tick, "last_tick");
-    data.at("response").get_to(e.response);
+    read_json(data.at("response"), "response", e.response);
     read_columns(data, e.measures);
     if (const auto told = data.find("feedback_right"); told != data.end()) {
       e.feedback_right = told->get<bool>();
@@ -306,7 +307,7 @@ struct Reader {
   void operator()(AnswerCorrected& e) const {
     place(e);
     e.answer_sequence = column(row.supersedes, "supersedes");
-    data.at("response").get_to(e.response);
+    read_json(data.at("response"), "response", e.response);
     data.at("reason").get_to(e.reason);
     if (data.contains("chosen_interval")) {
       e.chosen_interval = whole_number(data.at("chosen_interval"), "chosen_interval");
@@ -316,6 +317,7 @@ struct Reader {
     place(e);
     data.at("reason").get_to(e.reason);
     e.again_after = data.value("again_after", std::int64_t{0});
+    e.missed_deadline = data.value("missed_deadline", false);
   }
   void operator()(TrialExcluded& e) const {
     e.trial = column(row.trial, "trial");

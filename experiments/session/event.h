@@ -92,7 +92,7 @@ struct IntensityAdjusted {
 
 struct TrialAnswered {
   std::int64_t trial = 0, attempt = 1;
-  double response = 0.0;  ///< Percent; 1 or 0; the intensity set.
+  std::optional<double> response;  ///< Percent; 1 or 0; the intensity set; none: "cannot tell".
   core::AnswerMeasures measures;
   std::int64_t last_tick = 0;
   std::optional<bool> feedback_right;  ///< What was told of it; none where nothing is.
@@ -117,7 +117,7 @@ struct AnswerUndone {
 struct AnswerCorrected {
   std::int64_t trial = 0, attempt = 1;
   std::int64_t answer_sequence = 0;
-  double response = 0.0;
+  std::optional<double> response;  ///< None: "cannot tell".
   std::string reason;
   std::optional<std::int64_t> chosen_interval{};  ///< Of three intervals, from 1.
 };
@@ -127,6 +127,7 @@ struct AttemptDiscarded {
   std::int64_t trial = 0, attempt = 1;
   std::string reason;
   std::int64_t again_after = 0;  ///< The trial after which it comes again; 0: it is the next.
+  bool missed_deadline = false;  ///< No answer came before the block's deadline.
 };
 
 struct TrialExcluded {

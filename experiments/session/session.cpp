@@ -11,6 +11,8 @@
 #include "experiments/procedures/rating.h"
 #include "experiments/procedures/task.h"
 #include "experiments/session/session_limits.h"
+#include "experiments/session/trial_course.h"
+#include "experiments/study/parameter_table.h"
 #include "experiments/study/question_answer.h"
 
 namespace jnd::experiments {
@@ -51,11 +53,23 @@ bool is_answer(AnswerKind kind, const Block& block, double value) {
   return std::isfinite(value) && (kind == AnswerKind::kNumber ? value > 0.0 : value >= 0.0);
 }
 
+/// Throws where this is no answer in the block; none is "cannot tell".
+void require_answer_of(AnswerKind kind, const Block& block, const std::optional<double>& value,
+                       const char* act) {
+  if (!value && !block.cannot_tell) cannot(act, "a block with `cannot_tell` for no choice");
+  if (value && !is_answer(kind, block, *value)) cannot(act, what_an_answer_is(kind, block));
+}
+
 /// "first" is 1; 0 of what has no place in an order.
 int place_of(const std::string& interval) {
   if (interval == "first") return 1;
   if (interval == "second") return 2;
   return interval == "third" ? 3 : 0;
+}
+
+/// The same where there are three, whose places are stored; else 0.
+std::int64_t place_in(const std::string& interval, const PlannedTrial& trial) {
+  return trial.intervals.empty() ? 0 : place_of(interval);
 }
 
 /// What an interval of the trial holds: "test" or "reference" for "first" and "second", where
@@ -222,6 +236,18 @@ void Session::require_interval(const std::string& interval) const {
   if (!trial) cannot("present " + interval, "a trial that waits");
   const TrialState& state = state_.trial(*trial);
   (void)intensity_of(state, stimulus_in(interval, state.planned));
+  if (state.under_way) require_return(state, interval);
+}
+
+/// Throws where the interval was presented before and the block allows no more of that.
+void Session::require_return(const TrialState& trial, const std::string& interval) const {
+  const std::optional<int>& most = current_block().max_returns;
+  if (!most || num_returns(trial) < *most) return;
+  if (was_presented(trial, stimulus_in(interval, trial.planned),
+                    place_in(interval, trial.planned))) {
+    cannot("present " + interval + " again",
+           "a return that is left of `max_returns`, " + std::to_string(*most) + ",");
+  }
 }
 
 void Session::begin_presentation(const std::string& interval, std::int64_t tick) {
@@ -230,6 +256,7 @@ void Session::begin_presentation(const std::string& interval, std::int64_t tick)
   if (!trial.presentations.empty() && !trial.presentations.back().last_tick) {
     cannot("present another stimulus", "an end of the presentation under way");
   }
+  require_return(trial, interval);
   const std::string stimulus = stimulus_in(interval, trial.planned);
   commit(PresentationStarted{
       .trial = number,
@@ -238,7 +265,7 @@ void Session::begin_presentation(const std::string& interval, std::int64_t tick)
       .interval = stimulus,
       .intensity = intensity_of(trial, stimulus),
       .first_tick = tick,
-      .place = trial.planned.intervals.empty() ? 0 : place_of(interval)});
+      .place = place_in(interval, trial.planned)});
 }
 
 void Session::end_presentation(std::int64_t last_tick, const PresentationSummary& summary) {
@@ -287,7 +314,8 @@ bool Session::adjust(Direction direction, StepSize size) {
   return true;
 }
 
-core::TrialRow Session::answered_row(std::int64_t number, double response) const {
+core::TrialRow Session::answered_row(std::int64_t number,
+                                     const std::optional<double>& response) const {
   const TrialState& trial = state_.trial(number);
   const Stage& stage = *parameters_.stages.at(static_cast<std::size_t>(trial.stage));
   const Block& block = std::get<Block>(stage.content);
@@ -313,42 +341,43 @@ core::TrialRow Session::answered_row(std::int64_t number, double response) const
 }
 
 /// What is stored for a value that was answered.
-double Session::response_for(double value) const {
+std::optional<double> Session::response_for(const std::optional<double>& value) const {
   const TrialState& trial = state_.trial(open_trial("take an answer"));
   const AnswerKind kind = current_form().answer;
-  const double answer = kind == AnswerKind::kMatch ? trial.set_intensity : value;
-  const Block& block = current_block();
-  if (!is_answer(kind, block, answer)) {
-    cannot("take an answer", what_an_answer_is(kind, block));
-  }
+  std::optional<double> answer = value;
+  if (answer && kind == AnswerKind::kMatch) answer = trial.set_intensity;
+  require_answer_of(kind, current_block(), answer, "take an answer");
   return response_of(kind, trial.planned, answer);
 }
 
 /// What is told of a response in this block.
-std::optional<bool> Session::feedback(const PlannedTrial& trial, double response) const {
+std::optional<bool> Session::feedback(const PlannedTrial& trial,
+                                      const std::optional<double>& response) const {
   const Block& block = current_block();
-  if (!block.feedback) return std::nullopt;
+  if (!block.feedback || !response) return std::nullopt;
   const std::optional<double> right =
       procedure_named(block.procedure).feedback_response(block, trial);
   return right ? std::optional(response == *right) : std::nullopt;
 }
 
-void Session::require_answer(double value) const { (void)response_for(value); }
+void Session::require_answer(const std::optional<double>& value) const {
+  (void)response_for(value);
+}
 
-void Session::answer(double value, const core::AnswerMeasures& measures,
+void Session::answer(const std::optional<double>& value, const core::AnswerMeasures& measures,
                      std::int64_t last_tick) {
   const std::int64_t number = open_trial("take an answer");
   const TrialState& trial = state_.trial(number);
   if (trial.presentations.empty() || !trial.presentations.back().last_tick) {
     cannot("take an answer", "a finished presentation");
   }
-  const double response = response_for(value);
+  const std::optional<double> response = response_for(value);
   const double response_time_s = measures.response_time_s.value_or(-1.0);
   if (!(response_time_s >= 0.0) || !std::isfinite(response_time_s)) {
     cannot("take an answer", "a response time >= 0");
   }
   core::AnswerMeasures kept = measures;
-  if (trial.planned.right_interval) kept.chosen_interval = std::lround(value);
+  if (trial.planned.right_interval && value) kept.chosen_interval = std::lround(*value);
   core::Commit rows;
   rows.trial = answered_row(number, response);
   rows.trial->measures = kept;
@@ -370,7 +399,8 @@ std::optional<OpenQuestion> Session::open_question() const {
   for (std::int64_t number = std::ssize(state_.trials); number >= 1; --number) {
     const TrialState& trial = state_.trial(number);
     if (trial.stage != state_.stage) break;
-    if (!trial.response || trial.question_answers.size() == block->questions.size()) continue;
+    if (!trial.is_answered || trial.question_answers.size() == block->questions.size())
+      continue;
     for (std::size_t i = 0; i < block->questions.size(); ++i) {
       const QuestionnaireItem& item = block->questions[i];
       if (trial.question_answers.contains(item.name)) continue;
@@ -403,18 +433,30 @@ void Session::discard_attempt(const std::string& reason) {
   commit(AttemptDiscarded{number, state_.trial(number).attempt, reason});
 }
 
-void Session::put_off_attempt(const std::string& reason) {
+void Session::put_off_attempt(const std::string& reason) { put_off({.reason = reason}); }
+
+void Session::miss_deadline(const std::string& given) {
+  const std::optional<double>& deadline_s = current_block().answer_deadline_s;
+  if (!deadline_s) cannot("miss a deadline", "a block with `answer_deadline_s`");
+  put_off(
+      {.reason = "no answer within the deadline of " + plain_number(*deadline_s) + " s" + given,
+       .missed_deadline = true});
+}
+
+void Session::put_off(AttemptDiscarded discarded) {
   const std::int64_t number = open_trial("put a trial off");
   const TrialState& trial = state_.trial(number);
+  discarded.trial = number;
+  discarded.attempt = trial.attempt;
   const std::vector<std::int64_t> later = state_.trials_after_current();
-  if (later.empty() || procedure_named(current_block().procedure).adapts()) {
-    return discard_attempt(reason);
+  if (!later.empty() && !procedure_named(current_block().procedure).adapts()) {
+    core::RandomStream stream(parameters_.seed, "put off", {number, trial.attempt});
+    // Behind one that was put off itself: where that one stands.
+    const std::int64_t chosen = later[stream.below(later.size())];
+    const std::int64_t after = state_.trial(chosen).again_after;
+    discarded.again_after = after == 0 ? chosen : after;
   }
-  core::RandomStream stream(parameters_.seed, "put off", {number, trial.attempt});
-  // Behind one that was put off itself: where that one stands.
-  const std::int64_t chosen = later[stream.below(later.size())];
-  const std::int64_t after = state_.trial(chosen).again_after;
-  commit(AttemptDiscarded{number, trial.attempt, reason, after == 0 ? chosen : after});
+  commit(std::move(discarded));
 }
 
 void Session::require_undo() const {
@@ -434,25 +476,24 @@ void Session::undo(const std::string& reason) {
   commit(AnswerUndone{last, trial.attempt, trial.answer_sequence, reason});
 }
 
-void Session::correct(std::int64_t number, double value, const std::string& reason) {
+void Session::correct(std::int64_t number, const std::optional<double>& value,
+                      const std::string& reason) {
   if (number < 1 || number > static_cast<std::int64_t>(state_.trials.size()) ||
-      !state_.trial(number).response) {
+      !state_.trial(number).is_answered) {
     cannot("correct an answer", "an answered trial");
   }
   const Stage& stage =
       *parameters_.stages.at(static_cast<std::size_t>(state_.trial(number).stage));
   const Block& block = std::get<Block>(stage.content);
   const AnswerKind kind = procedure_named(block.procedure).form(block).answer;
-  if (!is_answer(kind, block, value)) {
-    cannot("correct an answer", what_an_answer_is(kind, block));
-  }
+  require_answer_of(kind, block, value, "correct an answer");
   const TrialState& trial = state_.trial(number);
-  const double response = response_of(kind, trial.planned, value);
+  const std::optional<double> response = response_of(kind, trial.planned, value);
   core::Commit rows;
   rows.trial = answered_row(number, response);
   AnswerCorrected corrected{number, trial.attempt, trial.answer_sequence, response, reason};
   if (trial.planned.right_interval) {
-    corrected.chosen_interval = std::lround(value);
+    if (value) corrected.chosen_interval = std::lround(*value);
     rows.trial->measures.chosen_interval = corrected.chosen_interval;
   }
   commit(std::move(corrected), std::move(rows));
@@ -466,7 +507,7 @@ void Session::restart_block(const std::string& reason) {
   // The latest first, as if undone one by one.
   for (auto number = static_cast<std::int64_t>(state_.trials.size()); number >= 1; --number) {
     const TrialState& trial = state_.trial(number);
-    if (trial.stage == state_.stage && trial.response) {
+    if (trial.stage == state_.stage && trial.is_answered) {
       commit(AnswerUndone{number, trial.attempt, trial.answer_sequence, reason});
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,7 +83,7 @@ class Session {
 
   void start_trial(std::int64_t tick);
   /// Of the current trial, under way or not: throws as `begin_presentation` would for an
-  /// interval that it has not.
+  /// interval that it has not, or to which nobody may go back any more.
   void require_interval(const std::string& interval) const;
   /// `interval`: "test", "reference" or "free_space"; or "first" or "second" of a trial whose
   /// order is drawn, stored as what it holds. The presentation under way, if any, must have
@@ -94,10 +95,12 @@ class Session {
   bool adjust(Direction direction, StepSize size);
   [[nodiscard]] bool can_adjust(Direction direction, StepSize size) const;
   /// Throws as `answer` would for this value, so that nothing need be ended for it in vain.
-  void require_answer(double value) const;
+  void require_answer(const std::optional<double>& value) const;
   /// The answer as it was given: percent, 1 and 0, or the interval that was chosen; in
-  /// production the set intensity is the answer and `value` is ignored.
-  void answer(double value, const core::AnswerMeasures& measures, std::int64_t last_tick);
+  /// production the set intensity is the answer and `value` is ignored. None is "cannot tell",
+  /// where the block takes that.
+  void answer(const std::optional<double>& value, const core::AnswerMeasures& measures,
+              std::int64_t last_tick);
   /// The question that waits for its answer: the first of the block that an answered trial of
   /// it has none to. While there is one, no trial begins and the block does not end.
   [[nodiscard]] std::optional<OpenQuestion> open_question() const;
@@ -110,6 +113,9 @@ class Session {
   /// place of the block, drawn evenly from all that are left, so that nobody feels a stimulus
   /// right after half of it; at once where answers decide what comes next, or nothing is left.
   void put_off_attempt(const std::string& reason);
+  /// The same for an answer that did not come before the block's `answer_deadline_s`: it counts
+  /// as missed. `given`: what came too late, for the reason; "" where nothing came.
+  void miss_deadline(const std::string& given = "");
 
   /// Throws as `undo` would where there is nothing to be taken back.
   void require_undo() const;
@@ -117,7 +123,8 @@ class Session {
   void undo(const std::string& reason);
   /// Sets an earlier answer right, its presentations untouched; `value` as in `answer`, in
   /// production the intensity.
-  void correct(std::int64_t number, double value, const std::string& reason);
+  void correct(std::int64_t number, const std::optional<double>& value,
+               const std::string& reason);
   /// All answers of the current block are taken back; the order stays.
   void restart_block(const std::string& reason);
   void exclude(std::int64_t trial, const std::string& reason);
@@ -147,12 +154,16 @@ class Session {
   void commit(EventData data);
   void commit(EventData data, core::Commit rows);
   void draw_trials();
+  void put_off(AttemptDiscarded discarded);
+  void require_return(const TrialState& trial, const std::string& interval) const;
   [[nodiscard]] std::int64_t open_trial(const char* act) const;
-  [[nodiscard]] std::optional<bool> feedback(const PlannedTrial& trial, double response) const;
+  [[nodiscard]] std::optional<bool> feedback(const PlannedTrial& trial,
+                                             const std::optional<double>& response) const;
   [[nodiscard]] double intensity_of(const TrialState& trial, const std::string& interval) const;
-  [[nodiscard]] double response_for(double value) const;
+  [[nodiscard]] std::optional<double> response_for(const std::optional<double>& value) const;
   [[nodiscard]] double adjusted(Direction direction, StepSize size) const;
-  [[nodiscard]] core::TrialRow answered_row(std::int64_t number, double response) const;
+  [[nodiscard]] core::TrialRow answered_row(std::int64_t number,
+                                            const std::optional<double>& response) const;
 
   Parameters parameters_;
   EventLog& log_;

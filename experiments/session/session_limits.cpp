@@ -17,7 +17,7 @@ int num_answers_since_break(const std::vector<const Stage*>& stages,
   }
   int num_answers = 0;
   for (const TrialState& trial : state.trials) {
-    if (trial.stage >= begin && trial.response) ++num_answers;
+    if (trial.stage >= begin && trial.is_answered) ++num_answers;
   }
   return num_answers;
 }

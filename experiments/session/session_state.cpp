@@ -28,7 +28,7 @@ struct Fold {
   void operator()(const StageFinished& e) const {
     state.stage = e.stage + 1;
     state.stage_open = false;
-    state.feedback_right.reset();
+    state.forget_told();
   }
   void operator()(const TrialsDrawn& e) const {
     if (e.first_trial != static_cast<std::int64_t>(state.trials.size()) + 1) {
@@ -48,9 +48,8 @@ struct Fold {
     trial.presentations.clear();
     trial.set_intensity = trial.planned.starting_intensity.value_or(0.0);
     trial.num_steps = 0;
-    trial.response.reset();
-    trial.question_answers.clear();
-    state.feedback_right.reset();
+    trial.forget_answer();
+    state.forget_told();
     saw_tick(e.first_tick - 1);  // The first is still to come.
   }
   void operator()(const PresentationStarted& e) const {
@@ -79,6 +78,7 @@ struct Fold {
   void operator()(const TrialAnswered& e) const {
     TrialState& trial = of(e.trial);
     trial.under_way = false;
+    trial.is_answered = true;
     trial.response = e.response;
     trial.measures = e.measures;
     trial.answer_sequence = event.sequence;
@@ -88,30 +88,32 @@ struct Fold {
   }
   void operator()(const QuestionAnswered& e) const {
     TrialState& trial = of(e.trial);
-    if (!trial.response || trial.attempt != e.attempt)
+    if (!trial.is_answered || trial.attempt != e.attempt)
       damaged("a question of an answered trial");
     trial.question_answers[e.question] = e.answer;
   }
   void operator()(const AnswerUndone& e) const {
-    state.feedback_right.reset();
+    state.forget_told();
     TrialState& undone = of(e.trial);
-    undone.response.reset();
-    undone.question_answers.clear();
+    undone.forget_answer();
     undone.under_way = false;
     for (TrialState& trial : state.trials) {
-      if (trial.drawn_sequence > undone.drawn_sequence && !trial.response) trial.is_void = true;
+      if (trial.drawn_sequence > undone.drawn_sequence && !trial.is_answered)
+        trial.is_void = true;
     }
   }
   void operator()(const AnswerCorrected& e) const {
     TrialState& trial = of(e.trial);
     trial.response = e.response;
-    if (e.chosen_interval) trial.measures.chosen_interval = e.chosen_interval;
+    // Who cannot tell has chosen none.
+    if (e.chosen_interval || !e.response) trial.measures.chosen_interval = e.chosen_interval;
     trial.answer_sequence = event.sequence;
   }
   void operator()(const AttemptDiscarded& e) const {
     TrialState& trial = of(e.trial);
     trial.under_way = false;
-    trial.response.reset();
+    trial.forget_answer();
+    if (e.missed_deadline) state.missed_deadline = true;
     if (e.again_after == 0) return;
     (void)of(e.again_after);
     trial.again_after = e.again_after;
@@ -155,7 +157,7 @@ struct Fold {
 
 bool waits(const SessionState& state, std::int64_t number) {
   const TrialState& trial = state.trial(number);
-  return trial.stage == state.stage && !trial.response && !trial.is_void;
+  return trial.stage == state.stage && !trial.is_answered && !trial.is_void;
 }
 
 /// Put off behind a trial comes after it, and before the one that follows it by number.
@@ -194,7 +196,7 @@ std::optional<std::int64_t> SessionState::last_answered_trial() const {
   std::optional<std::int64_t> last;
   std::int64_t latest_sequence = 0;
   for (std::size_t index = 0; index < trials.size(); ++index) {
-    if (trials[index].response && trials[index].answer_sequence > latest_sequence) {
+    if (trials[index].is_answered && trials[index].answer_sequence > latest_sequence) {
       latest_sequence = trials[index].answer_sequence;
       last = static_cast<std::int64_t>(index) + 1;
     }
@@ -205,8 +207,8 @@ std::optional<std::int64_t> SessionState::last_answered_trial() const {
 std::vector<AnsweredTrial> SessionState::answered_in(std::int64_t of_stage) const {
   std::vector<AnsweredTrial> answered;
   for (const TrialState& trial : trials) {
-    if (trial.stage == of_stage && trial.response) {
-      answered.push_back({.planned = trial.planned, .response = *trial.response});
+    if (trial.stage == of_stage && trial.is_answered) {
+      answered.push_back({.planned = trial.planned, .response = trial.response});
     }
   }
   return answered;

@@ -33,12 +33,19 @@ struct TrialState {
   std::vector<PresentationState> presentations;  ///< Of this attempt.
   double set_intensity = 0.0;                    ///< Production: where the steps have come to.
   std::int64_t num_steps = 0;
-  std::optional<double> response;
+  bool is_answered = false;          ///< Also by "cannot tell".
+  std::optional<double> response;    ///< Of an answered trial; none: "cannot tell".
   std::int64_t answer_sequence = 0;  ///< Of the event that holds the answer.
   core::AnswerMeasures measures;     ///< Of it.
   /// To the questions that follow it, by their names; gone with it where it is taken back.
   std::map<std::string, std::string> question_answers;
   bool excluded = false;
+
+  void forget_answer() {
+    is_answered = false;
+    response.reset();
+    question_answers.clear();
+  }
 };
 
 /// What a session has come to: the fold of its events. Never changed by anything but `apply`.
@@ -56,12 +63,17 @@ struct SessionState {
   std::map<std::pair<std::int64_t, std::string>, std::string> answers;
   /// What was told of the last answer, until the next trial begins.
   std::optional<bool> feedback_right;
+  bool missed_deadline = false;  ///< The last answer did; until the next trial begins.
   std::vector<std::string> notes;
   core::Exposure exposure;  ///< As far as presentations tell of it.
   std::int64_t last_sequence = 0;
   std::int64_t last_time_ns = 0;
   std::int64_t last_tick = -1;  ///< The last tick that any event speaks of.
 
+  void forget_told() {
+    feedback_right.reset();
+    missed_deadline = false;
+  }
   [[nodiscard]] const TrialState& trial(std::int64_t number) const {
     return trials.at(number - 1);
   }

@@ -123,14 +123,19 @@ struct Block {
   std::vector<double> target_percent;  ///< Production: one repetition a target.
   int repetitions = 1;                 ///< Each shows every intensity once; 1 in production.
   StimulusOrder order;
-  double coarse_step = 0.0;             ///< Adjustment, unit of the quantity, > fine_step.
-  double fine_step = 0.0;               ///< Adjustment, > 0.
-  std::optional<double> max_intensity;  ///< Adjustment: no step goes beyond; none by default.
-  double free_space_between_s = 0.0;    ///< Free space before each trial, >= 0.
-  double expected_trial_s = 0.0;        ///< For planning the length of a session, > 0.
-  bool feedback = false;                ///< Right or wrong is told after each answer.
-  std::optional<Practice> practice;     ///< The block is practice, and no data.
-  Levels levels;                        ///< Of the study's factors; may be empty.
+  double coarse_step = 0.0;              ///< Adjustment, unit of the quantity, > fine_step.
+  double fine_step = 0.0;                ///< Adjustment, > 0.
+  std::optional<double> max_intensity;   ///< Adjustment: no step goes beyond; none by default.
+  double free_space_between_s = 0.0;     ///< Free space before each trial, >= 0.
+  double expected_trial_s = 0.0;         ///< For planning the length of a session, > 0.
+  double min_stimulus_s = 0.0;           ///< Nobody answers or goes on before, >= 0.
+  std::optional<double> max_stimulus_s;  ///< A stimulus ends by itself, >= `min_stimulus_s`.
+  std::optional<double> answer_deadline_s;  ///< An answer that comes later is missed, > 0.
+  std::optional<int> max_returns;           ///< To stimuli that were felt, in a trial, >= 0.
+  bool feedback = false;                    ///< Right or wrong is told after each answer.
+  bool cannot_tell = false;                 ///< "Cannot tell" is an answer, too.
+  std::optional<Practice> practice;         ///< The block is practice, and no data.
+  Levels levels;                            ///< Of the study's factors; may be empty.
   /// Asked after the answer to every trial, in this order, before the next one may begin.
   std::vector<QuestionnaireItem> questions;
   Settings settings;  ///< The procedure's own keys, all of them.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <optional>
+#include <utility>
 
 #include "app/gui/views/run_parts.h"
 #include "app/gui/views/typed_number.h"
@@ -68,6 +70,11 @@ bool is_typed(const RunViewState& state, std::string_view english, std::string_v
   return state.correct_value == english || state.correct_value == spoken;
 }
 
+/// An answer is set right to "cannot tell", where it can be that.
+bool is_cannot_tell(const RunViewState& state) {
+  return state.correct_takes_cannot_tell && is_typed(state, "cannot tell", tr("cannot tell"));
+}
+
 /// The new value of an answer that is set right; NaN while there is none.
 double corrected_value(const RunViewState& state) {
   if (state.correct_value.empty()) return std::nan("");
@@ -95,10 +102,13 @@ void request(const SessionView& view, const RunViewState& state, RunViewResult& 
     case Dialog::kUndo:
       result.requests.emplace_back(operate::Undo{state.reason});
       break;
-    case Dialog::kCorrect:
-      result.requests.emplace_back(
-          operate::Correct{state.correct_trial, corrected_value(state), state.reason});
+    case Dialog::kCorrect: {
+      operate::Correct correct{.trial = state.correct_trial, .reason = state.reason};
+      correct.value =
+          is_cannot_tell(state) ? std::nullopt : std::optional(corrected_value(state));
+      result.requests.emplace_back(std::move(correct));
       break;
+    }
     case Dialog::kNote:
       result.requests.emplace_back(operate::AddNote{state.reason});
       break;
@@ -136,12 +146,16 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
           words.explanation, soft);
   bool entered = false;
   if (corrects) {
-    const char* hint = state.correct_kind == AnswerKind::kYesNo      ? tr("yes or no")
-                       : state.correct_kind == AnswerKind::kInterval ? tr("first or second")
-                       : state.correct_kind == AnswerKind::kPercent  ? tr("percent")
-                       : state.correct_kind == AnswerKind::kNumber   ? tr("number")
-                       : state.correct_kind == AnswerKind::kStep     ? tr("step")
-                                                                     : tr("intensity");
+    const bool opens = state.correct_takes_cannot_tell;
+    const char* hint =
+        state.correct_kind == AnswerKind::kYesNo
+            ? (opens ? tr("yes, no or cannot tell") : tr("yes or no"))
+        : state.correct_kind == AnswerKind::kInterval
+            ? (opens ? tr("first, second or cannot tell") : tr("first or second"))
+        : state.correct_kind == AnswerKind::kPercent ? tr("percent")
+        : state.correct_kind == AnswerKind::kNumber  ? tr("number")
+        : state.correct_kind == AnswerKind::kStep    ? tr("step")
+                                                     : tr("intensity");
     entered |= ui.text_field("correct_value", inside.take_top(46, 10), state.correct_value,
                              hint, state.dialog_is_new);
     entered |= ui.text_field("reason", inside.take_top(46, 18), state.reason, words.hint);
@@ -149,8 +163,9 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
     entered = ui.text_field("reason", inside.take_top(46, 18), state.reason, words.hint,
                             state.dialog_is_new);
   }
-  const bool ready = (!words.needs_text || !state.reason.empty()) &&
-                     (!corrects || !std::isnan(corrected_value(state)));
+  const bool ready =
+      (!words.needs_text || !state.reason.empty()) &&
+      (!corrects || is_cannot_tell(state) || !std::isnan(corrected_value(state)));
   Rect row = inside.take_bottom(48);
   const ButtonStyle verb{.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = ready};
   const ButtonStyle cancel{.key = {Key::kF2}};

@@ -313,6 +313,7 @@ void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewSta
                                          : RunViewState::Dialog::kCorrect);
       state.correct_trial = answer.trial;
       state.correct_kind = answer.kind;
+      state.correct_takes_cannot_tell = answer.takes_cannot_tell;
       state.correct_value.clear();
     }
     line.x += 8;

@@ -32,6 +32,7 @@ struct RunViewState {
   std::uint8_t given_up_bits = 0;  ///< Points, of the dialog that goes on without them.
   std::int64_t correct_trial = 0;  ///< Of the dialog that corrects.
   experiments::AnswerKind correct_kind = experiments::AnswerKind::kPercent;
+  bool correct_takes_cannot_tell = false;  ///< The answer can be "cannot tell".
   std::string correct_value;
 
   std::string percent;                                  ///< Typed so far.

@@ -1,6 +1,8 @@
 // The card of a trial: which fluid, what to ask, the answers.
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "app/gui/hand_sign.h"
 #include "app/gui/views/run_parts.h"
@@ -75,13 +77,18 @@ std::string felt_before(const TrialView& trial, double felt_s) {
 std::string felt_words(const TrialView& trial) {
   std::string words;
   if (!trial.interval.empty()) {
-    words = tr("felt for {:.1f} s", trial.felt_s);
+    words = trial.stimulus_is_over ? tr("it ended after {:.1f} s", trial.felt_s)
+                                   : tr("felt for {:.1f} s", trial.felt_s);
+    if (trial.least_left_s > 0.0) words += " · " + tr("{:.1f} s to go", trial.least_left_s);
     if (trial.num_strokes > 0) {
       words += " · " + trn("{} stroke", "{} strokes", trial.num_strokes);
     }
     if (trial.interval != first_of(trial).name && trial.first_felt_s) {
       words += " · " + felt_before(trial, *trial.first_felt_s);
     }
+  }
+  if (trial.deadline_left_s) {
+    words += " · " + tr("{:.1f} s left to answer", std::max(0.0, *trial.deadline_left_s));
   }
   if (!trial.level.empty()) words += (words.empty() ? "" : " · ") + trial.level;
   return words;
@@ -149,10 +156,12 @@ class TrialCard {
   }
 
  private:
+  /// What is felt has been felt for as long as the study asks.
+  [[nodiscard]] bool may_go_on() const noexcept { return trial_.least_left_s <= 0.0; }
   void present(const char* interval) {
     result_.requests.emplace_back(operate::Present{trial_.trial, interval});
   }
-  void answer(double value) {
+  void answer(std::optional<double> value) {
     result_.requests.emplace_back(operate::Answer{trial_.trial, value});
   }
 
@@ -177,27 +186,40 @@ class TrialCard {
     const Interval& next = is_in_order ? interval_named(trial_.next_interval)
                            : to_first  ? first_of(trial_)
                                        : last_of(trial_);
-    draw_button_row(ui_, place,
-                    {{"present",
-                      tr(next.present),
-                      {.tone = Tone::kPrimary, .key = {Key::kSpace}, .large = true},
-                      [&] { present(next.name); }}},
-                    320);
+    draw_button_row(
+        ui_, place,
+        {{"present",
+          tr(next.present),
+          {.tone = Tone::kPrimary, .key = {Key::kSpace}, .enabled = may_go_on(), .large = true},
+          [&] { present(next.name); }}},
+        320);
     // As it is called everywhere else.
-    if (!to_first && ui_.pressed({next.key})) present(next.name);
+    if (!to_first && may_go_on() && ui_.pressed({next.key})) present(next.name);
   }
 
   void draw_yes_no(const Rect& place) {
-    draw_button_row(ui_, place,
-                    {{"answer_yes",
-                      trial_.yes_label,
-                      {.tone = Tone::kPrimary, .key = {letter('Y')}, .large = true},
-                      [&] { answer(1.0); }},
-                     {"answer_no",
-                      trial_.no_label,
-                      {.tone = Tone::kPrimary, .key = {letter('N')}, .large = true},
-                      [&] { answer(0.0); }}},
-                    std::min(250.0f, (place.width - 40) / 2));
+    draw_answers(
+        place,
+        {{"answer_yes",
+          trial_.yes_label,
+          {.tone = Tone::kPrimary, .key = {letter('Y')}, .enabled = may_go_on(), .large = true},
+          [&] { answer(1.0); }},
+         {"answer_no",
+          trial_.no_label,
+          {.tone = Tone::kPrimary, .key = {letter('N')}, .enabled = may_go_on(), .large = true},
+          [&] { answer(0.0); }}});
+  }
+
+  /// Of a choice; behind them "cannot tell", where that is an answer.
+  void draw_answers(const Rect& place, std::vector<RowButton> buttons) {
+    if (trial_.takes_cannot_tell) {
+      buttons.push_back({"answer_cannot_tell",
+                         tr("Cannot tell"),
+                         {.key = {letter('C')}, .enabled = may_go_on(), .large = true},
+                         [this] { answer(std::nullopt); }});
+    }
+    const auto count = static_cast<float>(buttons.size());
+    draw_button_row(ui_, place, buttons, std::min(250.0f, (place.width - 40) / count));
   }
 
   void draw_choice(const Rect& place) {
@@ -207,11 +229,13 @@ class TrialCard {
       const auto number = static_cast<char>('0' + choice.interval);
       buttons.push_back({kNames[choice.interval - 1],
                          choice.label.c_str(),
-                         {.tone = Tone::kPrimary, .key = {letter(number)}, .large = true},
+                         {.tone = Tone::kPrimary,
+                          .key = {letter(number)},
+                          .enabled = may_go_on(),
+                          .large = true},
                          [this, interval = choice.interval] { answer(interval); }});
     }
-    const auto count = static_cast<float>(buttons.size());
-    draw_button_row(ui_, place, buttons, std::min(250.0f, (place.width - 40) / count));
+    draw_answers(place, std::move(buttons));
   }
 
   void draw_number(const Rect& place) {
@@ -219,7 +243,7 @@ class TrialCard {
     Rect row = place.middle(std::min(520.0f, place.width - 32), place.height);
     const bool typed = !state_.percent.empty() && state_.percent != ".";
     const double number = std::strtod(state_.percent.c_str(), nullptr);
-    const bool is_answer = typed && (percent || number > 0.0);
+    const bool is_answer = typed && (percent || number > 0.0) && may_go_on();
     const Rect enter = row.take_right(200, 16);
     ui_.fill(row, Colour::kGround, 9);
     ui_.outline(row, typed ? Colour::kBlue : Colour::kLine, 9, typed ? 2 : 1);
@@ -243,7 +267,10 @@ class TrialCard {
 
   RowButton step_button(const char* name, const char* label, Key key, Direction direction,
                         StepSize size) {
-    return {name, label, {.key = {key}, .repeats = true}, [this, direction, size] {
+    return {name,
+            label,
+            {.key = {key}, .enabled = may_go_on(), .repeats = true},
+            [this, direction, size] {
               result_.requests.emplace_back(
                   operate::Adjust{trial_.trial, direction, size, ui_.was_held()});
             }};
@@ -251,10 +278,11 @@ class TrialCard {
 
   /// In one row with "Matches" in the middle; on a narrow card below it.
   void add_steps(Stack& stack) {
-    const RowButton matches{"matches",
-                            tr("Matches"),
-                            {.tone = Tone::kPrimary, .key = {Key::kEnter}, .large = true},
-                            [this] { answer(0.0); }};
+    const RowButton matches{
+        "matches",
+        tr("Matches"),
+        {.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = may_go_on(), .large = true},
+        [this] { answer(0.0); }};
     std::vector<RowButton> steps = {step_button("lower_coarse", tr("Lower"), Key::kLeft,
                                                 Direction::kLower, StepSize::kCoarse),
                                     step_button("lower_fine", tr("A bit lower"), Key::kDown,
@@ -283,10 +311,14 @@ class TrialCard {
     const Interval& first = first_of(trial_);
     const Interval& last = last_of(trial_);
     const auto add = [&](const Interval& interval) {
+      if (std::ranges::find(trial_.closed_intervals, interval.name) !=
+          trial_.closed_intervals.end()) {
+        return;
+      }
       const bool again = trial_.interval == interval.name || trial_.interval == first.name;
       buttons.push_back({interval.button,
                          again ? tr(interval.again) : tr(interval.back),
-                         {.key = {interval.key}},
+                         {.key = {interval.key}, .enabled = may_go_on()},
                          [this, &interval] { present(interval.name); }});
     };
     if (trial_.has_reference) add(first);
@@ -297,10 +329,10 @@ class TrialCard {
                   : !trial_.has_reference || trial_.interval != first.name || trial_.can_answer;
     if (offers_last) add(last);
     if (trial_.interval != "free_space") {
-      buttons.push_back(
-          {"present_free_space", tr("Free space"), {.key = {letter('F')}}, [this] {
-             present("free_space");
-           }});
+      buttons.push_back({"present_free_space",
+                         tr("Free space"),
+                         {.key = {letter('F')}, .enabled = may_go_on()},
+                         [this] { present("free_space"); }});
     }
     draw_button_row(ui_, place, buttons);
   }

@@ -347,6 +347,38 @@ TEST_F(ReportTest, MethodsTellHowTheOrderOfTheIntervalsCameAboutAndLeaveNoGap) {
   EXPECT_FALSE(has(html, "; ;"));
 }
 
+TEST_F(ReportTest, MethodsTellWhatBoundsATrialAndWhatBecomesOfAnswersWithoutAChoice) {
+  HandMadeStudy study(R"json({"name": "by_hand", "stages": [
+    {"kind": "block", "name": "thicker", "procedure": "constant_stimuli", "medium": "viscous",
+     "reference_viscosity_pa_s": 8, "cannot_tell": true, "answer_deadline_s": 6.5,
+     "min_stimulus_s": 2, "max_stimulus_s": 4, "max_returns": 1},
+    {"kind": "block", "name": "brief", "procedure": "constant_stimuli", "medium": "viscous",
+     "reference_viscosity_pa_s": 8, "min_stimulus_s": 3, "max_stimulus_s": 3,
+     "max_returns": 0}]})json");
+  (void)study.add("P01", false, kLaboratory);
+  study.compare_ten("thicker", 8);
+  study.compare_ten("brief", 8);
+  const StudyData data = load_study(study.store());
+  const StudyResults results = results_of(data, {}, {.num_resamples = 50});
+  const std::string html = without_breaks(whole_report({.store = study.store(),
+                                                        .data = data,
+                                                        .results = results,
+                                                        .results_options = {},
+                                                        .movement = {},
+                                                        .program_version = "1"},
+                                                       {}, {}));
+  EXPECT_TRUE(
+      has(html,
+          "; each stimulus was felt for 2 s at least; each stimulus ended after 4 s at "
+          "most; at most 1 return to stimuli in a trial; a trial without an answer 6.5 s "
+          "after the start of the stimulus with which all had been felt was run again; "
+          "“cannot tell” was an answer, too"));
+  EXPECT_TRUE(has(html, "; each stimulus was felt for 3 s; nobody went back to a stimulus"));
+  EXPECT_TRUE(has(html, "it is in no curve and in no rate"));
+  EXPECT_TRUE(has(html, "An answer that missed the deadline of its block is in no estimate"));
+  EXPECT_TRUE(has(html, "cannot_tell_ratio"));
+}
+
 TEST_F(ReportTest, ScalesWithoutABetterEndHaveATableOfTheirOwn) {
   HandMadeStudy study(R"json({"name": "by_hand", "stages": [
     {"kind": "questionnaire", "name": "form", "items": [

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "app/answering_study.h"
 #include "app/operator/simulated_study.h"
 #include "experiments/session/plan.h"
 #include "support/places.h"
@@ -307,6 +310,20 @@ TEST_F(StudyWatchTest, ProblemsComeAndGoWithTheFile) {
   save(kTinyStudy);
   EXPECT_TRUE(watch_.look(2.0));
   EXPECT_TRUE(watch_.outline().problems.empty());
+}
+
+TEST(StudyOutline, TellsWhatBoundsATrial) {
+  const StudyOutline outline =
+      outline_of(experiments::read_study_text(kAnsweringStudy, "study.json"));
+  const std::vector<std::string>& open = outline.stages.at(0).details;
+  for (const char* words :
+       {"\"cannot tell\" is an answer, too",
+        "an answer has 3 s, or it is missed and the trial comes again",
+        "a stimulus is felt for 1 s at least", "a stimulus is felt for 2 s at most"}) {
+    EXPECT_NE(std::ranges::find(open, words), open.end()) << words;
+  }
+  const std::vector<std::string>& stairs = outline.stages.at(1).details;
+  EXPECT_NE(std::ranges::find(stairs, "a trial allows 0 returns to a stimulus"), stairs.end());
 }
 
 }  // namespace study_outline_test

@@ -74,7 +74,7 @@ std::map<std::string, Both> answers_of(const std::string& study_name, int num_pa
     const Cell cell = cell_from_text(study, row.cells);
     for (const AnsweredBlock& block : simulator.answers(stages_of(study, cell), row.seed)) {
       for (const AnsweredTrial& trial : block.trials) {
-        both[block.stage->name].calculated.push_back({trial.planned, trial.response});
+        both[block.stage->name].calculated.push_back({trial.planned, *trial.response});
       }
       both[block.stage->name].calculated_s += block.felt_s;
     }

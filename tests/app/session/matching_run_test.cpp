@@ -73,7 +73,7 @@ TEST_F(MatchingRun, TheSamePersonsMatchAlikeWithAndWithoutADevice) {
       const AnsweredTrial& alone = calculated.front().trials[i];
       EXPECT_EQ(trials[i].reference_intensity, alone.planned.reference_intensity);
       EXPECT_EQ(trials[i].starting_intensity, alone.planned.starting_intensity);
-      EXPECT_NEAR(*trials[i].response, alone.response, 0.25 + 1e-9) << "at most a fine step";
+      EXPECT_NEAR(*trials[i].response, *alone.response, 0.25 + 1e-9) << "at most a fine step";
     }
   }
 }

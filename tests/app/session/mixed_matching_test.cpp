@@ -56,8 +56,8 @@ TEST(MatchingAFluidToASolid, IsAcceptedAndSetToWhatFeelsAsStrong) {
   for (const experiments::AnsweredTrial& trial : blocks.front().trials) {
     const double expected =
         expected_match(laboratory, trial.planned.reference_intensity.value());
-    EXPECT_NEAR(std::log(trial.response / expected), 0.0, 0.25)
-        << trial.response << " for " << *trial.planned.reference_intensity;
+    EXPECT_NEAR(std::log(*trial.response / expected), 0.0, 0.25)
+        << *trial.response << " for " << *trial.planned.reference_intensity;
   }
 }
 

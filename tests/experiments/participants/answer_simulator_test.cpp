@@ -52,7 +52,7 @@ TEST(AnswerSimulator, IsAFunctionOfTheSeedAlone) {
   const auto responses = [&](const AnswerSimulator& by, std::uint64_t seed) {
     std::vector<double> all;
     for (const AnsweredBlock& block : by.answers(stages, seed)) {
-      for (const AnsweredTrial& trial : block.trials) all.push_back(trial.response);
+      for (const AnsweredTrial& trial : block.trials) all.push_back(*trial.response);
     }
     return all;
   };
@@ -96,7 +96,7 @@ TEST(AnswerSimulator, PeopleSayThickerOneWeberFractionAboveTheReferenceAsOftenAs
   const AnswerSimulator simulator(here, plain);
   for (const AnsweredBlock& block : simulator.answers(stages, 1)) {
     double yes = 0.0;
-    for (const AnsweredTrial& trial : block.trials) yes += trial.response;
+    for (const AnsweredTrial& trial : block.trials) yes += *trial.response;
     EXPECT_NEAR(yes / 20000.0, 0.8413, 4.0 * std::sqrt(0.8413 * 0.1587 / 20000.0))
         << block.stage->name;
   }
@@ -114,11 +114,11 @@ TEST(AnswerSimulator, ProductionsLieOnTheStepsAndApproachTheTarget) {
       if (content.procedure != "magnitude_production") continue;
       for (const AnsweredTrial& trial : block.trials) {
         const double steps =
-            (trial.response - *trial.planned.starting_intensity) / content.fine_step;
+            (*trial.response - *trial.planned.starting_intensity) / content.fine_step;
         if (trial.response > 0.0) {
           EXPECT_NEAR(steps, std::round(steps), 1e-9);
         }
-        sums[*trial.planned.target_percent] += trial.response;
+        sums[*trial.planned.target_percent] += *trial.response;
       }
     }
   }

@@ -39,7 +39,7 @@ TEST(SimulatedMatching, AQuietPersonMatchesWhatFeelsAlike) {
   const Laboratory quiet = without_noise(thesis_laboratory());
   for (const AnsweredTrial& trial :
        answers(matching_study("viscous_stokes", {8.0}), quiet, 1)) {
-    EXPECT_NEAR(trial.response, 8.0 * 1.2322 / 1.7760, 0.4)
+    EXPECT_NEAR(*trial.response, 8.0 * 1.2322 / 1.7760, 0.4)
         << "from " << *trial.planned.starting_intensity;
   }
 }
@@ -47,7 +47,7 @@ TEST(SimulatedMatching, AQuietPersonMatchesWhatFeelsAlike) {
 TEST(SimulatedMatching, WithinAMediumAQuietPersonFindsTheStandard) {
   const Laboratory quiet = without_noise(thesis_laboratory());
   for (const AnsweredTrial& trial : answers(matching_study("viscous", {4.0, 12.0}), quiet, 1)) {
-    EXPECT_NEAR(std::log(trial.response / *trial.planned.reference_intensity), 0.0, 0.1);
+    EXPECT_NEAR(std::log(*trial.response / *trial.planned.reference_intensity), 0.0, 0.1);
   }
 }
 
@@ -66,7 +66,7 @@ TEST(SimulatedMatching, TheConstantErrorIsThePersonsCriterion) {
     const auto trials = answers(study, there, seed);
     for (const AnsweredTrial& trial : trials) {
       const double match_ln =
-          std::log(felt(trial.response) / felt(*trial.planned.reference_intensity));
+          std::log(felt(*trial.response) / felt(*trial.planned.reference_intensity));
       own += match_ln / static_cast<double>(trials.size());
       sum_of_errors += match_ln - criterion;
       ++num_trials;
@@ -89,7 +89,7 @@ TEST(SimulatedMatching, APersonWhoIsLessSureScattersMore) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       for (const AnsweredTrial& trial :
            answers(matching_study("viscous", {8.0}), there, seed)) {
-        squares += std::pow(std::log(trial.response / 8.0), 2);
+        squares += std::pow(std::log(*trial.response / 8.0), 2);
         ++num;
       }
     }
@@ -108,7 +108,7 @@ TEST(SimulatedMatching, GoingBackToTheStandardMakesMatchesBetter) {
     for (std::uint64_t seed = 1; seed <= 30; ++seed) {
       for (const AnsweredTrial& trial :
            answers(matching_study("viscous", {8.0}), there, seed)) {
-        sum += std::pow(std::log(trial.response / 8.0), 2);
+        sum += std::pow(std::log(*trial.response / 8.0), 2);
       }
     }
     return sum;

@@ -51,7 +51,7 @@ double exponent_of(const std::vector<AnsweredTrial>& trials) {
   double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   const auto n = static_cast<double>(trials.size());
   for (const AnsweredTrial& trial : trials) {
-    const double at = std::log(*trial.planned.intensity), said = std::log(trial.response);
+    const double at = std::log(*trial.planned.intensity), said = std::log(*trial.response);
     x += at / n;
     y += said / n;
     xx += at * at / n;
@@ -71,8 +71,8 @@ TEST(SimulatedModulus, FreeNumbersKeepTheExponentWhateverTheirSize) {
   for (std::uint64_t seed = 1; seed <= kPeople; ++seed) {
     const auto trials = answers(study, there, seed);
     sum += exponent_of(trials);
-    smallest = std::min(smallest, trials.front().response);
-    largest = std::max(largest, trials.front().response);
+    smallest = std::min(smallest, *trials.front().response);
+    largest = std::max(largest, *trials.front().response);
   }
   // A reading of the total damping is off by 0.1, of the fluid's own by up to twice that.
   EXPECT_NEAR(sum / kPeople, 0.8, 0.05);
@@ -85,7 +85,7 @@ TEST(SimulatedModulus, APersonsNumbersAreTheirModulusTimesTheRatioToWater) {
   const auto percent = answers(estimation("water_is_100"), quiet, 1);
   const double own = draw_person(quiet, 1).free_modulus;
   for (std::size_t i = 0; i < free.size(); ++i) {
-    EXPECT_NEAR(std::log(free[i].response / (own * percent[i].response / 100.0)), 0.0, 0.06)
+    EXPECT_NEAR(std::log(*free[i].response / (own * *percent[i].response / 100.0)), 0.0, 0.06)
         << "but for round numbers";
   }
 }
@@ -94,7 +94,7 @@ TEST(SimulatedModulus, TheStandardItselfGetsItsNumber) {
   const Laboratory quiet = without_noise(laboratory());
   for (const AnsweredTrial& trial : answers(estimation("standard"), quiet, 1)) {
     if (*trial.planned.intensity == 6.0) {
-      EXPECT_DOUBLE_EQ(trial.response, 10.0);
+      EXPECT_DOUBLE_EQ(*trial.response, 10.0);
     }
     if (*trial.planned.intensity == 12.0) {
       EXPECT_GT(trial.response, 15.0);
@@ -108,7 +108,7 @@ TEST(SimulatedModulus, AStandardThatWasFeltBeforeIsRemembered) {
   std::get<Block>(study.stages.front().content).settings.set("standard_every_trials", 12.0);
   for (const AnsweredTrial& trial : answers(study, quiet, 1)) {
     if (*trial.planned.intensity == 6.0) {
-      EXPECT_DOUBLE_EQ(trial.response, 10.0);
+      EXPECT_DOUBLE_EQ(*trial.response, 10.0);
     }
   }
 }

@@ -36,7 +36,7 @@ TEST(SimulatedStiffness, IsToldApartByItsOwnWeberFraction) {
                                 .reference_intensity = 400.0,
                                 .repetitions = 20000});
   double yes = 0.0;
-  for (const AnsweredTrial& trial : answers(study, plain)) yes += trial.response;
+  for (const AnsweredTrial& trial : answers(study, plain)) yes += *trial.response;
   EXPECT_NEAR(yes / 20000.0, 0.8413, 4.0 * std::sqrt(0.8413 * 0.1587 / 20000.0));
   EXPECT_NEAR(median_weber_fraction(plain, std::get<Block>(study.stages.front().content)), 0.23,
               1e-12);
@@ -63,7 +63,7 @@ TEST(SimulatedStiffness, AQuietPersonMatchesTheStandard) {
                                 .coarse_step = 100.0,
                                 .fine_step = 10.0});
   for (const AnsweredTrial& trial : answers(study, without_noise(thesis_laboratory()))) {
-    EXPECT_NEAR(trial.response, 400.0, 20.0);
+    EXPECT_NEAR(*trial.response, 400.0, 20.0);
   }
 }
 

@@ -65,7 +65,7 @@ Share share_of_ones(const std::vector<AnsweredTrial>& trials, Counts counts) {
   double ones = 0.0, all = 0.0;
   for (const AnsweredTrial& trial : trials) {
     if (!counts(trial.planned)) continue;
-    ones += trial.response;
+    ones += *trial.response;
     all += 1.0;
   }
   return {ones / all, 4.0 * std::sqrt(0.25 / all)};
@@ -206,6 +206,127 @@ TEST(PracticeAnswers, EndWhereTheCriterionIsMet) {
   const std::vector<AnsweredTrial> trials = answers(study, laboratory);
   EXPECT_GE(trials.size(), 10U);
   EXPECT_LT(trials.size(), 20U) << "these are easy";
+}
+
+/// Shares of "cannot tell" in a block of many trials whose test equals the reference.
+double share_open(Study& study, const Laboratory& laboratory) {
+  double open = 0.0, all = 0.0;
+  for (const AnsweredTrial& trial : answers(study, laboratory)) {
+    open += trial.response ? 0.0 : 1.0;
+    all += 1.0;
+  }
+  return open / all;
+}
+
+TEST(CannotTellAnswers, AreAsOftenAsTheNoiseIsWithinTheCertaintyThatPeopleAskFor) {
+  // Of two that are equal the difference over its noise is normal, and certainty is 2 Phi(|z|)
+  // - 1, whose distribution is even from 0 to 1.
+  Laboratory laboratory = plain_laboratory();
+  Study study =
+      many_trials(R"json("task": "two_interval", "cannot_tell": true)json", laboratory);
+  std::get<Block>(study.stages.front().content).intensities = {kReference};
+  for (const double certainty : {0.0, 0.2, 0.5}) {
+    laboratory.perceiver.cannot_tell_certainty = certainty;
+    EXPECT_NEAR(share_open(study, laboratory), certainty,
+                4.0 * std::sqrt(certainty * (1.0 - certainty) / 10000.0));
+  }
+}
+
+TEST(CannotTellAnswers, WhoLapsesCannotTell) {
+  Laboratory laboratory = plain_laboratory();
+  laboratory.perceiver.lapse_rate = 0.1;
+  Study study = many_trials(R"json("cannot_tell": true)json", laboratory);
+  auto& block = std::get<Block>(study.stages.front().content);
+  block.intensities = {40.0 * kReference};  // Nobody is in doubt.
+  EXPECT_NEAR(share_open(study, laboratory), 0.2, 0.016) << "twice the rate of errors";
+}
+
+TEST(CannotTellAnswers, LeaveTheOthersAsTheyAreWithoutThem) {
+  for (const char* task : {"reminder", "yes_no", "two_interval", "same_different",
+                           "three_interval", "oddity", "abx", "match_to_sample"}) {
+    const Laboratory laboratory = thesis_laboratory();
+    const std::string name = task;
+    const bool is_above = name == "three_interval";
+    const std::string keys =
+        R"json("procedure": "constant_stimuli", "repetitions": 40, "task": ")json" + name +
+        (is_above ? R"json(", "viscosity_pa_s": [9, 10, 12])json"
+                  : R"json(", "viscosity_pa_s": [6, 7, 9, 12])json") +
+        (name == "yes_no" ? "" : R"json(, "reference_viscosity_pa_s": 8)json");
+    Study plain = study_with(keys);
+    Study open = plain;
+    std::get<Block>(open.stages.front().content).cannot_tell = true;
+    const auto forced = answers(plain, laboratory);
+    const auto told = answers(open, laboratory);
+    ASSERT_EQ(told.size(), forced.size()) << task;
+    int num_open = 0;
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      num_open += told[i].response ? 0 : 1;
+      if (!told[i].response) continue;
+      EXPECT_EQ(told[i].response, forced[i].response) << task << i;
+    }
+    EXPECT_GT(num_open, 0) << task;
+  }
+}
+
+AnsweredBlock timed(Study& study, const Laboratory& laboratory) {
+  return AnswerSimulator(study, laboratory)
+      .answers({{.stage = &study.stages.front()}}, 2)
+      .front();
+}
+
+TEST(TimedAnswers, FeelEachStimulusAsLongAsTheBlockSays) {
+  const Laboratory laboratory = plain_laboratory();  // Who looks once at each.
+  Study study = study_with(R"json("procedure": "constant_stimuli", "viscosity_pa_s": [7, 9],
+      "reference_viscosity_pa_s": 8, "repetitions": 10)json");
+  auto& block = std::get<Block>(study.stages.front().content);
+  const double usual_s = timed(study, laboratory).felt_s / 40.0;
+  ASSERT_GT(usual_s, 1.0);
+  ASSERT_LT(usual_s, 20.0);
+  block.max_stimulus_s = 0.5;
+  EXPECT_NEAR(timed(study, laboratory).felt_s, 40 * 0.5, 1e-9);
+  block.max_stimulus_s = block.min_stimulus_s = 20.0;
+  EXPECT_NEAR(timed(study, laboratory).felt_s, 40 * 20.0, 1e-9);
+}
+
+TEST(TimedAnswers, AMissedDeadlineTakesItsTimeAndTheTrialIsAnsweredOnce) {
+  Laboratory laboratory = plain_laboratory();
+  laboratory.perceiver.look_again_probability = 0.5;
+  Study study = study_with(R"json("procedure": "constant_stimuli", "viscosity_pa_s": [7, 9],
+      "reference_viscosity_pa_s": 8, "repetitions": 50)json");
+  auto& block = std::get<Block>(study.stages.front().content);
+  block.min_stimulus_s = 20.0;
+  block.answer_deadline_s = 21.0;  // Whoever looks again is late.
+  const AnsweredBlock answered = timed(study, laboratory);
+  EXPECT_EQ(answered.trials.size(), 100U);
+  const double missed = (answered.felt_s - 100.0 * 40.0) / 41.0;
+  EXPECT_NEAR(missed, std::round(missed), 1e-9) << "20 s of the reference, 21 s until then";
+  EXPECT_NEAR(missed, 50.0, 4.0 * 5.0) << "half of them look again, and hurry thereafter";
+  block.max_returns = 1;
+  EXPECT_NEAR(timed(study, laboratory).felt_s, 100.0 * 40.0, 1e-6)
+      << "a second look takes two returns";
+}
+
+TEST(TimedAnswers, WhoMissedADeadlineHurriesWhenTheTrialComesAgain) {
+  const Laboratory laboratory = plain_laboratory();
+  Study study = study_with(R"json("procedure": "constant_stimuli", "viscosity_pa_s": [7, 9],
+      "reference_viscosity_pa_s": 8, "repetitions": 5, "answer_deadline_s": 0.5)json");
+  auto& block = std::get<Block>(study.stages.front().content);
+  block.min_stimulus_s = block.max_stimulus_s.emplace(2.0);  // Nobody can be in time.
+  const AnsweredBlock answered = timed(study, laboratory);
+  EXPECT_EQ(answered.trials.size(), 10U);
+  EXPECT_NEAR(answered.felt_s, 10 * 2 * 2.5, 1e-9) << "each twice";
+}
+
+TEST(TimedAnswers, WhoHurriesStepsAsOftenAsThereIsTime) {
+  const Laboratory laboratory = plain_laboratory();
+  Study study = study_with(R"json("procedure": "magnitude_production", "viscosity_pa_s": [50],
+      "target_percent": [1], "coarse_step_viscosity_pa_s": 1, "fine_step_viscosity_pa_s": 0.5,
+      "answer_deadline_s": 7)json");
+  auto& block = std::get<Block>(study.stages.front().content);
+  block.min_stimulus_s = block.max_stimulus_s.emplace(2.0);
+  const AnsweredBlock answered = timed(study, laboratory);
+  EXPECT_EQ(answered.trials.front().response, 48.0) << "two steps, three looks";
+  EXPECT_NEAR(answered.felt_s, 7.0 + 6.0, 1e-9);
 }
 
 }  // namespace task_answers_test

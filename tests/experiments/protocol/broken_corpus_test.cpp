@@ -114,8 +114,8 @@ TEST(BrokenCorpus, HoldsEveryMessageThatTheReaderCanGive) {
   int num_messages = 0;
   for (const char* name :
        {"structure_check", "study_rules", "session_rules", "label_rules", "task_rules",
-        "order_rules", "participant_field_rules", "session_limit_rules", "standard_rules",
-        "design_rules", "sequential_rules", "located_json", "study_reader"}) {
+        "timing_rules", "order_rules", "participant_field_rules", "session_limit_rules",
+        "standard_rules", "design_rules", "sequential_rules", "located_json", "study_reader"}) {
     const std::string code =
         read_file(source("experiments/protocol/" + std::string(name) + ".cpp"));
     ASSERT_NE(code, "") << name;

@@ -74,7 +74,7 @@ TEST_F(AdaptiveSessionTest, AnotherAnswerAfterAnUndoDrawsAnotherTrial) {
   const double before = level(s);
   const auto answered = s.state().answered_in(0);
   const double undone = *answered.back().planned.intensity;
-  const double response = answered.back().response;
+  const double response = *answered.back().response;
   s.undo("wrong key");
   EXPECT_EQ(level(s), undone) << "the trial itself is run again";
   EXPECT_TRUE(s.state().trials.back().is_void);

@@ -33,7 +33,7 @@ TEST(SessionLimits, AnswersCountSinceTheLastBreakThatIsOver) {
   SessionState state;
   const auto answered = [](std::int64_t stage, bool is_answered) {
     TrialState trial{.stage = stage};
-    if (is_answered) trial.response = 1.0;
+    if (is_answered) trial.is_answered = true;
     return trial;
   };
   state.trials = {answered(0, true), answered(0, true), answered(2, true), answered(3, true),

@@ -257,6 +257,85 @@ TEST_F(RunView, AWrongIntervalIsSetRightByItsName) {
   EXPECT_EQ(only<operate::Correct>(draw(view)).value, 2.0);
 }
 
+TEST_F(RunView, CannotTellIsAnAnswerWithAKeyWhereTheStudyHasIt) {
+  for (SessionView view : {comparison(), two_intervals(), three_intervals()}) {
+    view.trial->can_answer = true;
+    view.trial->next_interval = "";
+    draw(view);
+    EXPECT_EQ(ui_.drawn().find("answer_cannot_tell"), nullptr);
+    view.trial->takes_cannot_tell = true;
+    const auto answer = after_key<operate::Answer>(view, {letter('C')});
+    EXPECT_EQ(answer.value, std::nullopt);
+    EXPECT_EQ(answer.trial, 23);
+    EXPECT_EQ(after_click<operate::Answer>(view, "answer_cannot_tell").value, std::nullopt);
+    ASSERT_NE(ui_.drawn().find("answer_cannot_tell"), nullptr);
+    EXPECT_EQ(ui_.drawn().find("answer_cannot_tell")->label, "Cannot tell");
+  }
+}
+
+TEST_F(RunView, AnAnswerIsSetRightToCannotTellWhereThatIsOne) {
+  SessionView view = comparison();
+  AnswerLine line;
+  line.trial = 20;
+  line.kind = AnswerKind::kYesNo;
+  line.takes_cannot_tell = true;
+  view.answers = {line};
+  draw(view);
+  ui_.click("answer_20");
+  draw(view);
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("yes, no or cannot tell"));
+  ui_.type("cannot tell");
+  draw(view);
+  state_.reason = "misheard";
+  ui_.press({Key::kEnter});
+  EXPECT_EQ(only<operate::Correct>(draw(view)).value, std::nullopt);
+}
+
+TEST_F(RunView, NothingGoesOnBeforeAStimulusWasFeltForItsLeastTime) {
+  SessionView view = two_intervals();
+  view.trial->takes_cannot_tell = true;
+  view.trial->least_left_s = 0.8;
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("0.8 s to go"));
+  for (const char* name : {"answer_first", "answer_second", "answer_cannot_tell",
+                           "present_first", "present_second", "present_free_space"}) {
+    ASSERT_NE(ui_.drawn().find(name), nullptr) << name;
+    EXPECT_FALSE(ui_.drawn().find(name)->enabled) << name;
+  }
+  ui_.press({letter('1')});
+  EXPECT_TRUE(draw(view).empty());
+  ui_.press({Key::kLeft});
+  EXPECT_TRUE(draw(view).empty());
+  view.trial->least_left_s = 0.0;
+  EXPECT_EQ(after_key<operate::Answer>(view, {letter('1')}).value, 1.0);
+}
+
+TEST_F(RunView, WhatNobodyMayGoBackToHasNoButton) {
+  SessionView view = two_intervals();
+  view.trial->closed_intervals = {"first", "second"};
+  draw(view);
+  EXPECT_EQ(ui_.drawn().find("present_first"), nullptr);
+  EXPECT_EQ(ui_.drawn().find("present_second"), nullptr);
+  EXPECT_NE(ui_.drawn().find("present_free_space"), nullptr) << "it is no stimulus";
+  EXPECT_NE(ui_.drawn().find("answer_first"), nullptr);
+}
+
+TEST_F(RunView, AStimulusThatEndedIsToldWithTheTimeThatIsLeftToAnswer) {
+  SessionView view = comparison();
+  view.trial->interval = "free_space";
+  view.trial->stimulus_is_over = true;
+  view.trial->felt_s = 2.0;
+  view.trial->deadline_left_s = 1.26;
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("it ended after 2.0 s"));
+  EXPECT_TRUE(ui_.drawn().shows("1.3 s left to answer"));
+  EXPECT_EQ(after_key<operate::Answer>(view, {letter('Y')}).value, 1.0);
+  view.trial->deadline_left_s = -0.001;
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("0.0 s left to answer"));
+}
+
 TEST_F(RunView, TheAnswersAreNotThereBeforeTheTestWasFelt) {
   SessionView view = comparison();
   view.trial->can_answer = false;
