@@ -160,8 +160,8 @@ TEST_F(BidsExportTest, MotionHasARowATickAndAChannelAColumn) {
 
 TEST_F(BidsExportTest, AtAFifthOfTheRateMotionHasARowEveryFiveTicksOfTheChosenChannels) {
   record();
-  (void)write({.selection = {.channels = {"position_m"}, .rate_hz = 200.0},
-               .recordings = true});
+  (void)write(
+      {.selection = {.channels = {"position_m"}, .rate_hz = 200.0}, .recordings = true});
   const auto rows = cells(out(std::string(kMotion) + "_motion.tsv"));
   const nlohmann::json sidecar = json(out(std::string(kMotion) + "_motion.json"));
   ASSERT_EQ(rows.size(), 2U) << "ticks 100 to 109";
