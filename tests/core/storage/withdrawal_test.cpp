@@ -106,8 +106,10 @@ TEST_F(WithdrawalTest, NeitherItsNumberIsGivenAgainNorRowsCanBeDeletedAfterwards
 TEST_F(WithdrawalTest, EmptiesEveryTableThatHoldsSessionsButThoseThatAreKept) {
   const std::set<std::string> emptied = {"question_answer", "answer", "presentation", "trial",
                                          "design",          "event",  "session"};
-  // Tombstones, what an ethics committee is owed, and which exports the session is in.
-  const std::set<std::string> kept = {"withdrawal", "adverse_event", "export_session"};
+  // Tombstones, what an ethics committee is owed, which exports the session is in, and which
+  // numbers of sessions a planned look counted: no more than the tombstone tells.
+  const std::set<std::string> kept = {"withdrawal", "adverse_event", "export_session",
+                                      "sequential_look_session"};
   Database database(kept_.folder() / "study.sqlite", Database::Mode::kReadOnly,
                     Durability::kAtClose);
   Statement tables(database,
