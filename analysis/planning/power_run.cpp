@@ -432,8 +432,9 @@ PlannedRun analyse_run(const PlannedAnalysis& analysis,
   PlannedRun run;
   for (const int size : analysis.sizes) {
     run.sizes.push_back(SizeAnalysis(analysis, people, numbers, size).result());
-    for (PlannedTest& test : contrast_tests(analysis, scores, static_cast<std::size_t>(size))) {
-      run.sizes.back().tests.push_back(std::move(test));
+    for (const PlannedTest& test :
+         contrast_tests(analysis, scores, static_cast<std::size_t>(size))) {
+      run.sizes.back().tests.push_back(test);
     }
   }
   for (std::size_t at = 0; analysis.sequential && at < analysis.contrasts.size(); ++at) {

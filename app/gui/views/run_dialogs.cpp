@@ -72,7 +72,8 @@ bool is_typed(const RunViewState& state, std::string_view english, std::string_v
 
 /// An answer is set right to "cannot tell", where it can be that.
 bool is_cannot_tell(const RunViewState& state) {
-  return state.correct_takes_cannot_tell && is_typed(state, "cannot tell", tr("cannot tell"));
+  return state.correct_takes_cannot_tell &&
+         is_typed(state, as_is("cannot tell"), tr("cannot tell"));
 }
 
 /// The new value of an answer that is set right; NaN while there is none.
