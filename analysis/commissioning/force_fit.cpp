@@ -2,13 +2,13 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
 
+#include "analysis/statistics/distributions.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -203,8 +203,7 @@ Opposing opposing_of(const std::vector<GuidedWay>& ways, double mass_per_gain_kg
   if (more <= 0.0 || !(squares > 0.0)) return opposing;
   const double ratio = (common->squares - squares) / more / (squares / degrees_of_freedom);
   constexpr double kSure = 0.999;
-  opposing.is_alike =
-      ratio < boost::math::quantile(boost::math::fisher_f(more, degrees_of_freedom), kSure);
+  opposing.is_alike = ratio < fisher_f_quantile(kSure, more, degrees_of_freedom);
   if (!opposing.is_alike) {
     opposing.damping = measured_at(single.front(), 1);
     opposing.friction = measured_at(single.front(), 2);

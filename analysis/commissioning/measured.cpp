@@ -1,11 +1,11 @@
 #include "analysis/commissioning/measured.h"
 
-#include <boost/math/distributions/students_t.hpp>
+#include "analysis/statistics/distributions.h"
 
 namespace jnd::analysis {
 
 double student_t975(double degrees_of_freedom) {
-  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
+  return student_t_quantile(0.975, degrees_of_freedom);
 }
 
 Measured measured(double value, double standard_error, double degrees_of_freedom) {

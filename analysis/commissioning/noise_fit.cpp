@@ -1,10 +1,10 @@
 #include "analysis/commissioning/noise_fit.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <string>
 
+#include "analysis/statistics/distributions.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -21,10 +21,9 @@ Measured deviation_of(const std::vector<Eigen::Vector3d>& readings) {
   double squares = 0.0;
   for (const Eigen::Vector3d& reading : readings) squares += (reading - mean).squaredNorm();
   const double degrees_of_freedom = 3.0 * (static_cast<double>(readings.size()) - 1.0);
-  const boost::math::chi_squared chi_squared(degrees_of_freedom);
   return {.value = std::sqrt(squares / degrees_of_freedom),
-          .ci95_low = std::sqrt(squares / boost::math::quantile(chi_squared, 0.975)),
-          .ci95_high = std::sqrt(squares / boost::math::quantile(chi_squared, 0.025))};
+          .ci95_low = std::sqrt(squares / chi_squared_quantile(0.975, degrees_of_freedom)),
+          .ci95_high = std::sqrt(squares / chi_squared_quantile(0.025, degrees_of_freedom))};
 }
 
 double least_step_m(const std::vector<Eigen::Vector3d>& position_m) {

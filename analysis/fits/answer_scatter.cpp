@@ -1,11 +1,11 @@
 #include "analysis/fits/answer_scatter.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/gamma.hpp>
 #include <cmath>
 #include <map>
 #include <utility>
+
+#include "analysis/statistics/distributions.h"
 
 namespace jnd::analysis {
 namespace {
@@ -116,8 +116,7 @@ RowScatter& RowScatter::operator+=(const RowScatter& other) noexcept {
 
 std::optional<double> RowScatter::p_value() const {
   if (degrees_of_freedom < 1) return std::nullopt;
-  const boost::math::chi_squared chance(degrees_of_freedom);
-  return boost::math::cdf(boost::math::complement(chance, statistic));
+  return chi_squared_above(statistic, degrees_of_freedom);
 }
 
 bool RowScatter::is_significant() const {
@@ -174,8 +173,7 @@ std::optional<double> misfit_p_value(const std::vector<FittedAnswers>& answers,
   const double left = expected.mean - num_fitted;
   if (!(left > 0.0)) return std::nullopt;
   const double scale = expected.variance / expected.mean;
-  const boost::math::gamma_distribution<double> chance(left / scale, scale);
-  return boost::math::cdf(boost::math::complement(chance, deviance));
+  return gamma_above(deviance, left / scale, scale);
 }
 
 }  // namespace jnd::analysis

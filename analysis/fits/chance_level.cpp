@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <map>
 
+#include "analysis/statistics/distributions.h"
 #include "core/psychometric_function.h"
 
 namespace jnd::analysis {
@@ -147,8 +147,7 @@ std::array<double, 4> best_log_likelihoods(const std::vector<Level>& levels) {
 bool above_half(double yes, double trials) {
   constexpr double kLevel = 0.1;
   if (yes <= 0.5 * trials) return false;
-  const boost::math::binomial half(trials, 0.5);
-  return boost::math::cdf(boost::math::complement(half, yes - 1.0)) <= kLevel;
+  return fair_trials_at_least(yes, trials) <= kLevel;
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "analysis/fits/curve_comparison.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include "analysis/fits/curve_contrast.h"
+#include "analysis/statistics/distributions.h"
 #include "core/require.h"
 
 namespace jnd::analysis {
@@ -25,8 +25,7 @@ double rate_angle(double rate, double limit) {
 }
 
 double chi_squared_p(double statistic, int degrees_of_freedom) {
-  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(degrees_of_freedom),
-                                                  std::max(0.0, statistic)));
+  return chi_squared_above(std::max(0.0, statistic), degrees_of_freedom);
 }
 
 std::string name_of(const Shared& shared, bool has_rates) {

@@ -1,10 +1,10 @@
 #include "analysis/fits/curve_contrast.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include "analysis/fits/bootstrap_ends.h"
+#include "analysis/statistics/distributions.h"
 #include "analysis/statistics/multiplicity.h"
 
 namespace jnd::analysis {
@@ -118,7 +118,7 @@ class ThresholdPair {
     const LikelihoodOptimum best = likelihood_optimum(equal, starts);
     if (!best.converged) return std::nullopt;
     const double statistic = std::max(0.0, 2.0 * (best.cost - least_cost()));
-    return boost::math::cdf(boost::math::complement(boost::math::chi_squared(1.0), statistic));
+    return chi_squared_above(statistic, 1.0);
   }
 
  private:

@@ -1,7 +1,6 @@
 #include "analysis/fits/curve_fit.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -14,6 +13,7 @@
 #include "analysis/fits/psychometric_redraw.h"
 #include "analysis/fits/psychometric_refit.h"
 #include "analysis/fits/psychometric_warnings.h"
+#include "analysis/statistics/distributions.h"
 #include "core/random_stream.h"
 #include "core/require.h"
 
@@ -256,8 +256,7 @@ std::optional<double> misfit_of(const CurveFit& fit, const PsychometricLevels& l
   if (!are_many) return misfit_p_value(binned(levels, kMostLevelsOfMany), free, curve);
   const int degrees_of_freedom = fit.num_levels - fit.model.num_parameters();
   if (degrees_of_freedom < 1 || !fit.deviance) return std::nullopt;
-  return boost::math::cdf(
-      boost::math::complement(boost::math::chi_squared(degrees_of_freedom), *fit.deviance));
+  return chi_squared_above(*fit.deviance, degrees_of_freedom);
 }
 
 std::string shown(double value) {

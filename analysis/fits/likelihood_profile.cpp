@@ -2,11 +2,12 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
+
+#include "analysis/statistics/root_finding.h"
 
 namespace jnd::analysis {
 namespace {
@@ -129,9 +130,8 @@ std::optional<double> crossing(const std::function<double(double)>& excess, doub
     const double excess_outside = excess(outside);
     if (excess_outside >= 0.0) {
       const auto close_enough = [](double a, double b) { return std::fabs(b - a) <= 1e-12; };
-      std::uintmax_t num_iterations = 200;
-      const auto [low, high] = boost::math::tools::toms748_solve(
-          excess, inside, outside, excess_inside, excess_outside, close_enough, num_iterations);
+      const auto [low, high] = root_bracket(excess, {inside, excess_inside},
+                                            {outside, excess_outside}, close_enough, 200);
       return 0.5 * (low + high);
     }
     inside = outside;

@@ -1,10 +1,10 @@
 #include "analysis/fits/power_fit.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "analysis/fits/power_nonlinear.h"
+#include "analysis/statistics/distributions.h"
 #include "core/require.h"
 
 namespace jnd::analysis {
@@ -81,8 +81,7 @@ void fill(PowerFit& fit, double log_k, double a, const LineVariance& variance, d
     fit.no_interval = "one degree of freedom is too few";
     return;
   }
-  const double t = boost::math::quantile(
-      boost::math::students_t(static_cast<double>(fit.num_rows - 2)), 0.975);
+  const double t = student_t_quantile(0.975, static_cast<double>(fit.num_rows - 2));
   fit.k_ci95 = {in_range(std::exp(log_k - t * log_k_error), true),
                 in_range(std::exp(log_k + t * log_k_error), true)};
   fit.a_ci95 = {in_range(a - t * a_error, false), in_range(a + t * a_error, false)};

@@ -1,8 +1,9 @@
 #include "analysis/fits/profile_crossing.h"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+
+#include "analysis/statistics/root_finding.h"
 
 namespace jnd::analysis {
 
@@ -19,11 +20,9 @@ std::optional<double> crossing(const std::function<double(double)>& excess, doub
         return std::fabs(b - a) <= precision * std::max(std::fabs(a), std::fabs(b)) + 1e-300;
       };
       const bool rising = outside > inside;
-      std::uintmax_t num_iterations = 200;
-      const auto [low, high] = boost::math::tools::toms748_solve(
-          excess, rising ? inside : outside, rising ? outside : inside,
-          rising ? excess_inside : excess_outside, rising ? excess_outside : excess_inside,
-          close_enough, num_iterations);
+      BracketEnd first{inside, excess_inside}, second{outside, excess_outside};
+      if (!rising) std::swap(first, second);
+      const auto [low, high] = root_bracket(excess, first, second, close_enough, 200);
       return 0.5 * (low + high);
     }
     inside = outside;

@@ -2,11 +2,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <boost/math/special_functions/digamma.hpp>
 #include <cmath>
 #include <vector>
 
 #include "analysis/fits/likelihood_profile.h"
+#include "analysis/statistics/distributions.h"
 
 namespace jnd::analysis {
 namespace {
@@ -36,7 +36,7 @@ LogProduct log_product(double first, double step, double count) {
   }
   // step^count Gamma(first / step + count) / Gamma(first / step)
   const double ratio = first / step;
-  const double by_ratio = boost::math::digamma(ratio + count) - boost::math::digamma(ratio);
+  const double by_ratio = digamma(ratio + count) - digamma(ratio);
   product.value = count * std::log(step) + std::lgamma(ratio + count) - std::lgamma(ratio);
   product.by_first = by_ratio / step;
   product.by_step = (count - ratio * by_ratio) / step;

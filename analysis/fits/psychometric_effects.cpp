@@ -1,7 +1,6 @@
 #include "analysis/fits/psychometric_effects.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include "analysis/fits/answer_scatter.h"
 #include "analysis/fits/probit_regression.h"
+#include "analysis/statistics/distributions.h"
 #include "core/psychometric_function.h"
 #include "core/require.h"
 
@@ -213,8 +213,7 @@ PsychometricEffects psychometric_effects(const std::vector<OrderedAnswers>& answ
       if (without.status == FitStatus::kOk) {
         const double gain = 2.0 * (full.log_likelihood - without.log_likelihood);
         effect.statistic = std::max(0.0, gain);
-        effect.p_value = boost::math::cdf(
-            boost::math::complement(boost::math::chi_squared(1.0), *effect.statistic));
+        effect.p_value = chi_squared_above(*effect.statistic, 1.0);
       }
     }
     found.effects.push_back(std::move(effect));

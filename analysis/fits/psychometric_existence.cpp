@@ -24,7 +24,7 @@ constexpr std::string_view kNoOther =
     "none, so nothing tells how fine the discrimination is";
 constexpr std::string_view kOneIntensity =
     "one intensity: a slope and a pse need answers at two intensities > 0 or more";
-constexpr std::string_view kAllAlike =
+constexpr std::string_view kAllAnswersAlike =
     "all alike: every answer is the same, so the pse lies beyond all levels";
 constexpr std::string_view kAllAlikeAtReference =
     "all alike: every answer is the same, so nothing tells how fine the discrimination is";
@@ -133,7 +133,7 @@ PsychometricExistence existence_from_counts(const PsychometricLevels& levels, bo
   if (levels.zero_yes > 0.0) return {PsychometricSupremum::kImpossible, kYesAtZero};
   const Reach reach = reach_of(levels);
   if (free_pse) {
-    if (reach.all_alike()) return {PsychometricSupremum::kStep, kAllAlike};
+    if (reach.all_alike()) return {PsychometricSupremum::kStep, kAllAnswersAlike};
     if (reach.last_no <= reach.first_yes) return {PsychometricSupremum::kStep, kSeparated};
   } else if (!(reach.first_yes < 0.0) && !(reach.last_no > 0.0)) {
     return {PsychometricSupremum::kStep, kSeparated};
@@ -144,7 +144,8 @@ PsychometricExistence existence_from_counts(const PsychometricLevels& levels, bo
 
 PsychometricExistence lower_limit(const PsychometricLevels& levels, bool free_pse,
                                   double step_cost, double flat_cost) {
-  if (free_pse && reach_of(levels).all_alike()) return {PsychometricSupremum::kStep, kAllAlike};
+  if (free_pse && reach_of(levels).all_alike())
+    return {PsychometricSupremum::kStep, kAllAnswersAlike};
   if (step_cost < flat_cost * (1.0 - 1e-13)) return {PsychometricSupremum::kStep, kStep};
   return flat_or_inverted(levels, free_pse);
 }

@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -18,6 +17,7 @@
 #include "analysis/fits/psychometric_posterior.h"
 #include "analysis/fits/psychometric_search.h"
 #include "analysis/fits/psychometric_warnings.h"
+#include "analysis/statistics/distributions.h"
 #include "core/require.h"
 
 namespace jnd::analysis {
@@ -80,7 +80,7 @@ std::optional<double> standard_error(const PsychometricLevels& levels,
 
 /// The 95 % quantile of F with one degree of freedom above and these below.
 double fisher_quantile(int degrees_of_freedom) {
-  return boost::math::quantile(boost::math::fisher_f(1.0, degrees_of_freedom), 0.95);
+  return fisher_f_quantile(0.95, 1.0, degrees_of_freedom);
 }
 
 /// Of the curve's line in the scaled abscissa; see `PsychometricOptions::num_calibration`.

@@ -1,7 +1,6 @@
 #include "analysis/hierarchical/hierarchical_fit.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 #include "analysis/hierarchical/hierarchical_arrangement.h"
@@ -10,6 +9,7 @@
 #include "analysis/hierarchical/hierarchical_levels.h"
 #include "analysis/hierarchical/hierarchical_search.h"
 #include "analysis/hierarchical/hierarchical_words.h"
+#include "analysis/statistics/distributions.h"
 #include "core/error.h"
 #include "core/require.h"
 
@@ -52,7 +52,7 @@ std::optional<double> fraction_at(HierarchicalLink link, double slope_number) {
 /// Half the 95 % interval of a number with this variance.
 double reach_of(double variance, int num_participants) {
   const double n = num_participants;
-  const double t = boost::math::quantile(boost::math::students_t(n - 1.0), 0.975);
+  const double t = student_t_quantile(0.975, n - 1.0);
   return t * std::sqrt(variance * n / (n - 1.0));
 }
 
@@ -144,8 +144,7 @@ void fill_differences(HierarchicalFit& fit, const HierarchicalOptimum& found,
       one.standard_error = std::sqrt(variance * n / (n - 1.0));
       one.ci95 = {one.estimate - reach, one.estimate + reach};
       one.statistic = one.estimate / *one.standard_error;
-      one.p_value = 2.0 * boost::math::cdf(boost::math::complement(
-                              boost::math::students_t(n - 1.0), std::fabs(*one.statistic)));
+      one.p_value = 2.0 * student_t_above(std::fabs(*one.statistic), n - 1.0);
     }
     fit.differences.push_back(std::move(one));
   }

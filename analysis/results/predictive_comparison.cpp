@@ -2,12 +2,12 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <map>
 #include <numeric>
 
 #include "analysis/results/published_statistics.h"
+#include "analysis/statistics/distributions.h"
 #include "analysis/statistics/summary.h"
 #include "core/error.h"
 #include "core/random_stream.h"
@@ -54,13 +54,12 @@ Eigen::VectorXd normal_scores(const std::vector<double>& values) {
   std::iota(order.begin(), order.end(), 0U);
   std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
   Eigen::VectorXd scores(static_cast<Eigen::Index>(num));
-  const boost::math::normal normal;
   for (std::size_t first = 0; first < num;) {
     std::size_t end = first;
     while (end < num && values[order[end]] == values[order[first]]) ++end;
     const double middle = 0.5 * static_cast<double>(first + end) / static_cast<double>(num);
     for (std::size_t i = first; i < end; ++i) {
-      scores[static_cast<Eigen::Index>(order[i])] = boost::math::quantile(normal, middle);
+      scores[static_cast<Eigen::Index>(order[i])] = normal_quantile(middle);
     }
     first = end;
   }

@@ -1,12 +1,11 @@
 #include "analysis/statistics/comparison.h"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
 #include "analysis/statistics/comparison_parts.h"
+#include "analysis/statistics/distributions.h"
 #include "analysis/statistics/effect_size.h"
 #include "analysis/statistics/signed_rank.h"
 #include "analysis/statistics/summary.h"
@@ -14,9 +13,6 @@
 
 namespace jnd::analysis {
 namespace {
-
-using boost::math::complement;
-using boost::math::students_t;
 
 void require_pairs(const std::vector<double>& a, const std::vector<double>& b) {
   require_finite(a, "a");
@@ -68,11 +64,10 @@ double largest_magnitude(const std::vector<double>& a, const std::vector<double>
 
 /// Fills in t, p and the interval of an estimate with a known standard error.
 void fill_t(Comparison& result, double standard_error, double degrees_of_freedom) {
-  const students_t t(degrees_of_freedom);
-  const double reach = boost::math::quantile(t, 0.975) * standard_error;
+  const double reach = student_t_quantile(0.975, degrees_of_freedom) * standard_error;
   result.statistic = *result.estimate / standard_error;
   result.degrees_of_freedom = degrees_of_freedom;
-  result.p_value = 2.0 * boost::math::cdf(complement(t, std::fabs(*result.statistic)));
+  result.p_value = 2.0 * student_t_above(std::fabs(*result.statistic), degrees_of_freedom);
   result.ci95 = {*result.estimate - reach, *result.estimate + reach};
   result.status = FitStatus::kOk;
 }
@@ -255,12 +250,10 @@ Comparison pearson_correlation(const std::vector<double>& a, const std::vector<d
   const double degrees_of_freedom = n - 2.0;
   result.degrees_of_freedom = degrees_of_freedom;
   result.statistic = r * std::sqrt(degrees_of_freedom / (one_minus_r * one_plus_r));
-  result.p_value = 2.0 * boost::math::cdf(complement(students_t(degrees_of_freedom),
-                                                     std::fabs(*result.statistic)));
+  result.p_value = 2.0 * student_t_above(std::fabs(*result.statistic), degrees_of_freedom);
   if (a.size() > 3) {
     const double z = 0.5 * std::log(one_plus_r / one_minus_r);
-    const double reach =
-        boost::math::quantile(boost::math::normal(), 0.975) / std::sqrt(n - 3.0);
+    const double reach = normal_quantile(0.975) / std::sqrt(n - 3.0);
     result.ci95 = {std::tanh(z - reach), std::tanh(z + reach)};
   }
   result.status = FitStatus::kOk;

@@ -1,32 +1,21 @@
 #include "analysis/statistics/effect_size.h"
 
-#include <boost/math/distributions/non_central_t.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/special_functions/gamma.hpp>
-#include <boost/math/tools/roots.hpp>
+#include <algorithm>
 #include <cmath>
+
+#include "analysis/statistics/distributions.h"
+#include "analysis/statistics/root_finding.h"
 
 namespace jnd::analysis {
 namespace {
 
-namespace math = boost::math;
-
 constexpr double kLargestT = 1000.0;
-
-/// What cannot be computed is not a number, never an exception.
-using Quiet =
-    math::policies::policy<math::policies::domain_error<math::policies::ignore_error>,
-                           math::policies::pole_error<math::policies::ignore_error>,
-                           math::policies::overflow_error<math::policies::ignore_error>,
-                           math::policies::evaluation_error<math::policies::ignore_error>>;
 
 /// The noncentrality at which P(T <= t) is `probability`: it falls as the noncentrality grows.
 std::optional<double> noncentrality_at(double t, double degrees_of_freedom,
                                        double probability) {
   const auto excess = [&](double noncentrality) {
-    const math::non_central_t_distribution<double, Quiet> distribution(degrees_of_freedom,
-                                                                       noncentrality);
-    return math::cdf(distribution, t) - probability;
+    return noncentral_t_below(t, degrees_of_freedom, noncentrality) - probability;
   };
   double reach = 2.0;
   double low = t - reach, high = t + reach;
@@ -36,9 +25,11 @@ std::optional<double> noncentrality_at(double t, double degrees_of_freedom,
     if (!(excess(low) >= 0.0)) low = t - reach;
     if (!(excess(high) <= 0.0)) high = t + reach;
   }
-  std::uintmax_t num_steps = 200;
-  const auto [below, above] = math::tools::toms748_solve(
-      excess, low, high, math::tools::eps_tolerance<double>(45), num_steps);
+  const auto is_close = [](double a, double b) {
+    return std::fabs(a - b) <= std::ldexp(1.0, -44) * std::min(std::fabs(a), std::fabs(b));
+  };
+  const auto [below, above] =
+      root_bracket(excess, {low, excess(low)}, {high, excess(high)}, is_close, 198);
   const double found = 0.5 * (below + above);
   return std::isfinite(found) ? std::optional(found) : std::nullopt;
 }
@@ -54,7 +45,7 @@ Interval scaled(const Interval& interval, double factor) {
 
 double hedges_factor(double degrees_of_freedom) {
   const double half = 0.5 * degrees_of_freedom;
-  return std::exp(math::lgamma(half) - math::lgamma(half - 0.5)) / std::sqrt(half);
+  return std::exp(log_gamma(half) - log_gamma(half - 0.5)) / std::sqrt(half);
 }
 
 Interval noncentrality_ci95(double t, double degrees_of_freedom) {
@@ -100,7 +91,7 @@ void add_effect_of_groups(Comparison& comparison, const PublishedGroup& a,
 
 Interval fisher_interval(double r, double standard_error_of_z) {
   if (!(std::fabs(r) < 1.0)) return {};
-  const double reach = math::quantile(math::normal(), 0.975) * standard_error_of_z;
+  const double reach = normal_quantile(0.975) * standard_error_of_z;
   const double z = std::atanh(r);
   return {std::tanh(z - reach), std::tanh(z + reach)};
 }

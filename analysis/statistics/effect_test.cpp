@@ -1,19 +1,18 @@
 #include "analysis/statistics/effect_test.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "analysis/statistics/distributions.h"
 #include "analysis/statistics/summary.h"
-#include "core/error.h"
+#include "core/require.h"
 
 namespace jnd::analysis {
 namespace {
 
 double above(const EffectEstimate& estimate, double threshold) {
-  const boost::math::students_t t(estimate.degrees_of_freedom);
-  return boost::math::cdf(
-      boost::math::complement(t, (estimate.effect - threshold) / estimate.standard_error));
+  return student_t_above((estimate.effect - threshold) / estimate.standard_error,
+                         estimate.degrees_of_freedom);
 }
 
 }  // namespace
@@ -30,9 +29,9 @@ double p_value_of(const EffectEstimate& estimate, Tail tail) {
 Interval interval_of(const EffectEstimate& estimate, double confidence) {
   core::require(confidence > 0.0 && confidence < 1.0, "confidence", "a number between 0 and 1",
                 confidence);
-  const boost::math::students_t t(estimate.degrees_of_freedom);
-  const double reach = estimate.standard_error * boost::math::quantile(boost::math::complement(
-                                                     t, 0.5 * (1 - confidence)));
+  const double reach =
+      estimate.standard_error *
+      student_t_quantile_above(0.5 * (1 - confidence), estimate.degrees_of_freedom);
   return {estimate.effect - reach, estimate.effect + reach};
 }
 

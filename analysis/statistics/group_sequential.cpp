@@ -1,11 +1,11 @@
 #include "analysis/statistics/group_sequential.h"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <utility>
 
+#include "analysis/statistics/distributions.h"
 #include "core/require.h"
 
 namespace jnd::analysis {
@@ -40,8 +40,7 @@ double spent_alpha(SpendingFunction spending, double alpha, double share) {
   core::require(share > 0.0 && share <= 1.0, "share of the information",
                 "a number above 0 and up to 1", share);
   if (spending == SpendingFunction::kPocock) return alpha * std::log1p(std::expm1(1.0) * share);
-  const boost::math::normal standard;
-  const double z = boost::math::quantile(boost::math::complement(standard, 0.5 * alpha));
+  const double z = normal_quantile_above(0.5 * alpha);
   return 2.0 * tail_above(z / std::sqrt(share));
 }
 

@@ -1,15 +1,12 @@
 #include "analysis/statistics/sequential_estimate.h"
 
 #include <algorithm>
-#include <boost/math/distributions/non_central_t.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <tuple>
 
+#include "analysis/statistics/distributions.h"
+#include "analysis/statistics/root_finding.h"
 #include "core/require.h"
 
 namespace jnd::analysis {
@@ -20,25 +17,20 @@ double z_above(double probability) {
   constexpr double kSmallest = std::numeric_limits<double>::min();
   // Of the smaller tail, where the digits are.
   if (probability > 0.5) return -z_above(1.0 - probability);
-  return boost::math::quantile(
-      boost::math::complement(boost::math::normal(), std::max(probability, kSmallest)));
+  return normal_quantile_above(std::max(probability, kSmallest));
 }
 
 /// The z that is exceeded as often as this t.
 double z_of_t(double t, double degrees_of_freedom) {
-  const double above = boost::math::cdf(
-      boost::math::complement(boost::math::students_t(degrees_of_freedom), std::fabs(t)));
-  return std::copysign(z_above(above), t);
+  return std::copysign(z_above(student_t_above(std::fabs(t), degrees_of_freedom)), t);
 }
 
 /// Where a statistic with mean `mean` and sd 1 is beyond the boundary as often as a noncentral
 /// t is beyond that of t: at mean 0 it is the boundary of z itself.
 double boundary_under(double z_boundary, double degrees_of_freedom, double mean) {
-  using namespace boost::math;
   if (!std::isfinite(z_boundary)) return z_boundary;
-  const students_t central(degrees_of_freedom);
   const double tail = 0.5 * std::erfc(z_boundary / std::sqrt(2.0));
-  const double t_boundary = quantile(complement(central, tail));
+  const double t_boundary = student_t_quantile_above(tail, degrees_of_freedom);
   // So far out that nearly all or none of it is beyond: the approximation of Johnson and Welch
   // (1940) says which.
   constexpr double kFar = 30.0;
@@ -46,12 +38,11 @@ double boundary_under(double z_boundary, double degrees_of_freedom, double mean)
     const double spread = std::sqrt(1.0 + 0.5 * t_boundary * t_boundary / degrees_of_freedom);
     return z_boundary + mean * (1.0 - 1.0 / spread);
   }
-  // Where its series do not converge, what they came to is near enough 0 or 1.
-  using Forgiving = policies::policy<policies::evaluation_error<policies::ignore_error>,
-                                     policies::overflow_error<policies::ignore_error>>;
-  const non_central_t_distribution<double, Forgiving> shifted(degrees_of_freedom, mean);
-  const double above = std::clamp(cdf(complement(shifted, t_boundary)), 0.0, 1.0);
-  const double below = std::clamp(cdf(shifted, t_boundary), 0.0, 1.0);
+  // Where the series do not converge, what they came to is near enough 0 or 1.
+  const double above =
+      std::clamp(noncentral_t_above(t_boundary, degrees_of_freedom, mean), 0.0, 1.0);
+  const double below =
+      std::clamp(noncentral_t_below(t_boundary, degrees_of_freedom, mean), 0.0, 1.0);
   return mean + (above < below ? z_above(above) : -z_above(below));
 }
 
@@ -131,10 +122,10 @@ std::optional<double> SequentialEstimate::effect_at(double probability) const {
     return std::nullopt;
   }
   const double tolerance = 1e-6 * last.standard_error;
-  std::uintmax_t num_steps = 100;
-  std::tie(low, high) = boost::math::tools::toms748_solve(
-      [&](double effect) { return probability_above(effect) - probability; }, low, high,
-      [=](double a, double b) { return std::fabs(b - a) <= tolerance; }, num_steps);
+  const auto excess = [&](double effect) { return probability_above(effect) - probability; };
+  std::tie(low, high) = root_bracket(
+      excess, {low, excess(low)}, {high, excess(high)},
+      [=](double a, double b) { return std::fabs(b - a) <= tolerance; }, 98);
   return 0.5 * (low + high);
 }
 

@@ -1,9 +1,9 @@
 #include "analysis/statistics/summary.h"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "analysis/statistics/distributions.h"
 #include "core/psychometric_function.h"
 #include "core/random_stream.h"
 #include "core/require.h"
@@ -20,7 +20,7 @@ constexpr std::size_t kFewestParticipants = 5;
 double expanded_tail(std::size_t num_values) {
   if (num_values < 2) return 0.025;
   const auto n = static_cast<double>(num_values);
-  const double t = boost::math::quantile(boost::math::students_t(n - 1.0), 0.975);
+  const double t = student_t_quantile(0.975, n - 1.0);
   return core::standard_normal_cdf(-t * std::sqrt(n / (n - 1.0)));
 }
 
@@ -55,8 +55,7 @@ Summary summary_of(const std::vector<double>& values) {
   for (const double value : values) squares += (value - mean) * (value - mean);
   const double deviation = std::sqrt(squares / (n - 1.0));
   summary.standard_deviation = deviation;
-  const double reach =
-      boost::math::quantile(boost::math::students_t(n - 1.0), 0.975) * deviation / std::sqrt(n);
+  const double reach = student_t_quantile(0.975, n - 1.0) * deviation / std::sqrt(n);
   summary.mean_ci95 = {mean - reach, mean + reach};
   return summary;
 }
@@ -131,7 +130,7 @@ ResampledInterval resample_factor(
     return percentile_interval(all, num_participants, num_resamples);
   }
   const auto n = static_cast<double>(num_participants);
-  const double t = boost::math::quantile(boost::math::students_t(n - 1.0), 0.975);
+  const double t = student_t_quantile(0.975, n - 1.0);
   const double reach =
       t * std::sqrt(n / (n - 1.0)) * summary_of(logs).standard_deviation.value_or(0.0);
   return {.ci95 = {estimate * std::exp(-reach), estimate * std::exp(reach)},
