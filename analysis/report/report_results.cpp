@@ -61,10 +61,16 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
     count += ", " + std::to_string(c.num_b);
   }
   // What the test is about: of ranks the median of pairwise differences, else the mean.
+  std::string effect =
+      c.hodges_lehmann
+          ? "Hodges-Lehmann " + with_interval(c.hodges_lehmann, c.hodges_lehmann_ci95)
+          : with_interval(c.estimate, c.ci95);
+  if (named.ratio()) {
+    effect = named.ratio_of + " " + with_interval(named.ratio(), named.ratio_ci95()) +
+             " times as large; its logarithm differs by " + effect;
+  }
   return {name,
-          c.hodges_lehmann
-              ? "Hodges-Lehmann " + with_interval(c.hodges_lehmann, c.hodges_lehmann_ci95)
-              : with_interval(c.estimate, c.ci95),
+          std::move(effect),
           statistic_words(c),
           c.degrees_of_freedom ? number_words(c.degrees_of_freedom, 1) : "–",
           p_words(c.p_value),

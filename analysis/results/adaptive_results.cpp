@@ -217,7 +217,8 @@ void AdaptiveWriter::write_limits() {
   for (const auto& [participant, error] : errors) values.push_back(error);
   section_.comparisons.push_back({.name = block_.block + ": rising - falling series" +
                                           (is_logarithmic ? ", ln of the transition" : ""),
-                                  .comparison = one_sample_t_test(values)});
+                                  .comparison = one_sample_t_test(values),
+                                  .ratio_of = is_logarithmic ? "transition" : ""});
 }
 
 void AdaptiveWriter::write_quest_plus() {

@@ -86,12 +86,16 @@ void add_own_fraction_tests(ResultsSection& section, const FractionsByName& a,
   const auto add = [&](const std::string& name, const Comparison& comparison) {
     section.comparisons.push_back({pair + name + words, comparison});
   };
+  const auto add_of_logarithms = [&](const std::string& name, const Comparison& comparison) {
+    add("ln ln(1 + w), " + name, comparison);
+    section.comparisons.back().ratio_of = "ln(1 + w)";
+  };
   if (!paired_a.empty()) {
-    add("ln ln(1 + w), paired", paired_t_test(paired_a, paired_b));
-    add("ln ln(1 + w), Wilcoxon, sensitivity", wilcoxon_test(paired_a, paired_b));
+    add_of_logarithms("paired", paired_t_test(paired_a, paired_b));
+    add_of_logarithms("Wilcoxon, sensitivity", wilcoxon_test(paired_a, paired_b));
   }
   if (free_pse) return;
-  add("ln ln(1 + w), unpaired, Welch", welch_t_test(log_log_of(a), log_log_of(b)));
+  add_of_logarithms("unpaired, Welch", welch_t_test(log_log_of(a), log_log_of(b)));
   add("w, unpaired, Welch", welch_t_test(values_of(a), values_of(b)));
   add("w, unpaired, pooled variance, as Schmidt (2018)", pooled(values_of(a), values_of(b)));
 }
@@ -156,7 +160,8 @@ ResultsSection discrimination_comparison(const StudyData& data, const ComparedBl
          .comparison = median_person_difference(
              first_answers, first, second_answers, second,
              free_pse ? HierarchicalPse::kPersonal : HierarchicalPse::kReference),
-         .primary = is_primary});
+         .primary = is_primary,
+         .ratio_of = "ln(1 + w)"});
   }
   for (const bool free_pse : {false, true}) {
     add_own_fractions(section, first_answers, first, second_answers, second, free_pse);

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "analysis/data/cell_arms.h"
@@ -114,12 +115,15 @@ std::vector<Effect> effects_of(const BlockDesign& block) {
   return {};
 }
 
-void add_tests(ResultsSection& section, const std::string& name, Comparison t,
-               Comparison ranks) {
-  section.comparisons.push_back(
-      {.name = name + ", t", .comparison = std::move(t), .family = kEffectsFamily});
-  section.comparisons.push_back(
-      {.name = name + ", ranks, sensitivity", .comparison = std::move(ranks)});
+void add_tests(ResultsSection& section, const std::string& name, Comparison t, Comparison ranks,
+               const std::string& ratio_of = "") {
+  section.comparisons.push_back({.name = name + ", t",
+                                 .comparison = std::move(t),
+                                 .family = kEffectsFamily,
+                                 .ratio_of = ratio_of});
+  section.comparisons.push_back({.name = name + ", ranks, sensitivity",
+                                 .comparison = std::move(ranks),
+                                 .ratio_of = ratio_of});
 }
 
 void add_effect(ResultsSection& section, const StudyData& data, const BlockDesign& block,
@@ -153,7 +157,8 @@ void add_effect(ResultsSection& section, const StudyData& data, const BlockDesig
 /// evenly.
 struct Outcome {
   std::string name;
-  std::map<std::string, double> by_participant;
+  std::string ratio_of{};  ///< What the exponential of a difference is a ratio of.
+  std::map<std::string, double> by_participant{};
 };
 
 std::optional<double> on_even_scale(const std::string& parameter, double value) {
@@ -167,11 +172,13 @@ std::vector<Outcome> outcomes_of(const StudyData& data,
                                  const std::vector<ResultsSection>& sections) {
   std::vector<Outcome> outcomes;
   for (const BlockDesign& block : data.blocks) {
-    for (const auto& [parameter, words] :
-         {std::pair{"k", "ln k"}, {"a", "a"}, {"weber_fraction", "ln ln(1 + w)"}}) {
+    for (const auto& [parameter, words, ratio_of] :
+         {std::tuple{"k", "ln k", "k"},
+          {"a", "a", ""},
+          {"weber_fraction", "ln ln(1 + w)", "ln(1 + w)"}}) {
       // Numbers of everybody's own choice: k is as they chose them.
       if (parameter == std::string("k") && block.counts_in_own_numbers()) continue;
-      Outcome outcome{.name = std::string(words) + " of " + block.block};
+      Outcome outcome{.name = std::string(words) + " of " + block.block, .ratio_of = ratio_of};
       for (const ResultsSection& section : sections) {
         for (const ParticipantEstimate& own : section.participants) {
           if (own.name != block.block + "." + parameter || !own.value) continue;
@@ -222,7 +229,8 @@ void compare_arms(ResultsSection& section, const Arms& people, const Outcome& ou
     for (auto b = std::next(a); b != by_arm.end(); ++b) {
       add_tests(section,
                 counterbalance + ": " + a->first + " - " + b->first + ": " + outcome.name,
-                welch_t_test(a->second, b->second), rank_sum_test(a->second, b->second));
+                welch_t_test(a->second, b->second), rank_sum_test(a->second, b->second),
+                outcome.ratio_of);
     }
   }
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/results/discrimination_answers.h"
@@ -97,13 +98,14 @@ ResultsSection interval_results(const StudyData& data, const BlockDesign& block)
             .meaning = "ln pse with the test second less ln pse with the test first, one slope "
                        "for both: mean over participants"},
            effects);
-  for (const auto& [name, own] :
-       {std::pair{"second interval chosen - half of the answers", biases},
-        std::pair{"ln pse, test second - test first", effects}}) {
+  for (const auto& [name, own, ratio_of] :
+       {std::tuple{"second interval chosen - half of the answers", biases, ""},
+        std::tuple{"ln pse, test second - test first", effects, "pse"}}) {
     std::vector<double> values;
     for (const auto& [participant, value] : own) values.push_back(value);
-    section.comparisons.push_back(
-        {.name = block.block + ": " + name, .comparison = one_sample_t_test(values)});
+    section.comparisons.push_back({.name = block.block + ": " + name,
+                                   .comparison = one_sample_t_test(values),
+                                   .ratio_of = ratio_of});
   }
   return section;
 }

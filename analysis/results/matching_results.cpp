@@ -157,7 +157,7 @@ class MatchingSection {
                        "match over standard, geometric mean over standards and participants: "
                        "1 is without constant error",
                        logs);
-    add_test("ln ratio_to_standard", logs);
+    add_test("ln ratio_to_standard", logs, "match");
   }
 
   /// What feels alike over the range: its exponent is that of the standard's growth of
@@ -196,14 +196,16 @@ class MatchingSection {
     return values;
   }
 
-  void add_test(const std::string& name, const std::vector<double>& values) {
+  void add_test(const std::string& name, const std::vector<double>& values,
+                const std::string& ratio_of = "") {
     if (values.empty()) return;
     const std::string test = design_.block + ": " + name + " against 0";
     section_.comparisons.push_back(
-        {.name = test + ", t", .comparison = one_sample_t_test(values)});
+        {.name = test + ", t", .comparison = one_sample_t_test(values), .ratio_of = ratio_of});
     section_.comparisons.push_back(
         {.name = test + ", ranks, sensitivity",
-         .comparison = wilcoxon_test(values, std::vector<double>(values.size(), 0.0))});
+         .comparison = wilcoxon_test(values, std::vector<double>(values.size(), 0.0)),
+         .ratio_of = ratio_of});
   }
 
   const BlockDesign& design_;

@@ -125,7 +125,7 @@ ByParticipant means_of(const StudyData& data, const std::string& block,
   return means;
 }
 
-std::vector<double> values_of(const ByParticipant& means) {
+std::vector<double> numbers_of_people(const ByParticipant& means) {
   std::vector<double> values;
   for (const auto& [participant, mean] : means) values.push_back(mean);
   return values;
@@ -162,7 +162,8 @@ void add_blocks(ResultsSection& section, const StudyData& data, const Quantity& 
   for (const std::string& block : blocks) {
     by_block[block] = means_of(data, block, quantity, weighing);
     add_mean(section, std::string(quantity.name) + "." + block + weighing.suffix,
-             quantity.meaning + weighing.meaning, values_of(by_block[block]), quantity.unit);
+             quantity.meaning + weighing.meaning, numbers_of_people(by_block[block]),
+             quantity.unit);
   }
   for (std::size_t i = 0; i + 1 < blocks.size(); ++i) {
     compare(section, quantity, weighing, blocks[i], by_block[blocks[i]], blocks[i + 1],

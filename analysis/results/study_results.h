@@ -74,6 +74,14 @@ struct NamedComparison {
   std::string family;    ///< "exploratory, movement"; "" with a test that stands alone.
   bool primary = false;  ///< It answers what the study asks of its blocks together.
   std::vector<std::string> cautions{};  ///< Why it may be wrong for these data, one each.
+  /// What the exponential of a difference of logarithms is a ratio of, "ln(1 + w)"; "" where
+  /// the test is about no logarithms.
+  std::string ratio_of{};
+
+  /// That ratio, 1 without an effect, and its 95 % interval: of rank tests by Hodges and
+  /// Lehmann.
+  [[nodiscard]] std::optional<double> ratio() const;
+  [[nodiscard]] Interval ratio_ci95() const;
 };
 
 /// What a participant said in words of their own.

@@ -67,6 +67,9 @@ std::string comparison_words(const analysis::NamedComparison& named) {
   const auto add = [&words](const std::string& part) {
     words += (words.empty() ? "" : ", ") + part;
   };
+  if (named.ratio()) {
+    add(tr("{} {} times as large", named.ratio_of, fmt::format("{:.3g}", *named.ratio())));
+  }
   if (c.statistic) add(statistic_words(c));
   if (c.p_value) add(p_words(*c.p_value));
   if (named.p_value_holm) add(tr("Holm {}", p_words(*named.p_value_holm)));

@@ -27,7 +27,7 @@ namespace jnd::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Status = SessionLine::Status;
+using SessionStatus = SessionLine::Status;
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 
@@ -112,9 +112,9 @@ SessionLine line_of(const core::SessionRow& row, const core::SessionOverview& ov
                     std::int64_t now_ns) {
   return {.session = row.session,
           .participant = row.participant,
-          .status = overview.completed     ? Status::kCompleted
-                    : overview.ended_early ? Status::kEndedEarly
-                                           : Status::kOpen,
+          .status = overview.completed     ? SessionStatus::kCompleted
+                    : overview.ended_early ? SessionStatus::kEndedEarly
+                                           : SessionStatus::kOpen,
           .pilot = row.pilot,
           .simulated = row.simulated,
           .device = row.device,
@@ -125,10 +125,10 @@ SessionLine line_of(const core::SessionRow& row, const core::SessionOverview& ov
 
 void count(const SessionLine& line, std::set<std::string>& done, StudyFolder& study) {
   ++study.num_sessions;
-  study.num_open += line.status == Status::kOpen ? 1 : 0;
+  study.num_open += line.status == SessionStatus::kOpen ? 1 : 0;
   study.num_pilots += line.pilot ? 1 : 0;
   study.simulated |= line.simulated;
-  if (!line.pilot && line.status == Status::kCompleted) done.insert(line.participant);
+  if (!line.pilot && line.status == SessionStatus::kCompleted) done.insert(line.participant);
 }
 
 fs::path data_folder() {
@@ -201,7 +201,7 @@ StudyFolder open_study_folder(const fs::path& folder, std::int64_t now_ns) {
     count(line, done, opened);
     last_ns = std::max(last_ns, overview.last_time_ns.value_or(row.started_time_ns));
     // What was interrupted goes on in the study itself.
-    if (line.status == Status::kOpen && !opened.is_backup) {
+    if (line.status == SessionStatus::kOpen && !opened.is_backup) {
       InterruptedSession open{.session = row.session,
                               .participant = row.participant,
                               .num_answers = overview.num_answers,

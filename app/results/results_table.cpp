@@ -218,6 +218,10 @@ std::string comparison_row(const analysis::NamedComparison& named) {
     const char* what = correlation ? "r" : c.kind == Kind::kOneSample ? "mean" : "difference";
     line += fmt::format("{} {} ({}), ", what, text(c.estimate), text(c.ci95, c.estimate));
   }
+  if (named.ratio()) {
+    line += fmt::format("{} {} times as large ({}), ", named.ratio_of, text(named.ratio()),
+                        text(named.ratio_ci95(), named.ratio()));
+  }
   line += statistic_words(c) + ", ";
   line += p_text(c.p_value) + effect_text(c);
   if (named.p_value_holm) line += fmt::format(", Holm {}", p_text(named.p_value_holm));

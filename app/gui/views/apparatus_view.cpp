@@ -15,7 +15,7 @@ constexpr double kTurn_rad_per_px = 0.008;
 constexpr double kTurn_rad_per_press = 0.12;
 constexpr double kZoomStep = 1.12;
 
-std::string loop_words(const LoopView& loop) {
+std::string loop_summary(const LoopView& loop) {
   std::string words = tr("{:.0f} Hz · latest {:.0f} µs · missed {} · lost {}", loop.rate_hz,
                          loop.max_lateness_us, loop.missed_ticks, loop.num_dropped_samples);
   if (loop.num_limited_ticks > 0) {
@@ -31,7 +31,7 @@ void draw_what_goes_on(Ui& ui, const Rect& place, const SessionView& view) {
   const bool has_fault = !view.fault.empty();
   const bool is_late = view.loop.missed_ticks > 0 || view.loop.num_dropped_samples > 0;
   const std::string right =
-      view.step == Step::kFault ? tr("F4: where it is armed again") : loop_words(view.loop);
+      view.step == Step::kFault ? tr("F4: where it is armed again") : loop_summary(view.loop);
   ui.text(inside.take_right(ui.text_width(right, Font::kSmall) + 2, 20), right,
           {.font = Font::kSmall, .colour = is_late ? Colour::kAmber : Colour::kSoft});
   const Colour red = Colour::kRed;

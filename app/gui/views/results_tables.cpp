@@ -15,7 +15,7 @@ using namespace results;
 constexpr float kResultsRowHeight = 36;
 constexpr float kBetweenNumbers = 8;
 
-Colour colour_of(QualityChip::Tone tone) {
+Colour colour_of_quality(QualityChip::Tone tone) {
   switch (tone) {
     case QualityChip::Tone::kGood:
       return Colour::kGreen;
@@ -118,11 +118,16 @@ void draw_comparisons_page(Ui& ui, const Rect& place, const ResultsModel& result
 
 void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
                        ResultsViewState& state) {
-  const std::vector<ColumnLook> columns = {{"", 2.7f},
-                                           {tr("value"), 1.3f, Align::kRight},
-                                           {"95 %", 1.9f, Align::kRight},
-                                           {tr("published"), 1.4f, Align::kRight},
-                                           {tr("basis, tail"), 2.1f, Align::kRight}};
+  std::vector<ColumnLook> columns = {
+      {"", 2.7f}, {tr("value"), 1.3f, Align::kRight}, {"95 %", 1.9f, Align::kRight}};
+  // Most studies have nothing published beside them.
+  const bool has_published = std::ranges::any_of(results.numbers, [](const NumberLine& line) {
+    return !line.published.empty() || !line.basis.empty();
+  });
+  if (has_published) {
+    columns.push_back({tr("published"), 1.4f, Align::kRight});
+    columns.push_back({tr("basis, tail"), 2.1f, Align::kRight});
+  }
   Rect inside = draw_card(ui, place, tr("Every number"));
   Rect head = inside;
   head.take_right(16);
@@ -136,19 +141,24 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
       section = line.section;
       ui.heading(inside.take_top(34), section);
     }
-    const Rect row = inside.take_top(30);
+    const bool is_sure = line.caution.empty();
+    const std::string label = is_sure ? line.label : tr("{}: caution", line.label);
+    const TextStyle name{
+        .font = Font::kSmall, .colour = is_sure ? Colour::kInk : Colour::kAmber, .wrap = true};
+    const float width = cells_of(inside, columns)[0].width;
+    const Rect row = inside.take_top(std::max(30.0f, ui.text_height(width, label, name) + 12));
     const std::vector<Rect> cells = cells_of(row, columns);
     const TextStyle number{.font = Font::kMono, .align = Align::kRight};
     const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight};
-    const bool is_sure = line.caution.empty();
-    ui.text(cells[0], is_sure ? line.label : tr("{}: caution", line.label),
-            {.font = Font::kSmall, .colour = is_sure ? Colour::kInk : Colour::kAmber});
+    ui.text(cells[0].middle(cells[0].width, ui.text_height(width, label, name)), label, name);
     ui.text(cells[1], line.value.empty() ? "-" : line.value, number);
     const std::string start = "95 % ";
     const bool plain = line.interval.starts_with(start);
     ui.text(cells[2], plain ? line.interval.substr(start.size()) : line.interval, number);
-    ui.text(cells[3], line.published, number);
-    ui.text(cells[4], line.basis, soft);
+    if (has_published) {
+      ui.text(cells[3], line.published, number);
+      ui.text(cells[4], line.basis, soft);
+    }
     ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
     if (ui.hovered(row)) {
       ui.tooltip(ui.mouse_x(), ui.mouse_y(),
@@ -246,9 +256,10 @@ float draw_quality(Ui& ui, const Rect& place, const ResultsModel& results) {
       y += kChip + kBetween;
     }
     if (ui.chip_width(chip.text) <= place.width) {
-      ui.chip(x, y, chip.text, colour_of(chip.tone));
+      ui.chip(x, y, chip.text, colour_of_quality(chip.tone));
     } else {
-      const TextStyle style{.font = Font::kSmall, .colour = colour_of(chip.tone), .wrap = true};
+      const TextStyle style{
+          .font = Font::kSmall, .colour = colour_of_quality(chip.tone), .wrap = true};
       const float height = ui.text_height(place.width, chip.text, style);
       ui.text({x, y, place.width, height}, chip.text, style);
       y += std::max(0.0f, height - kChip);

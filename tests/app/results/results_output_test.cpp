@@ -194,7 +194,8 @@ analysis::StudyResults answered_results() {
                                  .p_value_holm = 0.5,
                                  .family = "exploratory, t tests"});
   section.comparisons.push_back({.name = "against 0, ranks",
-                                 .comparison = analysis::wilcoxon_test({1, 2, 4}, {0, 0, 0})});
+                                 .comparison = analysis::wilcoxon_test({1, 2, 4}, {0, 0, 0}),
+                                 .ratio_of = "match"});
   section.free_answers.push_back({"P02", "remarks", "Anything else?", "wetness"});
   results.sections.push_back(section);
   return results;
@@ -217,12 +218,16 @@ TEST(ResultsOutput, JsonHasTheAdjustedTestsEffectSizesAndFreeAnswers) {
   EXPECT_EQ(ranks["hodges_lehmann"], 2.25);
   EXPECT_TRUE(ranks.contains("hodges_lehmann_ci95"));
   EXPECT_TRUE(ranks["rank_biserial_ci95"].is_null());
+  EXPECT_EQ(ranks["ratio_of"], "match");
+  EXPECT_NEAR(ranks["ratio"].get<double>(), 9.487735836358526, 1e-12) << "exp(2.25)";
+  EXPECT_TRUE(t["ratio"].is_null());
   EXPECT_EQ(section["free_answers"], nlohmann::json::parse(R"([{"participant": "P02",
       "item": "remarks", "question": "Anything else?", "answer": "wetness"}])"));
 }
 
 TEST(ResultsOutput, TheTablePutsPlainNumbersInColumnsAndSaysWhatWasSaid) {
   const std::string table = to_table(answered_results());
+  EXPECT_NE(table.find("match 9.4877 times as large ("), std::string::npos) << table;
   EXPECT_NE(table.find("              safety   freedom\n"), std::string::npos) << table;
   EXPECT_NE(table.find("  P01            10.0000    3.0000\n"), std::string::npos) << table;
   EXPECT_NE(table.find("  P02             7.0000         -\n"), std::string::npos) << table;
