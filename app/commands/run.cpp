@@ -272,6 +272,9 @@ int run_run(RunOptions options) {
       "data/laboratories"));
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate);
   warn_of_lookalike(store, options.participant);
+  if (const std::string remark = ended_study_remark(store); !options.pilot && !remark.empty()) {
+    std::fprintf(stderr, "jnd: %s\n", remark.c_str());
+  }
   const std::vector<std::int64_t> sessions =
       add_sessions(store,
                    {.study = study,

@@ -14,6 +14,7 @@
 #include "app/operator/preflight.h"
 #include "app/operator/study_folder.h"
 #include "app/session/device_run.h"
+#include "app/session/stored_session.h"
 #include "core/error.h"
 #include "core/storage/backup_mark.h"
 #include "core/storage/study_store.h"
@@ -103,6 +104,13 @@ PreflightLine folder_line(const std::filesystem::path& folder) {
           tr("{}: expected a file that can be written, found that it cannot; look at "
              "its rights and its disk",
              file.string()));
+    }
+    const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
+    if (!ended_study_remark(store).empty()) {
+      return {.name = name,
+              .status = Status::kWarning,
+              .found = tr("ended by the rule of the study"),
+              .remedy = tr("one session more was not planned; see `jnd look`")};
     }
     return {.name = name, .status = Status::kOk, .found = tr("ours alone to write")};
   });

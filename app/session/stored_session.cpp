@@ -76,6 +76,12 @@ void require_results_open(const core::StudyStore& store) {
   }
 }
 
+std::string ended_study_remark(const core::StudyStore& store) {
+  if (!has_ended(store)) return "";
+  return store.folder().string() + ": the rule of the study ended it at look " +
+         std::to_string(store.looks().back().look) + "; one session more was not planned";
+}
+
 std::string other_study_problem(const core::StudyStore& store,
                                 const experiments::Study& study) {
   const std::string hash = core::sha256(study.text);

@@ -29,6 +29,10 @@ namespace jnd::app {
 /// unsealed it.
 void require_results_open(const core::StudyStore& store);
 
+/// A sentence if the rule of a sequential study has ended it, so that one session more was not
+/// planned; "" otherwise.
+[[nodiscard]] std::string ended_study_remark(const core::StudyStore& store);
+
 /// A sentence if the folder has sessions of another text of this study, so that no session of
 /// this one can be added; "" otherwise.
 [[nodiscard]] std::string other_study_problem(const core::StudyStore& store,

@@ -89,6 +89,12 @@ TEST_F(LookTest, StopsWhereAnEffectIsLargeAndShowsAdjustedResultsThen) {
   EXPECT_EQ(unsealed.exit_code, 1);
   EXPECT_NE(unsealed.err.find("found one that its rule has ended"), std::string::npos)
       << unsealed.err;
+
+  const ProgramOutcome more = jnd({"run", "looks.json", "--participant", "P90", "--study",
+                                   "s.study", "--headless", "--device", "lumped"});
+  EXPECT_NE(more.err.find("ended it at look 1; one session more was not planned"),
+            std::string::npos)
+      << more.err;
 }
 
 TEST_F(LookTest, TakesEveryLookThatIsDueAndEndsAtTheLast) {

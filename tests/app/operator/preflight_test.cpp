@@ -93,6 +93,18 @@ TEST(Preflight, AFolderThatSomebodyElseWritesToFails) {
   EXPECT_NE(taken.remedy.find("close it first"), std::string::npos) << taken.remedy;
 }
 
+TEST(Preflight, AStudyThatItsRuleHasEndedIsAWarning) {
+  const SimulatedStudy made;
+  create_study_folder(made.file(), made.folder());
+  {
+    core::StudyStore store(made.folder(), core::StudyStore::Mode::kReadWrite);
+    store.add_look({.look = 1, .decision = "stop", .time_ns = 1, .program_version = "0"});
+  }
+  const PreflightLine ended = folder_line(made.folder());
+  EXPECT_EQ(ended.status, Status::kWarning);
+  EXPECT_EQ(ended.found, "ended by the rule of the study");
+}
+
 TEST(Preflight, TheDeviceHasToStartAndToHoldEnoughOfTheHand) {
   EXPECT_EQ(device_line("lumped", 1000.0, 5).status, Status::kOk);
   EXPECT_EQ(device_line("lumped", 1000.0, 5).found, "lumped, simulated");
