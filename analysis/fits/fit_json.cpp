@@ -100,6 +100,34 @@ Json to_json(const Comparison& comparison) {
   return json;
 }
 
+Json to_json(const OmnibusTest& test) {
+  Json json;
+  json["status"] = to_string(test.status);
+  json["reason"] = sentence(test.reason);
+  json["method"] = test.method;
+  json["num_people"] = test.num_people;
+  json["num_conditions"] = test.num_conditions;
+  json["statistic_name"] = test.statistic_name;
+  json["statistic"] = number(test.statistic);
+  json["degrees_of_freedom"] = number(test.degrees_of_freedom);
+  json["p_value"] = number(test.p_value);
+  if (test.statistic_name != "F") {
+    json["concordance"] = number(test.concordance);
+    return json;
+  }
+  json["error_degrees_of_freedom"] = number(test.error_degrees_of_freedom);
+  const auto add = [&json](const std::string& name,
+                           const std::optional<SphericityCorrection>& correction) {
+    json["epsilon_" + name] = correction ? Json(correction->epsilon) : Json(nullptr);
+    json["p_value_" + name] = correction ? Json(correction->p_value) : Json(nullptr);
+  };
+  add("greenhouse_geisser", test.greenhouse_geisser);
+  add("huynh_feldt", test.huynh_feldt);
+  json["partial_eta_squared"] = number(test.partial_eta_squared);
+  json["generalized_eta_squared"] = number(test.generalized_eta_squared);
+  return json;
+}
+
 Json to_json(const EquivalenceTest& test) {
   const bool is_ratio = test.margin.scale == EquivalenceMargin::Scale::kRatio;
   Json json;

@@ -6,6 +6,7 @@
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/equivalence_test.h"
+#include "analysis/statistics/omnibus_test.h"
 
 namespace jnd::analysis {
 
@@ -15,5 +16,6 @@ namespace jnd::analysis {
 [[nodiscard]] nlohmann::ordered_json to_json(const PowerFit& fit);
 [[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
 [[nodiscard]] nlohmann::ordered_json to_json(const EquivalenceTest& test);
+[[nodiscard]] nlohmann::ordered_json to_json(const OmnibusTest& test);
 
 }  // namespace jnd::analysis

@@ -20,6 +20,10 @@ struct Comparison {
     kOneSample,
     kRankSum,
     kSpearman,
+    kKendall,
+    kSign,
+    kPermutation,
+    kGroupPermutation,
     kDispersion  ///< Of standardised values of people, none of which should vary but by chance.
   };
 
@@ -103,6 +107,26 @@ enum class EffectSizes { kComputed, kLeftOut };
 /// n - 2 degrees of freedom; ranks that agree wholly are exact there, too. `method` says which.
 [[nodiscard]] Comparison spearman_correlation(const std::vector<double>& a,
                                               const std::vector<double>& b);
+
+/// Kendall's tau b (1938, 1945). Up to 50 pairs without ties p is exact, over all orders, and
+/// the statistic is the number of concordant pairs; else normal, with the variance corrected
+/// for ties and, as R's cor.test has it, without a continuity correction.
+[[nodiscard]] Comparison kendall_correlation(const std::vector<double>& a,
+                                             const std::vector<double>& b);
+
+/// Sign test of the differences a[i] - b[i], exact: those of 0 are left out. The estimate is
+/// the median of all of them, with its interval by their order, none below six.
+[[nodiscard]] Comparison sign_test(const std::vector<double>& a, const std::vector<double>& b);
+
+/// Whether the mean of the differences is 0, over all signs of them (Fisher 1935): exact up to
+/// 20 pairs, beyond by 99,999 arrangements that are drawn, the same ones for the same data.
+[[nodiscard]] Comparison permutation_test(const std::vector<double>& a,
+                                          const std::vector<double>& b);
+
+/// Whether two groups have the same mean, over all ways to share the values out (Pitman 1937):
+/// exact up to 2^20 ways, beyond drawn as above.
+[[nodiscard]] Comparison group_permutation_test(const std::vector<double>& a,
+                                                const std::vector<double>& b);
 
 /// Student's t with pooled variance from published means and standard deviations: for
 /// comparison with papers that print no raw data. Counts >= 2, deviations >= 0.

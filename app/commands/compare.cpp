@@ -12,11 +12,13 @@
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/comparison_data.h"
 #include "analysis/statistics/equivalence_test.h"
+#include "analysis/statistics/long_table.h"
 #include "analysis/statistics/multiplicity.h"
+#include "analysis/statistics/omnibus_test.h"
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
+#include "app/commands/comparison_words.h"
 #include "app/commands/fit_words.h"
-#include "app/results/statistic_words.h"
 #include "core/error.h"
 
 namespace jnd::app {
@@ -29,11 +31,18 @@ using Json = nlohmann::ordered_json;
 struct CompareOptions {
   std::string csv, test;
   std::vector<std::string> group_by;
+  std::string value, by, pair;  ///< Long format: one value a row; "" for the columns a and b.
+  std::vector<std::string> levels;
   std::optional<double> margin, margin_ratio;
   bool json = false;
 };
 
-bool is_paired(const std::string& test) { return test != "welch" && test != "ranksum"; }
+bool is_paired(const std::string& test) {
+  return test != "welch" && test != "ranksum" && test != "group-permutation";
+}
+
+/// Of several conditions at once.
+bool is_omnibus(const std::string& test) { return test == "anova" || test == "friedman"; }
 
 Comparison compared(const std::string& test, const analysis::ComparedColumns& columns) {
   const std::vector<double>&a = columns.a, &b = columns.b;
@@ -42,6 +51,10 @@ Comparison compared(const std::string& test, const analysis::ComparedColumns& co
   if (test == "wilcoxon") return analysis::wilcoxon_test(a, b);
   if (test == "ranksum") return analysis::rank_sum_test(a, b);
   if (test == "spearman") return analysis::spearman_correlation(a, b);
+  if (test == "kendall") return analysis::kendall_correlation(a, b);
+  if (test == "sign") return analysis::sign_test(a, b);
+  if (test == "permutation") return analysis::permutation_test(a, b);
+  if (test == "group-permutation") return analysis::group_permutation_test(a, b);
   return analysis::paired_t_test(a, b);
 }
 
@@ -60,71 +73,21 @@ std::optional<analysis::EquivalenceMargin> margin_of(const CompareOptions& optio
   return analysis::EquivalenceMargin{Scale::kDifference, *options.margin};
 }
 
-std::string defined(const std::optional<double>& value) {
-  return value ? number(value) : "undefined";
-}
-
-/// A p value may be less than any number there is.
-std::string p_words(const std::optional<double>& p_value) {
-  return p_value == 0.0 ? "< 1e-300" : defined(p_value);
-}
-
-void print_interval(const char* name, const analysis::Interval& interval) {
-  if (!interval.low || !interval.high) return;
-  fmt::print("  {:<24} {:.4g} to {:.4g}\n", name, *interval.low, *interval.high);
-}
-
-void print_effect(const char* name, const std::optional<double>& value,
-                  const analysis::Interval& interval) {
-  if (!value) return;
-  fmt::print("  {:<24} {}\n", name, defined(value));
-  print_interval("  95 %", interval);
-}
-
-void print_for_people(const analysis::EquivalenceTest& test) {
-  const bool is_ratio = test.margin.scale == analysis::EquivalenceMargin::Scale::kRatio;
-  const std::string within = is_ratio ? fmt::format("a over b within {:.4g} to {:.4g}",
-                                                    1.0 / test.margin.size, test.margin.size)
-                                      : fmt::format("a - b within {:.4g} to {:.4g}",
-                                                    -test.margin.size, test.margin.size);
-  fmt::print("  equivalence: {} (two one-sided tests)\n", within);
-  if (!test.p_value) {
-    fmt::print("    {}\n", test.reason);
-    return;
+/// What was left out of a group in long format, or averaged.
+void print_rows(const analysis::LongGroup& group) {
+  if (!group.incomplete.empty()) {
+    fmt::print("  left out, for they lack a condition: {}\n",
+               fmt::join(group.incomplete, ", "));
   }
-  fmt::print("    {:<22} {}\n", is_ratio ? "ratio" : "difference", defined(test.estimate));
-  fmt::print("    {:<22} {:.4g} to {:.4g}\n", "90 %", *test.ci90.low, *test.ci90.high);
-  fmt::print("    {:<22} {}\n", "degrees of freedom", defined(test.degrees_of_freedom));
-  fmt::print(
-      "    {:<22} {}, {}\n", "p", p_words(test.p_value),
-      test.is_equivalent() ? "so they are the same within that" : "so that is not shown");
+  if (group.num_averaged > 0) {
+    fmt::print("  {} with several values of one person and condition: their mean counts\n",
+               group.num_averaged);
+  }
 }
 
-void print_for_people(const Comparison& result) {
-  using Kind = Comparison::Kind;
-  const bool correlation = result.kind == Kind::kPearson || result.kind == Kind::kSpearman;
-  fmt::print("{}, {} and {} values\n", result.method, result.num_a, result.num_b);
-  if (!result.reason.empty()) fmt::print("  {}\n", result.reason);
-  const char* difference = result.kind == Kind::kWelch || result.kind == Kind::kRankSum
-                               ? "mean of a - mean of b"
-                               : "mean of a - b";
-  fmt::print("  {:<24} {}\n", correlation ? "r" : difference, defined(result.estimate));
-  print_interval("  95 %", result.ci95);
-  print_effect("Hodges-Lehmann", result.hodges_lehmann, result.hodges_lehmann_ci95);
-  if (result.hodges_lehmann && result.num_zeros > 0) {
-    fmt::print("    of the differences other than 0 alone, as the test\n");
-  }
-  if (result.status != analysis::FitStatus::kOk) return;
-  for (const auto& [name, value] : result.all_statistics()) {
-    fmt::print("  {:<24} {}\n", statistic_title(name), defined(value));
-  }
-  if (result.degrees_of_freedom) {
-    fmt::print("  {:<24} {}\n", "degrees of freedom", defined(result.degrees_of_freedom));
-  }
-  fmt::print("  {:<24} {}\n", "p, two-sided", p_words(result.p_value));
-  print_effect("Cohen's dz", result.cohen_dz, result.cohen_dz_ci95);
-  print_effect("Hedges' g", result.hedges_g, result.hedges_g_ci95);
-  print_effect("rank-biserial r", result.rank_biserial, {});
+void print_missing(const analysis::LongTable& table) {
+  if (table.num_missing == 0) return;
+  fmt::print("rows left out, for a cell is empty or NA: {}\n", table.num_missing);
 }
 
 /// The groups of a table with their tests, and the p values adjusted for there being several.
@@ -133,12 +96,56 @@ struct Tests {
   std::vector<Comparison> results;
   std::vector<std::optional<double>> p_values_holm;
   std::vector<analysis::EquivalenceTest> equivalences;  ///< Where a margin is given.
+  analysis::LongTable long_table;  ///< Its groups are those above; none of columns a and b.
 };
+
+analysis::LongColumns long_columns(const CompareOptions& options) {
+  return {.value = options.value,
+          .by = options.by,
+          .pair = options.pair,
+          .group_by = options.group_by,
+          .levels = options.levels};
+}
+
+/// Throws `UsageError` where the options of long format do not fit the test.
+void require_long_format(const CompareOptions& options) {
+  const bool needs_pair = is_paired(options.test);
+  if (options.value.empty() != options.by.empty()) {
+    throw UsageError(
+        "--value and --by: expected both or neither, found one; --value names the "
+        "column of numbers, --by that of conditions");
+  }
+  if (options.value.empty()) {
+    if (is_omnibus(options.test)) {
+      throw UsageError("--test " + options.test +
+                       ": expected a table in long format, found no --value; say --value "
+                       "COLUMN --by COLUMN --pair COLUMN");
+    }
+    if (!options.pair.empty() || !options.levels.empty()) {
+      throw UsageError("--pair and --levels: expected --value and --by with them, found none");
+    }
+  } else if (needs_pair == options.pair.empty()) {
+    throw UsageError("--pair: expected " +
+                     std::string(needs_pair ? "the column that says whose a value is"
+                                            : "none, for the groups are of different people") +
+                     " with --test " + options.test + ", found " +
+                     (needs_pair ? "none" : options.pair));
+  }
+}
 
 /// Throws `core::Error` where the table has problems.
 Tests tests_of(const CompareOptions& options) {
-  Tests tests{.columns = analysis::read_compared(analysis::CsvTable::read(options.csv),
-                                                 options.group_by, is_paired(options.test))};
+  const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
+  Tests tests;
+  if (options.value.empty()) {
+    tests.columns = analysis::read_compared(table, options.group_by, is_paired(options.test));
+  } else {
+    tests.long_table = analysis::read_long(table, long_columns(options));
+    for (const analysis::LongGroup& group : tests.long_table.groups) {
+      tests.columns.push_back(
+          analysis::two_conditions(group, is_paired(options.test), options.csv));
+    }
+  }
   std::vector<std::optional<double>> p_values;
   const std::optional<analysis::EquivalenceMargin> margin = margin_of(options);
   for (const analysis::ComparedColumns& columns : tests.columns) {
@@ -153,11 +160,20 @@ Tests tests_of(const CompareOptions& options) {
   return tests;
 }
 
+void add_rows(Json& json, const analysis::LongTable& table, std::size_t i) {
+  const analysis::LongGroup& group = table.groups[i];
+  json["conditions"] = group.conditions;
+  json["incomplete"] = group.incomplete;
+  json["num_averaged"] = group.num_averaged;
+  json["num_missing"] = table.num_missing;
+}
+
 Json to_json(const Tests& tests, std::size_t i) {
   Json json = analysis::to_json(tests.results[i]);
   if (!tests.equivalences.empty()) {
     json["equivalence"] = analysis::to_json(tests.equivalences[i]);
   }
+  if (!tests.long_table.groups.empty()) add_rows(json, tests.long_table, i);
   return json;
 }
 
@@ -174,32 +190,90 @@ Json to_json(const Tests& tests) {
   return {{"groups", std::move(groups)}};
 }
 
+void print_group(const std::vector<std::pair<std::string, std::string>>& key) {
+  std::string heading;
+  for (const auto& [column, value] : key) {
+    heading += (heading.empty() ? "" : ", ") + column + " " + group_words(value);
+  }
+  if (!heading.empty()) fmt::print("{}\n", heading);
+}
+
+void print_test(const Tests& tests, std::size_t i) {
+  print_comparison(tests.results[i]);
+  if (!tests.equivalences.empty()) print_equivalence(tests.equivalences[i]);
+  if (tests.long_table.groups.empty()) return;
+  fmt::print("  a is {}, b is {}\n", tests.long_table.groups[i].conditions[0],
+             tests.long_table.groups[i].conditions[1]);
+  print_rows(tests.long_table.groups[i]);
+}
+
 void print_for_people(const Tests& tests) {
   for (std::size_t i = 0; i < tests.results.size(); ++i) {
-    std::string heading;
-    for (const auto& [column, value] : tests.columns[i].key) {
-      heading += (heading.empty() ? "" : ", ") + column + " " + group_words(value);
-    }
-    fmt::print("{}\n", heading);
-    print_for_people(tests.results[i]);
-    if (!tests.equivalences.empty()) print_for_people(tests.equivalences[i]);
+    print_group(tests.columns[i].key);
+    print_test(tests, i);
     if (tests.p_values_holm[i]) {
       fmt::print("  {:<24} {}\n", "p adjusted by Holm", p_words(tests.p_values_holm[i]));
     }
   }
 }
 
+/// Of several conditions at once, a test for each group.
+int run_omnibus(const CompareOptions& options) {
+  const analysis::LongTable table =
+      analysis::read_long(analysis::CsvTable::read(options.csv), long_columns(options));
+  std::vector<analysis::OmnibusTest> tests;
+  std::vector<std::optional<double>> p_values;
+  for (const analysis::LongGroup& group : table.groups) {
+    tests.push_back(options.test == "anova" ? analysis::repeated_measures_anova(group.complete)
+                                            : analysis::friedman_test(group.complete));
+    p_values.push_back(tests.back().p_value);
+  }
+  const std::vector<std::optional<double>> adjusted = analysis::holm_adjusted(p_values);
+  Json groups = Json::array();
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    if (!options.json) {
+      print_group(table.groups[i].key);
+      print_omnibus_test(tests[i], table.groups[i].conditions);
+      print_rows(table.groups[i]);
+      if (tests.size() > 1)
+        fmt::print("  {:<24} {}\n", "p adjusted by Holm", p_words(adjusted[i]));
+      continue;
+    }
+    Json json;
+    for (const auto& [column, value] : table.groups[i].key) json["group"][column] = value;
+    json.update(analysis::to_json(tests[i]));
+    add_rows(json, table, i);
+    if (tests.size() > 1)
+      json["p_value_holm"] = adjusted[i] ? Json(*adjusted[i]) : Json(nullptr);
+    groups.push_back(std::move(json));
+  }
+  if (options.json) {
+    fmt::print("{}\n", json_text(options.group_by.empty() && !groups.empty()
+                                     ? groups[0]
+                                     : Json{{"groups", std::move(groups)}}));
+  }
+  if (!options.json) print_missing(table);
+  const auto lacking = std::ranges::find_if(
+      tests, [](const analysis::OmnibusTest& one) { return one.status != FitStatus::kOk; });
+  if (lacking == tests.end() && !tests.empty()) return kDone;
+  fmt::print(stderr, "jnd: {}: expected values that can be compared, found {}\n", options.csv,
+             tests.empty() ? "no rows" : lacking->reason);
+  return kHasProblems;
+}
+
 int run_compare(const CompareOptions& options) {
+  require_long_format(options);
+  if (is_omnibus(options.test)) return run_omnibus(options);
   const Tests tests = tests_of(options);
   if (options.json) {
     fmt::print("{}\n",
                json_text(options.group_by.empty() ? to_json(tests, 0) : to_json(tests)));
   } else if (options.group_by.empty()) {
-    print_for_people(tests.results[0]);
-    if (!tests.equivalences.empty()) print_for_people(tests.equivalences[0]);
+    print_test(tests, 0);
   } else {
     print_for_people(tests);
   }
+  if (!options.json) print_missing(tests.long_table);
   if (tests.results.empty()) {
     fmt::print(stderr, "jnd: {}: expected rows below the header, found none\n", options.csv);
     return kHasProblems;
@@ -226,22 +300,50 @@ int run_compare(const CompareOptions& options) {
 void add_compare(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<CompareOptions>();
   CLI::App& compare = *program.add_subcommand("compare", "Compare two columns of a table");
-  compare.add_option("--csv", options->csv, "table with the columns a,b")->required();
+  compare
+      .add_option("--csv", options->csv,
+                  "table with the columns a,b, or in long format, one value a row (--value)")
+      ->required();
   compare
       .add_option(
           "--test", options->test,
-          "paired, welch, pearson or wilcoxon; also ranksum (two groups, by ranks) and "
-          "spearman. p values of ranks are exact, with ties, too: up to 50 differences "
+          "paired, welch, pearson or wilcoxon; also ranksum (two groups, by ranks), spearman, "
+          "kendall (tau b), sign, permutation (mean of differences, over all signs), "
+          "group-permutation (difference of means, over all groupings); of several conditions "
+          "in "
+          "long format anova (of repeated measures) and friedman. p values of ranks are exact, "
+          "with ties, too: up to 50 differences "
           "other than 0 or 50 values in both groups, 14 pairs of spearman; two-sided is "
           "twice the smaller tail, at most 1")
       ->required()
-      ->check(CLI::IsMember({"paired", "welch", "pearson", "wilcoxon", "ranksum", "spearman"}));
+      ->check(CLI::IsMember({"paired", "welch", "pearson", "wilcoxon", "ranksum", "spearman",
+                             "kendall", "sign", "permutation", "group-permutation", "anova",
+                             "friedman"}));
   compare
       .add_option("--group-by", options->group_by,
                   "columns; one test for each of their values, p adjusted by Holm")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("COLUMN[,COLUMN,..]");
+  compare
+      .add_option("--value", options->value,
+                  "long format: the column of numbers; cells that are empty or NA are left out")
+      ->option_text("COLUMN");
+  compare
+      .add_option("--by", options->by,
+                  "long format: the column of conditions; the first is a, the second b")
+      ->option_text("COLUMN");
+  compare
+      .add_option("--pair", options->pair,
+                  "long format: the column that says whose a value is; several values of one "
+                  "person and condition are averaged, who lacks a condition is left out")
+      ->option_text("COLUMN");
+  compare
+      .add_option("--levels", options->levels,
+                  "long format: the conditions to compare, in this order")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("A,B[,..]");
   CLI::Option* const difference =
       compare
           .add_option(

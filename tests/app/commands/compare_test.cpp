@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "app/json_document.h"
 #include "app/tiny_study.h"
@@ -12,6 +13,7 @@ namespace jnd::app {
 namespace compare_test {
 
 using test_support::ProgramOutcome;
+using Words = std::vector<std::string>;
 
 ProgramOutcome compared(const std::string& text, const char* test,
                         const std::vector<std::string>& more = {"--json"}) {
@@ -45,6 +47,51 @@ TEST(CompareCommand, PairedIsStudentsTOfTheDifferences) {
   EXPECT_NEAR(json["statistic"].get<double>(), 2.8284271247461903, 1e-9);
   EXPECT_EQ(json["degrees_of_freedom"], 3.0);
   EXPECT_NEAR(json["cohen_dz"].get<double>(), 1.4142135623730951, 1e-9);
+}
+
+constexpr char kLong[] =
+    "who,fluid,w\nP1,thin,1\nP1,thick,0\nP2,thin,3\nP2,thick,1\nP3,thin,4\nP3,thick,3\n"
+    "P4,thin,8\nP4,thick,4\nP5,thin,NA\nP5,thick,2\n";
+
+TEST(CompareCommand, ATableInLongFormatGivesWhatItsColumnsWouldAndNamesWhoIsLeftOut) {
+  const Words columns = {"--value", "w", "--by", "fluid", "--pair", "who"};
+  Words words = columns;
+  words.emplace_back("--json");
+  const auto pairs = document(compared(kPairs, "paired").out);
+  const auto json = document(compared(kLong, "paired", words).out);
+  EXPECT_EQ(json["statistic"], pairs["statistic"]);
+  EXPECT_EQ(json["conditions"], (std::vector<std::string>{"thin", "thick"}));
+  EXPECT_EQ(json["incomplete"], (std::vector<std::string>{"P5"}));
+  EXPECT_EQ(json["num_missing"], 1);
+  words.insert(words.end(), {"--levels", "thick,thin"});
+  EXPECT_EQ(document(compared(kLong, "paired", words).out)["estimate"], -2.0);
+  // Of two conditions F is t squared.
+  const auto anova = document(
+      compared(kLong, "anova", {"--value", "w", "--by", "fluid", "--pair", "who", "--json"})
+          .out);
+  EXPECT_NEAR(anova["statistic"].get<double>(), 8.0, 1e-9);
+  EXPECT_EQ(anova["p_value_greenhouse_geisser"], anova["p_value"]);
+  const ProgramOutcome told = compared(kLong, "friedman", columns);
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_NE(told.out.find("left out, for they lack a condition: P5"), std::string::npos);
+  EXPECT_NE(told.out.find("a cell is empty or NA: 1"), std::string::npos) << told.out;
+}
+
+TEST(CompareCommand, OptionsOfLongFormatThatDoNotFitAreToldInASentence) {
+  for (const auto& [test, more, found] :
+       {std::tuple{"anova", Words{}, "expected a table in long format, found no --value"},
+        {"paired", {"--value", "w"}, "expected both or neither, found one"},
+        {"paired",
+         {"--value", "w", "--by", "fluid"},
+         "says whose a value is with --test paired"},
+        {"welch",
+         {"--value", "w", "--by", "fluid", "--pair", "who"},
+         "the groups are of different people with --test welch, found who"},
+        {"sign", {"--levels", "thin,thick"}, "expected --value and --by with them"}}) {
+    const ProgramOutcome outcome = compared(kLong, test, more);
+    EXPECT_EQ(outcome.exit_code, 2) << test << outcome.err;
+    EXPECT_NE(outcome.err.find(found), std::string::npos) << outcome.err;
+  }
 }
 
 TEST(CompareCommand, TellsWhetherConditionsAreTheSameWithinAMargin) {
