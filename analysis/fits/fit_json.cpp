@@ -62,6 +62,29 @@ Json to_json(const PowerFit& fit) {
   return json;
 }
 
+Json to_json(const ShiftedPowerFit& fit) {
+  Json json;
+  json["status"] = to_string(fit.status);
+  json["reason"] = sentence(fit.reason);
+  json["method"] = to_string(fit.method);
+  json["shift"] = to_string(fit.shift);
+  json["k"] = number(fit.k);
+  json["k_ci95"] = interval(fit.k_ci95);
+  json["a"] = number(fit.a);
+  json["a_ci95"] = interval(fit.a_ci95);
+  json["intensity_threshold"] = number(fit.intensity_threshold);
+  json["magnitude_offset"] = number(fit.magnitude_offset);
+  json["shift_ci95"] = interval(fit.shift_ci95);
+  json["shift_statistic"] = number(fit.shift_statistic);
+  json["shift_p_value"] = number(fit.shift_p_value);
+  json["no_interval"] = sentence(fit.no_interval);
+  json["sum_of_squares"] = number(fit.sum_of_squares);
+  json["r_squared"] = number(fit.r_squared);
+  json["num_rows"] = fit.num_rows;
+  json["num_left_out"] = fit.num_left_out;
+  return json;
+}
+
 Json to_json(const Comparison& comparison) {
   Json json;
   json["status"] = to_string(comparison.status);

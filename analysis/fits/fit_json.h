@@ -4,6 +4,7 @@
 
 #include "analysis/fits/power_fit.h"
 #include "analysis/fits/psychometric_fit.h"
+#include "analysis/fits/shifted_power_fit.h"
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/equivalence_test.h"
 #include "analysis/statistics/omnibus_test.h"
@@ -14,6 +15,7 @@ namespace jnd::analysis {
 /// finite; what does not exist is null, an open end of an interval too.
 [[nodiscard]] nlohmann::ordered_json to_json(const PsychometricFit& fit);
 [[nodiscard]] nlohmann::ordered_json to_json(const PowerFit& fit);
+[[nodiscard]] nlohmann::ordered_json to_json(const ShiftedPowerFit& fit);
 [[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
 [[nodiscard]] nlohmann::ordered_json to_json(const EquivalenceTest& test);
 [[nodiscard]] nlohmann::ordered_json to_json(const OmnibusTest& test);

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/fits/power_fit.h"
@@ -14,6 +15,12 @@ enum class PowerShift {
   kThreshold,  ///< S = k (I - I0)^a: nothing is felt below I0 (Ekman 1956); I0 may be < 0.
   kOffset,     ///< S = S0 + k I^a: what is felt without a stimulus. Least squares of S alone.
 };
+
+[[nodiscard]] constexpr std::string_view to_string(PowerShift shift) noexcept {
+  return shift == PowerShift::kNone        ? "none"
+         : shift == PowerShift::kThreshold ? "threshold"
+                                           : "offset";
+}
 
 /// A power law whose intervals are by the profile of its sum of squares: all values of a
 /// parameter for which, the others being fitted anew, the squares grow by no more than F with 1

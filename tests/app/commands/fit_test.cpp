@@ -85,6 +85,25 @@ TEST_F(FitCommandTest, PowerPrintsTheKeysOfTheContract) {
   EXPECT_EQ(log_log["excluded"].size(), 1U);
 }
 
+TEST_F(FitCommandTest, PowerLawsHaveAnOffsetOrAThresholdWhereThatIsAskedFor) {
+  table("o.csv", "intensity,magnitude\n1,3\n4,5.1\n9,6.9\n16,9.1\n25,10.9\n");
+  const auto offset = document(fit({"power", "--csv", "o.csv", "--shift", "offset"}).out);
+  EXPECT_EQ(offset["status"], "ok");
+  EXPECT_NEAR(offset["magnitude_offset"].get<double>(), 1.0, 0.5) << "1 + 2 sqrt I, about";
+  EXPECT_NEAR(offset["a"].get<double>(), 0.5, 0.1);
+  EXPECT_TRUE(offset["shift_ci95"].is_array());
+  EXPECT_TRUE(offset["intensity_threshold"].is_null());
+  const std::string told =
+      fit({"power", "--csv", "o.csv", "--shift", "threshold", "--method", "loglog"}, false).out;
+  EXPECT_NE(told.find("S = k (I - I0)^a by least squares of the logarithms"), std::string::npos)
+      << told;
+  EXPECT_NE(told.find("against the law without it: F = "), std::string::npos) << told;
+  const ProgramOutcome wrong =
+      fit({"power", "--csv", "o.csv", "--shift", "offset", "--method", "loglog"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("expected --method nls, found loglog"), std::string::npos);
+}
+
 TEST_F(FitCommandTest, PowerCountsTheRowsAtIntensityZeroThatItLeavesOut) {
   table("m.csv", "intensity,magnitude\n0,0\n0,0\n0,0\n1,1\n2,3\n4,3\n");
   const std::string out = fit({"power", "--csv", "m.csv"}, false).out;
