@@ -76,14 +76,14 @@ void OperatedSession::count_trials(TrialView& view) const {
   for (const std::int64_t index : session_.current_stages()) {
     int num = 0;
     for (const TrialState& trial : state().trials) {
-      if (trial.stage != index) continue;
+      if (trial.stage != index || trial.is_void) continue;
       ++num;
       // Blocks of a group have repetitions each of its own.
       if (!is_group) {
         view.num_repetitions = std::max(view.num_repetitions, trial.planned.repetition);
       }
       // By what was answered: a trial that was put off comes later than its number.
-      if (trial.is_answered || trial.is_void) ++view.in_block;
+      if (trial.is_answered) ++view.in_block;
     }
     const auto& its =
         std::get<Block>(session_.stages().at(static_cast<std::size_t>(index))->content);
@@ -130,6 +130,7 @@ std::vector<AnswerLine> OperatedSession::answer_lines() const {
   std::map<std::size_t, int> in_block;  // By the stage, or the first one of its group.
   for (const std::size_t i : trials_in_order()) {
     const TrialState& trial = state().trials[i];
+    if (trial.is_void) continue;  // It was never run.
     const auto its_stage = static_cast<std::size_t>(trial.stage);
     const int number = ++in_block[first_together(its_stage)];
     if (!trial.is_answered) continue;

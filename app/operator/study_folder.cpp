@@ -92,11 +92,11 @@ class Interruption {
   /// there will be.
   static void add_trials(const experiments::SessionState& state, std::int64_t index,
                          const experiments::Stage& stage, InterruptedSession& session) {
-    auto num_trials = decltype(session.num_trials){0};
+    auto num_trials = decltype(session.num_trials)(0);
     for (const experiments::TrialState& trial : state.trials) {
-      if (trial.stage != index) continue;
+      if (trial.stage != index || trial.is_void) continue;
       ++num_trials;
-      if (trial.is_answered || trial.is_void) ++session.trial;
+      if (trial.is_answered) ++session.trial;
     }
     const auto* block = std::get_if<experiments::Block>(&stage.content);
     if (block != nullptr && (analysis::length_is_expected(*block) || block->practice)) {
