@@ -108,7 +108,8 @@ class Session {
   void answer(const std::optional<double>& value, const core::AnswerMeasures& measures,
               std::int64_t last_tick);
   /// The question that waits for its answer: the first of the block that an answered trial of
-  /// it has none to. The next turn of interleaved blocks is drawn after the last. While there is one, no trial begins and the block does not end.
+  /// it has none to. The next turn of interleaved blocks is drawn after the last. While there
+  /// is one, no trial begins and the block does not end.
   [[nodiscard]] std::optional<OpenQuestion> open_question() const;
   /// Answers it; throws `Error` where another one waits, or none, and where `answer` is none
   /// that its kind can have. `kNoAnswer` leaves out one that is not required.
@@ -127,8 +128,8 @@ class Session {
 
   /// Throws as `undo` would where there is nothing to be taken back.
   void require_undo() const;
-  /// Takes the last answer of the current block back, of interleaved blocks the last one of all;
-  /// its trial is run again.
+  /// Takes the last answer of the current block back, of interleaved blocks the last one of
+  /// all; its trial is run again.
   void undo(const std::string& reason);
   /// Sets an earlier answer right, its presentations untouched; `value` as in `answer`, in
   /// production the intensity.

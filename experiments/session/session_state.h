@@ -57,13 +57,13 @@ struct SessionState {
   bool paused = false;
   /// The stage under way, or the next one; of interleaved blocks the one whose turn it is.
   std::int64_t stage = 0;
-  bool stage_open = false;         ///< Entered and not finished.
+  bool stage_open = false;          ///< Entered and not finished.
   std::int64_t first_together = 0;  ///< First of the stages that were entered with this one.
   std::int64_t num_together = 1;    ///< How many these are; more than 1: interleaved blocks.
   bool turn_is_due = false;         ///< Of these: nobody has drawn yet whose trial comes next.
   std::int64_t num_put_off = 0;     ///< Trials of these that were put off so far.
-  std::int64_t num_explored = 0;   ///< Media explored in this stage.
-  std::vector<TrialState> trials;  ///< Trial number n is at n - 1.
+  std::int64_t num_explored = 0;    ///< Media explored in this stage.
+  std::vector<TrialState> trials;   ///< Trial number n is at n - 1.
   /// Last answer to (stage, item).
   std::map<std::pair<std::int64_t, std::string>, std::string> answers;
   /// What was told of the last answer, until the next trial begins.
@@ -77,8 +77,7 @@ struct SessionState {
 
   /// One of the stages that were entered and not finished.
   [[nodiscard]] bool is_under_way(std::int64_t of_stage) const {
-    return stage_open && of_stage >= first_together &&
-           of_stage < first_together + num_together;
+    return stage_open && of_stage >= first_together && of_stage < first_together + num_together;
   }
   void forget_told() {
     feedback_right.reset();
