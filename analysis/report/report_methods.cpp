@@ -228,6 +228,35 @@ std::string apparatus_words(const ChapterSource& source) {
   return text;
 }
 
+/// One sentence for each group of blocks whose trials were mixed; "" where there is none.
+std::string interleaved_words(const ChapterSource& source) {
+  struct Group {
+    experiments::Interleaving its;
+    std::vector<std::string> titles;
+  };
+  std::vector<Group> groups;
+  for_each_stage(source.report.data.written.stages, [&](const experiments::Stage& stage) {
+    if (!stage.interleaving) return;
+    if (groups.empty() || !(groups.back().its == *stage.interleaving)) {
+      groups.push_back({.its = *stage.interleaving, .titles = {}});
+    }
+    groups.back().titles.push_back("“" + source.titles.title_of(stage.name) + "”");
+  });
+  std::string text;
+  for (const Group& group : groups) {
+    text += text.empty() ? "Trials of " : " Trials of ";
+    for (std::size_t i = 0; i < group.titles.size(); ++i) {
+      text += (i == 0 ? "" : i + 1 == group.titles.size() ? " and " : ", ") + group.titles[i];
+    }
+    text += group.its.turns == experiments::Turns::kRandom
+                ? " were interleaved: the next trial was drawn from all that were left, "
+                  "whatever their block."
+                : " were interleaved: in every round each block that had trials left came "
+                  "once, in an order drawn anew.";
+  }
+  return text;
+}
+
 }  // namespace
 
 void write_methods(HtmlText& html, const ChapterSource& source) {
@@ -244,6 +273,9 @@ void write_methods(HtmlText& html, const ChapterSource& source) {
                      block_words(source.report.data, block));
   }
   html.list(blocks);
+  if (const std::string mixed = interleaved_words(source); !mixed.empty()) {
+    html.paragraph_about("Interleaved blocks", mixed);
+  }
   html.paragraph_about("Apparatus", apparatus_words(source));
   for (const auto& [topic, text] : method_words(source.report).topics) {
     html.paragraph_about(topic, text);

@@ -31,6 +31,7 @@
 #include "app/session/stored_session.h"
 #include "core/error.h"
 #include "device/registry/device_registry.h"
+#include "experiments/order/block_turns.h"
 #include "experiments/protocol/study_reader.h"
 
 namespace jnd::app {
@@ -149,6 +150,17 @@ ordered_json to_json(const experiments::PlannedTrial& trial) {
   return json;
 }
 
+/// `turns` is null where the answers decide how many trials a block has.
+ordered_json to_json(const experiments::PlannedGroup& group) {
+  auto blocks = ordered_json::array(), turns = ordered_json::array();
+  for (const experiments::Stage* block : group.blocks) blocks.push_back(block->name);
+  for (const std::size_t index : group.order) turns.push_back(group.blocks[index]->name);
+  return {{"name", group.name},
+          {"rule", experiments::to_string(group.turns)},
+          {"blocks", std::move(blocks)},
+          {"turns", group.order.empty() ? ordered_json() : std::move(turns)}};
+}
+
 /// Whether the answers decide how many trials the block has.
 bool answers_decide(const experiments::Block& block) {
   return analysis::length_is_expected(block) || block.practice;
@@ -174,10 +186,14 @@ ordered_json to_json(const experiments::ParticipantPlan& plan,
       order.back()["num_trials_simulated"] = to_decimals(simulated->second.mean, 6);
     }
   }
-  return {{"id", plan.participant},
-          {"cells", to_string(plan.cell)},
-          {"order", std::move(order)},
-          {"duration_s", to_decimals(plan.duration_s, 6)}};
+  ordered_json json = {
+      {"id", plan.participant}, {"cells", to_string(plan.cell)}, {"order", std::move(order)}};
+  if (!plan.groups.empty()) json["interleaved"] = ordered_json::array();
+  for (const experiments::PlannedGroup& group : plan.groups) {
+    json["interleaved"].push_back(to_json(group));
+  }
+  json["duration_s"] = to_decimals(plan.duration_s, 6);
+  return json;
 }
 
 ordered_json to_json(const experiments::RangeEntry& entry) {
@@ -290,6 +306,19 @@ void print_order(const experiments::PlannedBlock& block) {
   fmt::print("\n");
 }
 
+/// Which blocks are mixed, and their turns by their places in the group.
+void print_group(const experiments::PlannedGroup& group) {
+  fmt::print("    {}: ", group.name);
+  for (std::size_t i = 0; i < group.blocks.size(); ++i) {
+    fmt::print("{}{} {}", i == 0 ? "" : ", ", i + 1, group.blocks[i]->name);
+  }
+  fmt::print(", interleaved {}\n", experiments::turns_words(group.turns));
+  if (group.order.empty()) return;
+  fmt::print("      turns:");
+  for (const std::size_t index : group.order) fmt::print(" {}", index + 1);
+  fmt::print("\n");
+}
+
 void print_range(const PlanOutcome& outcome, const PlanOptions& options) {
   fmt::print(
       "\nStimuli on `{}`: at most {:g} N at a point and {:g} N in all; hand head on at {:g} "
@@ -339,6 +368,7 @@ void print(const PlanOutcome& outcome, const PlanOptions& options) {
   for (const experiments::ParticipantPlan& plan : outcome.plans) {
     fmt::print("  {} {}\n", plan.participant, to_string(plan.cell));
     for (const experiments::PlannedBlock& block : plan.blocks) print_order(block);
+    for (const experiments::PlannedGroup& group : plan.groups) print_group(group);
   }
   fmt::print("\nBalance: completed sessions, and with the planned ones\n");
   for (const auto& [cell, counts] : balance_of(outcome)) {

@@ -121,6 +121,11 @@ class OperatedSession {
       const experiments::Block& block, const experiments::TrialForm& form) const;
   [[nodiscard]] TrialView trial_view(std::int64_t number) const;
   [[nodiscard]] MediumView medium_view(const experiments::Exploration& medium) const;
+  [[nodiscard]] std::string instructions() const;
+  [[nodiscard]] std::string cautions() const;
+  void count_trials(TrialView& view) const;
+  [[nodiscard]] std::size_t first_together(std::size_t stage) const;
+  [[nodiscard]] std::vector<std::size_t> trials_in_order() const;
   [[nodiscard]] std::vector<AnswerLine> answer_lines() const;
   [[nodiscard]] std::pair<std::string, std::string> labels_of(
       const experiments::Block& block) const;

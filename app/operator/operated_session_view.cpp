@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/results/block_words.h"
 #include "app/language/words.h"
 #include "app/operator/operated_session.h"
 #include "app/operator/session_words.h"
@@ -23,23 +22,6 @@ namespace jnd::app {
 using namespace experiments;
 
 namespace {
-
-constexpr std::size_t kMostAnswersShown = 50;
-
-Text instruction_of(const Stage& stage) {
-  struct Instruction {
-    Text operator()(const Explore& content) const { return content.instruction; }
-    Text operator()(const Training& content) const { return content.instruction; }
-    Text operator()(const Block& content) const { return content.instruction; }
-    Text operator()(const Break& content) const { return content.instruction; }
-    Text operator()(const Questionnaire& content) const { return content.instruction; }
-    Text operator()(const Checklist&) const { return {}; }
-    Text operator()(const Consent&) const { return {}; }
-    Text operator()(const PostExperiment&) const { return {}; }
-    Text operator()(const Counterbalance&) const { return {}; }
-  };
-  return std::visit(Instruction{}, stage.content);
-}
 
 ItemView::Kind kind_of_item(const std::string& kind) {
   if (kind == "number") return ItemView::Kind::kNumber;
@@ -234,19 +216,7 @@ TrialView OperatedSession::trial_view(std::int64_t number) const {
                  .adjustable = form.adjustable,
                  .is_solid = block()->is_pressed(),
                  .order_is_drawn = form.order_is_drawn};
-  view.num_in_block = 0;
-  view.in_block = 1;
-  for (const TrialState& other : state().trials) {
-    if (other.stage != trial.stage) continue;
-    ++view.num_in_block;
-    view.num_repetitions = std::max(view.num_repetitions, other.planned.repetition);
-    // By what was answered: a trial that was put off comes later than its number.
-    if (other.is_answered || other.is_void) ++view.in_block;
-  }
-  if (analysis::length_is_expected(*block()) || block()->practice) {
-    view.num_is_expected = true;
-    view.num_in_block = std::max(view.num_in_block, expected_trials(*block()));
-  }
+  count_trials(view);
   if (presenter_.under_way()) {
     view.interval = shown_interval(form, trial);
     view.felt_s = presenter_.felt_s();
@@ -368,32 +338,6 @@ std::string OperatedSession::answer_in_words(const Block& block, AnswerKind kind
   return has_own_words ? (answer == 1.0 ? yes : no) : answer_words(kind, answer);
 }
 
-std::vector<AnswerLine> OperatedSession::answer_lines() const {
-  std::vector<AnswerLine> lines;
-  const std::optional<std::int64_t> last = state().last_answered_trial();
-  std::vector<int> in_block(session_.stages().size(), 0);
-  for (std::size_t i = 0; i < state().trials.size(); ++i) {
-    const TrialState& trial = state().trials[i];
-    const auto its_stage = static_cast<std::size_t>(trial.stage);
-    ++in_block[its_stage];
-    if (!trial.is_answered) continue;
-    const Block& its_block = std::get<Block>(session_.stages().at(its_stage)->content);
-    const AnswerKind kind = procedure_named(its_block.procedure).form(its_block).answer;
-    AnswerLine line{.trial = static_cast<std::int64_t>(i) + 1,
-                    .in_block = in_block[its_stage],
-                    .block = title_of(its_stage),
-                    .kind = kind,
-                    .takes_cannot_tell = its_block.cannot_tell,
-                    .response_time_s = trial.measures.response_time_s.value_or(0.0)};
-    line.answer = answer_in_words(its_block, kind, trial);
-    line.can_undo = last == line.trial && trial.stage == state().stage && !state().ended;
-    lines.push_back(std::move(line));
-  }
-  std::reverse(lines.begin(), lines.end());
-  if (lines.size() > kMostAnswersShown) lines.resize(kMostAnswersShown);
-  return lines;
-}
-
 void OperatedSession::describe_loop(SessionView& view) const {
   const Apparatus& apparatus = running_.apparatus();
   view.telemetry = apparatus.telemetry();
@@ -435,33 +379,6 @@ void OperatedSession::describe_loop(SessionView& view) const {
   view.telemetry.num_limited_ticks = view.loop.num_limited_ticks = 0;
 }
 
-void OperatedSession::describe_progress(SessionView& view) const {
-  const std::vector<const Stage*>& stages = session_.stages();
-  double done_s = 0.0;
-  double whole_s = 0.0;
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    const double expected_s = expected_duration_s(*stages[i]);
-    const auto index = static_cast<std::int64_t>(i);
-    whole_s += expected_s;
-    StageLine line{.title = title_of(i)};
-    if (state().ended || index < state().stage) {
-      line.status = StageLine::Status::kDone;
-      done_s += expected_s;
-    } else if (index == state().stage && begun_) {
-      line.status = StageLine::Status::kNow;
-      if (view.trial) {
-        done_s += expected_s * (view.trial->in_block - 1) / view.trial->num_in_block;
-      } else if (block() != nullptr && state().stage_open) {
-        done_s += expected_s;
-      }
-    }
-    view.stages.push_back(std::move(line));
-  }
-  view.elapsed_s = begun_ ? now_s() - begun_s_ : 0.0;
-  view.left_s = std::max(0.0, whole_s - done_s);
-  view.done_ratio = state().completed ? 1.0 : whole_s > 0.0 ? done_s / whole_s : 0.0;
-}
-
 SessionView OperatedSession::view() const {
   SessionView view{.study = words(parameters_.study.title),
                    .participant = row_.participant,
@@ -495,10 +412,7 @@ SessionView OperatedSession::view() const {
       view.practice = practice_words(
           *block(), practice_state(*block(), state().answered_in(state().stage)));
     }
-    if (!hides_levels_ && !view.trial) {
-      view.caution = procedure_named(block()->procedure)
-                         .caution(*block(), state().answered_in(state().stage));
-    }
+    if (!hides_levels_ && !view.trial) view.caution = cautions();
   }
   view.answers = answer_lines();
   view.trials_on_disk = static_cast<std::int64_t>(
@@ -533,7 +447,7 @@ SessionView OperatedSession::view() const {
   }
   const bool has_stage = stage() != nullptr && begun_;
   add_words(view, has_stage ? title_of(static_cast<std::size_t>(state().stage)) : "",
-            has_stage ? words(instruction_of(*stage())) : "");
+            has_stage ? instructions() : "");
   return view;
 }
 

@@ -71,14 +71,13 @@ class Interruption {
         stages_of_session(study_, row.cells), study_.languages.front(), hides_levels_);
     const auto stage = static_cast<std::size_t>(state.stage);
     session.stage = stage < titles.size() ? titles[stage] : "";
-    if (state.current_trial()) {
+    if (state.current_trial() || state.turn_is_due) {
       session.trial = 1;
-      for (const experiments::TrialState& trial : state.trials) {
-        if (trial.stage != state.stage) continue;
-        ++session.num_trials;
-        if (trial.is_answered || trial.is_void) ++session.trial;
+      const auto stages = stages_of_session(study_, row.cells);
+      for (std::int64_t one = state.first_together;
+           one < state.first_together + state.num_together; ++one) {
+        add_trials(state, one, *stages.at(static_cast<std::size_t>(one)), session);
       }
-      expect_trials(*stages_of_session(study_, row.cells).at(stage), session);
     }
     const fs::path file = store_.recording_file(row.session);
     std::error_code ignored;
@@ -89,12 +88,22 @@ class Interruption {
   }
 
  private:
-  /// Where answers decide, those drawn so far are not all there will be.
-  static void expect_trials(const experiments::Stage& stage, InterruptedSession& session) {
+  /// Those of a block that is under way. Where answers decide, those drawn so far are not all
+  /// there will be.
+  static void add_trials(const experiments::SessionState& state, std::int64_t index,
+                         const experiments::Stage& stage, InterruptedSession& session) {
+    auto num_trials = decltype(session.num_trials)(0);
+    for (const experiments::TrialState& trial : state.trials) {
+      if (trial.stage != index || trial.is_void) continue;
+      ++num_trials;
+      if (trial.is_answered) ++session.trial;
+    }
     const auto* block = std::get_if<experiments::Block>(&stage.content);
-    if (block == nullptr || !(analysis::length_is_expected(*block) || block->practice)) return;
-    session.num_is_expected = true;
-    session.num_trials = std::max(session.num_trials, experiments::expected_trials(*block));
+    if (block != nullptr && (analysis::length_is_expected(*block) || block->practice)) {
+      session.num_is_expected = true;
+      num_trials = std::max(num_trials, experiments::expected_trials(*block));
+    }
+    session.num_trials += num_trials;
   }
 
   const core::StudyStore& store_;

@@ -39,11 +39,31 @@ class Outliner {
 
   double add(const std::vector<Stage>& stages, int depth) {
     double duration_s = 0.0;
-    for (const Stage& stage : stages) duration_s += add(stage, depth);
+    std::size_t group = 0;  // Place of its line.
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      const bool is_mixed = stages[i].interleaving.has_value();
+      const bool is_next =
+          is_mixed && i > 0 && stages[i].interleaving == stages[i - 1].interleaving;
+      if (is_mixed && !is_next) group = add_group(*stages[i].interleaving, depth);
+      const double its_s = add(stages[i], is_mixed ? depth + 1 : depth);
+      if (is_mixed) stages_[group].duration_s += its_s;
+      duration_s += its_s;
+    }
     return duration_s;
   }
 
  private:
+  std::size_t add_group(const Interleaving& group, int depth) {
+    stages_.push_back(
+        {.title = hides_ ? tr("Interleaved blocks") : title_of(group, language_),
+         .kind = tr("Interleaved"),
+         .depth = depth,
+         .what = group.turns == Turns::kRandom
+                     ? tr("trials of the blocks below, mixed at random")
+                     : tr("trials of the blocks below, mixed in rounds of one trial each")});
+    return stages_.size() - 1;
+  }
+
   double add(const Stage& stage, int depth) {
     const std::size_t place = stages_.size();
     OutlineStage line{.title = title(stage), .depth = depth, .line = stage.line};
@@ -298,6 +318,21 @@ std::string order_line(const PlannedBlock& planned, const std::string& language)
   return line + (unit.empty() ? "" : " " + unit);
 }
 
+/// Which blocks are mixed, and their turns by their places in the group.
+std::string group_line(const PlannedGroup& group, const std::string& language) {
+  std::string blocks, turns;
+  for (std::size_t i = 0; i < group.blocks.size(); ++i) {
+    blocks += (i == 0 ? "" : ", ") + std::to_string(i + 1) + " " +
+              title_of(*group.blocks[i], language);
+  }
+  for (const std::size_t index : group.order) turns += " " + std::to_string(index + 1);
+  const std::string title = title_of(*group.blocks.front()->interleaving, language);
+  const std::string mixed =
+      group.turns == Turns::kRandom ? tr("mixed at random") : tr("mixed in rounds");
+  return turns.empty() ? tr("{}: {}, {}", title, blocks, mixed)
+                       : tr("{}: {}, {}:{}", title, blocks, mixed, turns);
+}
+
 }  // namespace
 
 StudyOutline outline_of(const Study& study, bool shows_levels) {
@@ -358,6 +393,9 @@ std::vector<PlannedOrder> planned_orders(const Study& study, const OrdersRequest
                        .duration_s = planned.duration_s};
     for (const PlannedBlock& block : planned.blocks) {
       order.blocks.push_back(order_line(block, study.languages.front()));
+    }
+    for (const PlannedGroup& group : planned.groups) {
+      order.blocks.push_back(group_line(group, study.languages.front()));
     }
     orders.push_back(std::move(order));
   }

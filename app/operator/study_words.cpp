@@ -5,6 +5,7 @@
 
 #include "app/language/words.h"
 #include "app/operator/session_words.h"
+#include "experiments/order/block_turns.h"
 #include "experiments/study/stage_walk.h"
 
 namespace jnd::app {
@@ -31,11 +32,21 @@ std::string name_words(std::string name, bool as_title) {
   return name;
 }
 
+/// In this language or another; in words of the name where there is none.
+static std::string title_or_name(const Text& title, const std::string& name,
+                                 const std::string& language) {
+  const auto asked = title.find(language);
+  const auto found = asked == title.end() ? title.begin() : asked;
+  if (found != title.end() && !found->second.empty()) return found->second;
+  return name_words(name, /*as_title=*/true);
+}
+
 std::string title_of(const Stage& stage, const std::string& language) {
-  const auto asked = stage.title.find(language);
-  const auto found = asked == stage.title.end() ? stage.title.begin() : asked;
-  if (found != stage.title.end() && !found->second.empty()) return found->second;
-  return name_words(stage.name, /*as_title=*/true);
+  return title_or_name(stage.title, stage.name, language);
+}
+
+std::string title_of(const Interleaving& group, const std::string& language) {
+  return title_or_name(group.title, group.name, language);
 }
 
 const std::string& in_language(const Text& text, const std::string& language) {
@@ -48,12 +59,15 @@ std::vector<std::string> shown_titles(const std::vector<const Stage*>& stages,
                                       const std::string& language, bool hides_levels) {
   std::vector<std::string> titles;
   int num_blocks = 0;
-  for (const Stage* stage : stages) {
-    if (hides_levels && std::holds_alternative<Block>(stage->content)) {
-      titles.push_back(tr("Block {}", ++num_blocks));
-    } else {
-      titles.push_back(title_of(*stage, language));
-    }
+  for (std::size_t i = 0; i < stages.size();) {
+    const Stage& stage = *stages[i];
+    const std::size_t num_together = num_run_together(stages, i);
+    const std::string title = hides_levels && std::holds_alternative<Block>(stage.content)
+                                  ? tr("Block {}", ++num_blocks)
+                              : stage.interleaving ? title_of(*stage.interleaving, language)
+                                                   : title_of(stage, language);
+    titles.insert(titles.end(), num_together, title);
+    i += num_together;
   }
   return titles;
 }

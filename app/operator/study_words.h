@@ -17,9 +17,12 @@ namespace jnd::app {
 /// As the study has it, in this language or another; in words of its name where it has none.
 [[nodiscard]] std::string title_of(const experiments::Stage& stage,
                                    const std::string& language);
-/// The titles of a session's stages. Where levels are hidden, a block has it, or its name.
-/// Where levels are hidden, a block is "Block 1", "Block 2" by its place in the list, since its
-/// name could tell the level.
+/// The same of a group of blocks.
+[[nodiscard]] std::string title_of(const experiments::Interleaving& group,
+                                   const std::string& language);
+/// The titles of a session's stages. Blocks that are interleaved have that of their group, so
+/// that nobody reads whose turn it is. Where levels are hidden, a block or a group is "Block
+/// 1", "Block 2" by its place in the list, since its name could tell the level.
 [[nodiscard]] std::vector<std::string> shown_titles(
     const std::vector<const experiments::Stage*>& stages, const std::string& language,
     bool hides_levels);

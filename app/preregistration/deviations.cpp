@@ -94,8 +94,10 @@ void compare_designs(const Json& plan, const analysis::StudyData& data,
   Json found = planned_design(data.written);
   // Where neither plans looks, nothing differs.
   if (!found.contains("sequential")) found["sequential"] = nullptr;
+  if (!found.contains("interleaved")) found["interleaved"] = Json::array();
   for (const auto& [key, value] : found.items()) {
-    compare(key_words(key), plan.value(key, Json()), value, deviations);
+    const Json nothing = key == "interleaved" ? Json::array() : Json();
+    compare(key_words(key), plan.value(key, nothing), value, deviations);
   }
   if (deviations.size() > num_before) return;
   std::string hashes;

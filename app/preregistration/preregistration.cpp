@@ -6,6 +6,7 @@
 #include "analysis/results/number_words.h"
 #include "core/error.h"
 #include "core/storage/sha256.h"
+#include "experiments/order/block_turns.h"
 #include "experiments/study/stage_walk.h"
 
 namespace jnd::app {
@@ -72,6 +73,17 @@ std::string blinding_word(Blinding blinding) {
                                               : "none";
 }
 
+/// Of interleaved blocks, one entry a group.
+void add_to_group(const Stage& stage, Json& groups) {
+  if (!stage.interleaving) return;
+  if (groups.empty() || groups.back().at("name") != stage.interleaving->name) {
+    groups.push_back({{"name", stage.interleaving->name},
+                      {"turns", to_string(stage.interleaving->turns)},
+                      {"blocks", Json::array()}});
+  }
+  groups.back()["blocks"].push_back(stage.name);
+}
+
 }  // namespace
 
 Json planned_design(const Study& study) {
@@ -82,8 +94,10 @@ Json planned_design(const Study& study) {
   }
   for (const PlannedContrast& plan : study.contrasts)
     contrasts.push_back(contrast_json(study, plan));
+  Json groups = Json::array();
   for_each_stage(study.stages, [&](const Stage& stage) {
     stages.push_back(stage.name);
+    add_to_group(stage, groups);
     if (const auto* block = std::get_if<Block>(&stage.content)) {
       blocks.push_back(block_json(study, stage, *block));
     }
@@ -102,6 +116,7 @@ Json planned_design(const Study& study) {
   if (study.sequential) design["sequential"] = sequential_json(*study.sequential);
   design["counterbalances"] = std::move(arms);
   design["blocks"] = std::move(blocks);
+  if (!groups.empty()) design["interleaved"] = std::move(groups);
   design["stages"] = std::move(stages);
   return design;
 }

@@ -105,6 +105,21 @@ std::vector<std::string> each(const Json& list, std::string (*words)(const Json&
   return points;
 }
 
+std::string interleaved_words(const Json& group) {
+  return spaced(group.at("name")) + ": trials of " + spaced(list_words(group.at("blocks"))) +
+         (group.at("turns") == "random"
+              ? " are mixed; the next trial is drawn from all that are left."
+              : " are mixed; in every round each block that has trials left comes once, in an "
+                "order drawn anew.");
+}
+
+std::vector<std::string> randomization_points(const Json& plan) {
+  std::vector<std::string> points = each(plan.at("counterbalances"), counterbalance_words);
+  if (!plan.contains("interleaved")) return points;
+  for (const Json& group : plan.at("interleaved")) points.push_back(interleaved_words(group));
+  return points;
+}
+
 std::string or_words(const Json& plan, const char* key, const std::string& otherwise) {
   const std::string text = plan.value(key, "");
   return text.empty() ? otherwise : text;
@@ -208,7 +223,7 @@ std::vector<Chapter> chapters_of(const Json& plan) {
          {"Orders of stimuli are drawn from random streams of a seed that is kept with each "
           "session. A new participant gets the combination of arms that the fewest have "
           "completed."},
-         each(plan.at("counterbalances"), counterbalance_words)}}},
+         randomization_points(plan)}}},
       {"Sampling plan",
        {{"Existing data", {"No session of this study was run before the registration."}},
         {"Data collection procedures",

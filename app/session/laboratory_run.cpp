@@ -94,12 +94,16 @@ class SimulatedSession {
 
   void trial_progress() const {
     if (!run_.on_progress) return;
-    const std::int64_t stage = session_.state().stage;
-    double drawn = 0.0;
-    for (const TrialState& trial : session_.state().trials)
-      drawn += trial.stage == stage ? 1 : 0;
-    const auto answered = static_cast<double>(session_.state().answered_in(stage).size());
-    run_.on_progress((static_cast<double>(stage) + (drawn > 0 ? answered / drawn : 0.0)) /
+    const SessionState& state = session_.state();
+    double drawn = 0.0, answered = 0.0;
+    for (const TrialState& trial : state.trials) {
+      if (!state.is_under_way(trial.stage)) continue;
+      drawn += 1.0;
+      answered += trial.is_answered ? 1.0 : 0.0;
+    }
+    const double done = drawn > 0.0 ? answered / drawn : 0.0;
+    run_.on_progress((static_cast<double>(state.first_together) +
+                      done * static_cast<double>(state.num_together)) /
                      static_cast<double>(session_.stages().size()));
   }
 
@@ -138,18 +142,20 @@ class SimulatedSession {
   }
 
   void run_stage(const Block&) {
-    const Block block = session_.current_block_as_drawn();
-    player_.answer_questions(block);
+    player_.answer_questions(session_.current_block_as_drawn());
     while (session_.state().current_trial()) {
+      // Of interleaved blocks the one whose turn it is.
+      const Block block = session_.current_block_as_drawn();
       player_.run_trial(block);
       player_.answer_questions(block);
       trial_progress();
     }
-    const std::string caution =
-        procedure_named(block.procedure)
-            .caution(block, session_.state().answered_in(session_.state().stage));
-    if (!caution.empty()) {
-      cautions_.push_back(session_.current_stage()->name + ": " + caution);
+    for (const std::int64_t index : session_.current_stages()) {
+      const Stage& stage = *session_.stages().at(static_cast<std::size_t>(index));
+      const auto& block = std::get<Block>(stage.content);
+      const std::string caution =
+          procedure_named(block.procedure).caution(block, session_.state().answered_in(index));
+      if (!caution.empty()) cautions_.push_back(stage.name + ": " + caution);
     }
   }
 

@@ -375,9 +375,9 @@ void TrialPlayer::estimate(const Block& block, const TrialForm& form) {
     ++looks;
   } while (looks_again(block));
   std::optional<double> previous;
-  if (const auto last = session_.state().last_answered_trial()) {
-    const TrialState& before = session_.state().trial(*last);
-    if (before.stage == session_.state().stage) previous = before.response;
+  // Of this block: what was said to stimuli of others is another scale.
+  if (const auto last = session_.state().last_answered_in(session_.state().stage)) {
+    previous = session_.state().trial(*last).response;
   }
   const Perceiver& perceiver = participant_.perceiver(block);
   double answer = 0.0;

@@ -66,7 +66,7 @@ constexpr char kDesignInForce[] =
     "  WHERE its.session = undone.session AND its.trial = undone.trial"
     "   AND undone.session = d.session AND undone.kind = 'answer_undone'"
     "   AND +undone.sequence > d.sequence"
-    "   AND CASE WHEN its.sequence < d.sequence THEN NOT EXISTS"
+    "   AND CASE WHEN its.stage = d.stage AND its.sequence < d.sequence THEN NOT EXISTS"
     "    (SELECT 1 FROM trial AS t"
     "     WHERE t.session = d.session AND t.trial = d.trial AND t.sequence < undone.sequence"
     "      AND NOT EXISTS (SELECT 1 FROM event AS later"

@@ -334,6 +334,7 @@ AnswerSimulator::AnswerSimulator(const Study& study, const Laboratory& laborator
 std::vector<AnsweredBlock> AnswerSimulator::answers(const std::vector<StageInstance>& stages,
                                                     std::uint64_t session_seed) const {
   const SimulatedParticipant participant(laboratory_, session_seed);
+  // Interleaved blocks, too, one after the other: nobody carries anything from one to another.
   std::vector<AnsweredBlock> blocks;
   std::int64_t trial = 0;  // Running number in the session.
   for (std::size_t index = 0; index < stages.size(); ++index) {

@@ -160,7 +160,9 @@ const ParameterTable& block_table() {
                        "gets no more time. At the deadline free space comes, and the "
                        "attempt counts as missed. The trial comes again later in the "
                        "block, at a drawn place; of a procedure that adapts, and where "
-                       "it is the last, it comes again at once. Missed answers are "
+                       "it is the last, it comes again at once; "
+                       "interleaved with other blocks, with a later turn of its own. Missed "
+                       "answers are "
                        "counted in the results and are in no other number. Absent: there "
                        "is no deadline.",
                    .required = false,

@@ -77,7 +77,10 @@ std::string type_words(const Parameter& parameter) {
     case ValueKind::kObjects:
       return counted(parameter, "objects: ") + link_to(*parameter.nested);
     case ValueKind::kStages:
-      return counted(parameter, "[stages](#stages)");
+      return counted(parameter,
+                     parameter.allowed.size() == 1
+                         ? "stages: " + link_to(*stage_table(parameter.allowed.front()))
+                         : "[stages](#stages)");
     case ValueKind::kArms:
       return "object: counterbalance and arm";
     case ValueKind::kLevels:

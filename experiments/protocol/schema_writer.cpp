@@ -99,7 +99,9 @@ Json value_schema(const Parameter& parameter) {
     case ValueKind::kObjects:
       return list_schema(parameter, reference(parameter.nested->name));
     case ValueKind::kStages:
-      return list_schema(parameter, reference("stage"));
+      return list_schema(
+          parameter,
+          reference(parameter.allowed.size() == 1 ? parameter.allowed.front() : "stage"));
     case ValueKind::kArms:
     case ValueKind::kLevels:
       return {{"type", "object"},

@@ -136,6 +136,9 @@ class SessionRules : StudyCheck {
     if (kind == "explore") duration_s = media_duration_s(stage, pointer, "media");
     if (kind == "training") duration_s = media_duration_s(stage, pointer, "examples");
     if (kind == "block") duration_s = block_duration_s(stage);
+    for (const json& block : list(stage, "blocks")) {
+      if (kind == "interleaved" && block.is_object()) duration_s += block_duration_s(block);
+    }
     if (duration_s > longest_stage_s_) {
       longest_stage_s_ = duration_s;
       longest_stage_ = pointer;

@@ -308,9 +308,10 @@ std::vector<Parameter> medium_details() {
 
 const std::vector<const ParameterTable*>& stage_tables() {
   static const std::vector<const ParameterTable*> kTables = {
-      &checklist_table(),       &consent_table(),       &explore_table(),
-      &training_table(),        &block_table(),         &break_table(),
-      &post_experiment_table(), &questionnaire_table(), &counterbalance_table()};
+      &checklist_table(),     &consent_table(),         &explore_table(),
+      &training_table(),      &block_table(),           &interleaved_table(),
+      &break_table(),         &post_experiment_table(), &questionnaire_table(),
+      &counterbalance_table()};
   return kTables;
 }
 

@@ -18,6 +18,8 @@ namespace jnd::experiments {
 [[nodiscard]] std::vector<Parameter> medium_details();
 
 [[nodiscard]] const ParameterTable& block_table();
+/// Several blocks whose trials are mixed.
+[[nodiscard]] const ParameterTable& interleaved_table();
 /// One alternative of a counterbalance.
 [[nodiscard]] const ParameterTable& arm_table();
 [[nodiscard]] const ParameterTable& questionnaire_table();

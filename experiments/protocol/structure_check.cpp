@@ -364,7 +364,7 @@ void StructureCheck::check_list(const json& list, const std::string& pointer,
         check_text(list[i], child);
         break;
       case ValueKind::kStages:
-        check_stage(list[i], child);
+        check_stage(list[i], child, parameter.allowed);
         break;
       default:
         if (parameter.nested == &arm_table() && is_stage(list[i])) {
@@ -378,19 +378,26 @@ void StructureCheck::check_list(const json& list, const std::string& pointer,
   }
 }
 
-void StructureCheck::check_stage(const json& stage, const std::string& pointer) {
+void StructureCheck::check_stage(const json& stage, const std::string& pointer,
+                                 const std::vector<std::string>& allowed) {
   if (!stage.is_object()) {
     report(pointer, "expected a stage, an object with `kind`, found " + found_words(stage));
     return;
   }
-  std::vector<std::string> kinds;
-  for (const ParameterTable* table : stage_tables()) kinds.push_back(table->name);
+  std::vector<std::string> kinds = allowed;
+  for (const ParameterTable* table : stage_tables()) {
+    if (allowed.empty()) kinds.push_back(table->name);
+  }
   const auto kind = stage.find("kind");
   const Parameter any_kind = {.key = "kind", .allowed = kinds};
   if (kind == stage.end()) {
     report(pointer + "/kind", "expected " + expectation(any_kind) + ", found nothing");
   } else if (!kind->is_string() || stage_table(kind->get<std::string>()) == nullptr) {
     check_string(*kind, pointer + "/kind", any_kind);
+  } else if (std::ranges::find(kinds, kind->get<std::string>()) == kinds.end()) {
+    report(pointer + "/kind", "expected a stage of kind " + one_of_words(allowed) +
+                                  " here, found one of kind `" + kind->get<std::string>() +
+                                  "`; put it before or after the stage that this one is in");
   } else {
     check_object(stage, pointer, *stage_table(kind->get<std::string>()));
   }

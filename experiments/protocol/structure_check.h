@@ -42,7 +42,9 @@ class StructureCheck : StudyCheck {
   void check_text(const nlohmann::json& value, const std::string& pointer);
   void check_list(const nlohmann::json& list, const std::string& pointer,
                   const Parameter& parameter);
-  void check_stage(const nlohmann::json& stage, const std::string& pointer);
+  /// `allowed`: the kinds that may stand there; none: any.
+  void check_stage(const nlohmann::json& stage, const std::string& pointer,
+                   const std::vector<std::string>& allowed);
   void check_arms(const nlohmann::json& arms, const std::string& pointer);
   void check_weights(const nlohmann::json& weights, const std::string& pointer);
   void read_languages();

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
 #include "core/error.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/protocol/stage_tables.h"
 #include "experiments/protocol/study_table.h"
 #include "experiments/study/media.h"
 #include "experiments/study/parameter_table.h"
@@ -300,12 +302,34 @@ class StageBuilder {
   [[nodiscard]] std::vector<Stage> stages(const json& list, const std::string& pointer) const {
     std::vector<Stage> built;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      built.push_back(stage(list[i], pointer + '/' + std::to_string(i)));
+      const std::string here = pointer + '/' + std::to_string(i);
+      if (list[i].at("kind") == interleaved_table().name) {
+        std::ranges::move(interleaved(ObjectReader(list[i], interleaved_table()), here),
+                          std::back_inserter(built));
+      } else {
+        built.push_back(stage(list[i], here));
+      }
     }
     return built;
   }
 
  private:
+  /// The blocks of a group, each of which knows that it is one.
+  [[nodiscard]] std::vector<Stage> interleaved(const ObjectReader& in,
+                                               const std::string& pointer) const {
+    const Interleaving group = {
+        .name = in.string("name"),
+        .title = in.text("title"),
+        .turns = in.string("turns") == "random" ? Turns::kRandom : Turns::kRounds};
+    std::vector<Stage> blocks = stages(in.list("blocks"), pointer + "/blocks");
+    for (Stage& block : blocks) {
+      if (!std::holds_alternative<Block>(block.content)) continue;  // Of no sound study.
+      block.interleaving = group;
+      block.only_for = in.names("only_for");
+    }
+    return blocks;
+  }
+
   [[nodiscard]] Stage stage(const json& object, const std::string& pointer) const {
     const std::string kind = object.at("kind").get<std::string>();
     const ParameterTable* table = stage_table(kind);

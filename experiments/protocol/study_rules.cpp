@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/media/force_map.h"
 #include "experiments/protocol/design_rules.h"
+#include "experiments/protocol/interleaved_rules.h"
 #include "experiments/protocol/label_rules.h"
 #include "experiments/protocol/order_rules.h"
 #include "experiments/protocol/participant_field_rules.h"
@@ -168,6 +169,7 @@ class Rules : StudyCheck {
     if (kind == "questionnaire" || kind == "post_experiment") {
       check_items(list(stage, "items"), pointer + "/items", item_names_);
     }
+    if (kind == "interleaved") check_stages(list(stage, "blocks"), pointer + "/blocks", true);
     if (kind != "counterbalance") return;
     if (inside) {
       report(pointer + "/kind",
@@ -353,6 +355,7 @@ void check_study_rules(const LocatedJson& file, std::vector<StudyProblem>& probl
   check_task_rules(file, problems);
   check_timing_rules(file, problems);
   check_order_rules(file, problems);
+  check_interleaved_rules(file, problems);
   check_participant_field_rules(file, problems);
   check_design_rules(file, problems);
   check_sequential_rules(file, problems);

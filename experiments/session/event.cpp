@@ -23,8 +23,8 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "continued",          "fault_raised",         "session_resumed",
     "loop_started",       "loop_measured",        "unblinded",
     "arming_changed",     "exposure_told",        "guard_noticed",
-    "fitting_kept",       "question_answered",    "session_completed",
-    "session_ended_early"};
+    "fitting_kept",       "question_answered",    "turn_taken",
+    "session_completed",  "session_ended_early"};
 
 json exposure_json(const core::Exposure& exposure) {
   return {{"force_time_n_s", exposure.force_time_n_s},
@@ -101,7 +101,11 @@ struct Writer {
     if (!e.language.empty()) data["language"] = e.language;
     if (!e.fields.empty()) data["fields"] = e.fields;
   }
-  void operator()(const StageEntered& e) const { row.stage = e.stage; }
+  void operator()(const StageEntered& e) const {
+    row.stage = e.stage;
+    if (e.num_together != 1) data["num_together"] = e.num_together;
+  }
+  void operator()(const TurnTaken& e) const { row.stage = e.stage; }
   void operator()(const ItemAnswered& e) const {
     row.stage = e.stage;
     data = {{"stage_name", e.stage_name}, {"item", e.item}, {"answer", e.answer}};
@@ -172,6 +176,7 @@ struct Writer {
     data = {{"reason", e.reason}};
     if (e.again_after != 0) data["again_after"] = e.again_after;
     if (e.missed_deadline) data["missed_deadline"] = true;
+    if (e.passes_turn) data["passes_turn"] = true;
   }
   void operator()(const TrialExcluded& e) const {
     row.trial = e.trial;
@@ -239,7 +244,13 @@ struct Reader {
     if (data.contains("language")) e.language = data.at("language").get<std::string>();
     if (data.contains("fields")) data.at("fields").get_to(e.fields);
   }
-  void operator()(StageEntered& e) const { e.stage = column(row.stage, "stage"); }
+  void operator()(StageEntered& e) const {
+    e.stage = column(row.stage, "stage");
+    if (data.contains("num_together")) {
+      e.num_together = whole_number(data.at("num_together"), "num_together");
+    }
+  }
+  void operator()(TurnTaken& e) const { e.stage = column(row.stage, "stage"); }
   void operator()(ItemAnswered& e) const {
     e.stage = column(row.stage, "stage");
     data.at("stage_name").get_to(e.stage_name);
@@ -318,6 +329,7 @@ struct Reader {
     data.at("reason").get_to(e.reason);
     e.again_after = data.value("again_after", std::int64_t{0});
     e.missed_deadline = data.value("missed_deadline", false);
+    e.passes_turn = data.value("passes_turn", false);
   }
   void operator()(TrialExcluded& e) const {
     e.trial = column(row.trial, "trial");

@@ -26,6 +26,8 @@ struct SessionStarted {
 
 struct StageEntered {
   std::int64_t stage = 0;  ///< Index into the participant's own list of stages, from 0.
+  /// How many stages from this one on are entered at once: the blocks of a group, else 1.
+  std::int64_t num_together = 1;
 };
 
 /// A checklist ticked, a consent given, a question answered.
@@ -54,6 +56,11 @@ struct TrialsDrawn {
   std::int64_t stage = 0;
   std::int64_t first_trial = 1;
   std::vector<PlannedTrial> trials;
+};
+
+/// Of interleaved blocks: the one whose trial comes next.
+struct TurnTaken {
+  std::int64_t stage = 0;
 };
 
 struct TrialStarted {
@@ -105,8 +112,8 @@ struct QuestionAnswered {
   std::string answer;    ///< As it was given; "no_answer" where it was left out.
 };
 
-/// An answer taken back; the trial is run again as a new attempt. Trials drawn since and not
-/// answered are void: another answer draws others.
+/// An answer taken back; the trial is run again as a new attempt. Trials of its block that were
+/// drawn since and not answered are void: another answer draws others.
 struct AnswerUndone {
   std::int64_t trial = 0, attempt = 1;
   std::int64_t answer_sequence = 0;
@@ -128,6 +135,7 @@ struct AttemptDiscarded {
   std::string reason;
   std::int64_t again_after = 0;  ///< The trial after which it comes again; 0: it is the next.
   bool missed_deadline = false;  ///< No answer came before the block's deadline.
+  bool passes_turn = false;      ///< Of an interleaved block: the next turn is drawn anew.
 };
 
 struct TrialExcluded {
@@ -235,7 +243,7 @@ using EventData =
                  AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
                  FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
                  ArmingChanged, ExposureTold, GuardNoticed, FittingKept, QuestionAnswered,
-                 SessionCompleted, SessionEndedEarly>;
+                 TurnTaken, SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

@@ -7,6 +7,7 @@
 
 #include "core/hand.h"
 #include "core/random_stream.h"
+#include "experiments/order/block_turns.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/procedures/stimulus.h"
@@ -110,6 +111,34 @@ class RangeCollector {
   const core::ForceMap* map_;
 };
 
+/// The groups among a participant's stages, with their turns as the session will draw them.
+std::vector<PlannedGroup> planned_groups(const ParticipantPlan& plan, std::uint64_t seed) {
+  std::vector<const Stage*> stages;
+  for (const StageInstance& instance : plan.stages) stages.push_back(instance.stage);
+  std::vector<PlannedGroup> groups;
+  for (std::size_t first = 0, num = 1; first < stages.size(); first += num) {
+    num = num_run_together(stages, first);
+    if (num == 1) continue;
+    PlannedGroup& group = groups.emplace_back();
+    group.name = stages[first]->interleaving->name;
+    group.turns = stages[first]->interleaving->turns;
+    std::vector<int> num_trials;
+    bool answers_decide = false;
+    for (const PlannedBlock& block : plan.blocks) {
+      const auto index = static_cast<std::size_t>(block.stage_index);
+      if (index < first || index >= first + num) continue;
+      group.blocks.push_back(block.stage);
+      num_trials.push_back(static_cast<int>(block.trials.size()));
+      answers_decide =
+          answers_decide ||
+          procedure_named(std::get<Block>(block.stage->content).procedure).adapts();
+    }
+    if (answers_decide) continue;
+    group.order = all_turns(group.turns, num_trials, seed, static_cast<std::int64_t>(first));
+  }
+  return groups;
+}
+
 }  // namespace
 
 std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanRequest& request) {
@@ -136,6 +165,7 @@ std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanReq
           {&stage, stage_index, expected_trials(*block),
            next_trials(block_of(stage, plan.stages[index].order_row), {}, stream)});
     }
+    plan.groups = planned_groups(plan, seed);
     plans.push_back(std::move(plan));
   }
   return plans;

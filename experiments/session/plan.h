@@ -22,12 +22,23 @@ struct PlannedBlock {
   std::vector<PlannedTrial> trials;
 };
 
+/// Blocks whose trials are mixed.
+struct PlannedGroup {
+  std::string name;
+  Turns turns = Turns::kRounds;
+  std::vector<const Stage*> blocks;
+  /// Whose trials come one after the other, as indices of `blocks`; empty where answers decide
+  /// how many trials a block has.
+  std::vector<std::size_t> order;
+};
+
 /// What one participant will get.
 struct ParticipantPlan {
   std::string participant;
   Cell cell;
   std::vector<StageInstance> stages;
   std::vector<PlannedBlock> blocks;
+  std::vector<PlannedGroup> groups;
   double duration_s = 0.0;          ///< To be expected.
   double longest_duration_s = 0.0;  ///< With all trials that its blocks can have.
 };

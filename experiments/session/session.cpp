@@ -131,48 +131,6 @@ void Session::start(const std::string& language) {
   commit(SessionStarted{language, parameters_.fields}, std::move(rows));
 }
 
-void Session::enter_stage() {
-  const Stage* stage = current_stage();
-  if (stage == nullptr || state_.stage_open || state_.ended) cannot("go on", "a next stage");
-  commit(StageEntered{state_.stage});
-  if (std::holds_alternative<Block>(stage->content)) draw_trials();
-}
-
-Block Session::current_block_as_drawn() const {
-  (void)current_block();
-  const Stage& stage = *current_stage();
-  return block_of(stage, order_row(parameters_.cell, stage.name),
-                  people_levels(parameters_.cell));
-}
-
-void Session::draw_trials() {
-  const Stage& stage = *current_stage();
-  const Block block = current_block_as_drawn();
-  const std::vector<AnsweredTrial> answered = state_.answered_in(state_.stage);
-  core::RandomStream stream(parameters_.seed, "order",
-                            {state_.stage, static_cast<std::int64_t>(answered.size())});
-  const std::vector<PlannedTrial> trials = next_trials(block, answered, stream);
-  if (trials.empty()) return;
-  TrialsDrawn drawn{.stage = state_.stage,
-                    .first_trial = static_cast<std::int64_t>(state_.trials.size()) + 1,
-                    .trials = trials};
-  core::Commit rows;
-  std::int64_t number = drawn.first_trial;
-  for (const PlannedTrial& trial : trials) {
-    core::DesignRow& row = rows.design.emplace_back();
-    row = {.session = parameters_.session,
-           .trial = number++,
-           .stage = state_.stage,
-           .block = stage.name,
-           .procedure = block.procedure,
-           .medium = block.medium,
-           .quantity = block.quantity,
-           .sequence = state_.last_sequence + 1};
-    core::copy_columns(trial, row);
-  }
-  commit(std::move(drawn), std::move(rows));
-}
-
 void Session::answer_item(const std::string& item, const std::string& answer) {
   const Stage* stage = current_stage();
   if (stage == nullptr || !state_.stage_open) cannot("answer " + item, "a stage under way");
@@ -194,13 +152,15 @@ void Session::explored(const std::string& medium, double intensity, std::int64_t
 
 void Session::finish_stage() {
   if (!state_.stage_open) cannot("finish the stage", "a stage under way");
-  if (state_.current_trial()) cannot("finish the block", "an answer to every trial");
+  for (const std::int64_t stage : current_stages()) {
+    if (state_.has_waiting(stage)) cannot("finish the block", "an answer to every trial");
+  }
   if (open_question()) cannot("finish the block", "an answer to every question");
   const auto* block = std::get_if<Block>(&current_stage()->content);
   if (block != nullptr && block->practice) {
     note(practice_words(*block, practice_state(*block, state_.answered_in(state_.stage))));
   }
-  commit(StageFinished{state_.stage});
+  commit(StageFinished{state_.first_together + state_.num_together - 1});
 }
 
 void Session::start_trial(std::int64_t tick) {
@@ -389,7 +349,8 @@ void Session::answer(const std::optional<double>& value, const core::AnswerMeasu
                        .last_tick = last_tick,
                        .feedback_right = feedback(trial.planned, response)},
          std::move(rows));
-  if (!state_.current_trial()) draw_trials();
+  if (!state_.current_trial()) draw_trials(state_.stage);
+  take_turn_if_due();
 }
 
 std::optional<OpenQuestion> Session::open_question() const {
@@ -398,8 +359,9 @@ std::optional<OpenQuestion> Session::open_question() const {
   if (block == nullptr || block->questions.empty() || !state_.stage_open) return std::nullopt;
   for (std::int64_t number = std::ssize(state_.trials); number >= 1; --number) {
     const TrialState& trial = state_.trial(number);
-    if (trial.stage != state_.stage) break;
-    if (!trial.is_answered || trial.question_answers.size() == block->questions.size())
+    if (!state_.is_under_way(trial.stage)) break;
+    if (trial.stage != state_.stage || !trial.is_answered ||
+        trial.question_answers.size() == block->questions.size())
       continue;
     for (std::size_t i = 0; i < block->questions.size(); ++i) {
       const QuestionnaireItem& item = block->questions[i];
@@ -426,6 +388,7 @@ void Session::answer_question(const std::string& question, const std::string& an
                                                  .question = question,
                                                  .answer = answer};
   commit(QuestionAnswered{open->trial, trial.attempt, question, answer}, std::move(rows));
+  take_turn_if_due();
 }
 
 void Session::discard_attempt(const std::string& reason) {
@@ -456,12 +419,14 @@ void Session::put_off(AttemptDiscarded discarded) {
     const std::int64_t after = state_.trial(chosen).again_after;
     discarded.again_after = after == 0 ? chosen : after;
   }
+  discarded.passes_turn = state_.num_together > 1;
   commit(std::move(discarded));
+  take_turn_if_due();
 }
 
 void Session::require_undo() const {
   const std::optional<std::int64_t> last = state_.last_answered_trial();
-  if (!last || state_.trial(*last).stage != state_.stage) {
+  if (!last || !state_.is_under_way(state_.trial(*last).stage)) {
     cannot("undo", "an answer in this block (correct an earlier one instead)");
   }
 }
@@ -507,10 +472,11 @@ void Session::restart_block(const std::string& reason) {
   // The latest first, as if undone one by one.
   for (auto number = static_cast<std::int64_t>(state_.trials.size()); number >= 1; --number) {
     const TrialState& trial = state_.trial(number);
-    if (trial.stage == state_.stage && trial.is_answered) {
+    if (state_.is_under_way(trial.stage) && trial.is_answered) {
       commit(AnswerUndone{number, trial.attempt, trial.answer_sequence, reason});
     }
   }
+  if (state_.num_together > 1) take_turn();
 }
 
 void Session::exclude(std::int64_t trial, const std::string& reason) {
@@ -552,10 +518,7 @@ void Session::resume(const std::string& choice, std::int64_t lost_first_tick,
   }
   if (choice == "end") return end_early("ended after an interruption");
   // Interrupted between entering the block, or its last answer, and the draw that follows.
-  if (state_.stage_open && current_stage() != nullptr &&
-      std::holds_alternative<Block>(current_stage()->content) && !state_.current_trial()) {
-    draw_trials();
-  }
+  draw_missing_trials();
 }
 
 void Session::loop_started(const LoopStarted& given) { commit(given); }

@@ -7,6 +7,7 @@
 
 #include "core/clock.h"
 #include "core/storage/study_store.h"
+#include "experiments/order/block_turns.h"
 #include "experiments/order/counterbalance.h"
 #include "experiments/procedures/procedure.h"
 #include "experiments/session/session_state.h"
@@ -62,8 +63,12 @@ class Session {
   [[nodiscard]] const std::vector<const Stage*>& stages() const noexcept {
     return parameters_.stages;
   }
-  /// The stage under way or next; null after the last one.
+  /// The stage under way or next; null after the last one. Of interleaved blocks the one whose
+  /// turn it is.
   [[nodiscard]] const Stage* current_stage() const noexcept;
+  /// Places of the stages that are run together with the current one, itself among them: the
+  /// blocks of a group, or itself alone. Empty after the last stage.
+  [[nodiscard]] std::vector<std::int64_t> current_stages() const;
   /// Of the current stage; throws `Error` if it is no block.
   [[nodiscard]] const Block& current_block() const;
   /// The same as its trials are drawn and felt: with the row of its square, and with the levels
@@ -74,7 +79,8 @@ class Session {
 
   /// `language`: of the texts that the participant gets; "" for a simulated one.
   void start(const std::string& language = "");
-  /// Entering a block draws its order.
+  /// Entering a block draws its order. Interleaved blocks are entered all at once, and whose
+  /// trial comes first is drawn.
   void enter_stage();
   void answer_item(const std::string& item, const std::string& answer);
   void explored(const std::string& medium, double intensity, std::int64_t first_tick,
@@ -102,7 +108,8 @@ class Session {
   void answer(const std::optional<double>& value, const core::AnswerMeasures& measures,
               std::int64_t last_tick);
   /// The question that waits for its answer: the first of the block that an answered trial of
-  /// it has none to. While there is one, no trial begins and the block does not end.
+  /// it has none to. The next turn of interleaved blocks is drawn after the last. While there
+  /// is one, no trial begins and the block does not end.
   [[nodiscard]] std::optional<OpenQuestion> open_question() const;
   /// Answers it; throws `Error` where another one waits, or none, and where `answer` is none
   /// that its kind can have. `kNoAnswer` leaves out one that is not required.
@@ -112,6 +119,8 @@ class Session {
   /// Gives it up for what the apparatus or the machine did. Its trial comes again at a later
   /// place of the block, drawn evenly from all that are left, so that nobody feels a stimulus
   /// right after half of it; at once where answers decide what comes next, or nothing is left.
+  /// Among interleaved blocks it comes with a later turn of its block, and whose turn it is now
+  /// is drawn anew.
   void put_off_attempt(const std::string& reason);
   /// The same for an answer that did not come before the block's `answer_deadline_s`: it counts
   /// as missed. `given`: what came too late, for the reason; "" where nothing came.
@@ -119,13 +128,15 @@ class Session {
 
   /// Throws as `undo` would where there is nothing to be taken back.
   void require_undo() const;
-  /// Takes the last answer of the current block back; its trial is run again.
+  /// Takes the last answer of the current block back, of interleaved blocks the last one of
+  /// all; its trial is run again.
   void undo(const std::string& reason);
   /// Sets an earlier answer right, its presentations untouched; `value` as in `answer`, in
   /// production the intensity.
   void correct(std::int64_t number, const std::optional<double>& value,
                const std::string& reason);
-  /// All answers of the current block are taken back; the order stays.
+  /// All answers of the current block are taken back; the order stays. Interleaved blocks begin
+  /// anew together.
   void restart_block(const std::string& reason);
   void exclude(std::int64_t trial, const std::string& reason);
   void include(std::int64_t trial, const std::string& reason);
@@ -153,7 +164,12 @@ class Session {
  private:
   void commit(EventData data);
   void commit(EventData data, core::Commit rows);
-  void draw_trials();
+  void draw_trials(std::int64_t stage);
+  void draw_missing_trials();
+  void take_turn();
+  void take_turn_if_due();
+  [[nodiscard]] BlockProgress progress_of(std::int64_t stage) const;
+  [[nodiscard]] Block block_as_drawn(std::int64_t stage) const;
   void put_off(AttemptDiscarded discarded);
   void require_return(const TrialState& trial, const std::string& interval) const;
   [[nodiscard]] std::int64_t open_trial(const char* act) const;

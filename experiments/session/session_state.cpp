@@ -19,6 +19,10 @@ struct Fold {
     state.stage = e.stage;
     state.stage_open = true;
     state.num_explored = 0;
+    state.first_together = e.stage;
+    state.num_together = e.num_together;
+    state.turn_is_due = e.num_together > 1;
+    state.num_put_off = 0;
   }
   void operator()(const ItemAnswered& e) const { state.answers[{e.stage, e.item}] = e.answer; }
   void operator()(const MediumExplored& e) const {
@@ -28,7 +32,15 @@ struct Fold {
   void operator()(const StageFinished& e) const {
     state.stage = e.stage + 1;
     state.stage_open = false;
+    state.first_together = state.stage;
+    state.num_together = 1;
+    state.turn_is_due = false;
     state.forget_told();
+  }
+  void operator()(const TurnTaken& e) const {
+    if (!state.is_under_way(e.stage)) damaged("a turn of a block under way");
+    state.stage = e.stage;
+    state.turn_is_due = false;
   }
   void operator()(const TrialsDrawn& e) const {
     if (e.first_trial != static_cast<std::int64_t>(state.trials.size()) + 1) {
@@ -84,6 +96,7 @@ struct Fold {
     trial.answer_sequence = event.sequence;
     trial.last_tick = e.last_tick;
     state.feedback_right = e.feedback_right;
+    state.turn_is_due = state.num_together > 1;
     saw_tick(e.last_tick);
   }
   void operator()(const QuestionAnswered& e) const {
@@ -98,9 +111,14 @@ struct Fold {
     undone.forget_answer();
     undone.under_way = false;
     for (TrialState& trial : state.trials) {
-      if (trial.drawn_sequence > undone.drawn_sequence && !trial.is_answered)
+      if (trial.stage == undone.stage && trial.drawn_sequence > undone.drawn_sequence &&
+          !trial.is_answered)
         trial.is_void = true;
     }
+    // Its trial is the next one, whosever turn it was.
+    if (state.num_together == 1 || !state.is_under_way(undone.stage)) return;
+    state.stage = undone.stage;
+    state.turn_is_due = false;
   }
   void operator()(const AnswerCorrected& e) const {
     TrialState& trial = of(e.trial);
@@ -114,6 +132,10 @@ struct Fold {
     trial.under_way = false;
     trial.forget_answer();
     if (e.missed_deadline) state.missed_deadline = true;
+    if (e.passes_turn) {
+      state.turn_is_due = true;
+      ++state.num_put_off;
+    }
     if (e.again_after == 0) return;
     (void)of(e.again_after);
     trial.again_after = e.again_after;
@@ -169,6 +191,22 @@ bool comes_before(const SessionState& state, std::int64_t left, std::int64_t rig
   return place(left) < place(right);
 }
 
+/// Of the trials of a stage, or of all.
+std::optional<std::int64_t> last_answered(const std::vector<TrialState>& trials,
+                                          std::optional<std::int64_t> of_stage) {
+  std::optional<std::int64_t> last;
+  std::int64_t latest_sequence = 0;
+  for (std::size_t index = 0; index < trials.size(); ++index) {
+    const TrialState& trial = trials[index];
+    if (of_stage && trial.stage != *of_stage) continue;
+    if (trial.is_answered && trial.answer_sequence > latest_sequence) {
+      latest_sequence = trial.answer_sequence;
+      last = static_cast<std::int64_t>(index) + 1;
+    }
+  }
+  return last;
+}
+
 }  // namespace
 
 std::optional<std::int64_t> SessionState::current_trial() const {
@@ -192,16 +230,18 @@ std::vector<std::int64_t> SessionState::trials_after_current() const {
   return waiting;
 }
 
+bool SessionState::has_waiting(std::int64_t of_stage) const {
+  return std::ranges::any_of(trials, [&](const TrialState& trial) {
+    return trial.stage == of_stage && !trial.is_answered && !trial.is_void;
+  });
+}
+
 std::optional<std::int64_t> SessionState::last_answered_trial() const {
-  std::optional<std::int64_t> last;
-  std::int64_t latest_sequence = 0;
-  for (std::size_t index = 0; index < trials.size(); ++index) {
-    if (trials[index].is_answered && trials[index].answer_sequence > latest_sequence) {
-      latest_sequence = trials[index].answer_sequence;
-      last = static_cast<std::int64_t>(index) + 1;
-    }
-  }
-  return last;
+  return last_answered(trials, std::nullopt);
+}
+
+std::optional<std::int64_t> SessionState::last_answered_in(std::int64_t of_stage) const {
+  return last_answered(trials, of_stage);
 }
 
 std::vector<AnsweredTrial> SessionState::answered_in(std::int64_t of_stage) const {

@@ -55,10 +55,15 @@ struct SessionState {
   bool ended = false;
   bool completed = false;
   bool paused = false;
-  std::int64_t stage = 0;          ///< The stage under way, or the next one.
-  bool stage_open = false;         ///< Entered and not finished.
-  std::int64_t num_explored = 0;   ///< Media explored in this stage.
-  std::vector<TrialState> trials;  ///< Trial number n is at n - 1.
+  /// The stage under way, or the next one; of interleaved blocks the one whose turn it is.
+  std::int64_t stage = 0;
+  bool stage_open = false;          ///< Entered and not finished.
+  std::int64_t first_together = 0;  ///< First of the stages that were entered with this one.
+  std::int64_t num_together = 1;    ///< How many these are; more than 1: interleaved blocks.
+  bool turn_is_due = false;         ///< Of these: nobody has drawn yet whose trial comes next.
+  std::int64_t num_put_off = 0;     ///< Trials of these that were put off so far.
+  std::int64_t num_explored = 0;    ///< Media explored in this stage.
+  std::vector<TrialState> trials;   ///< Trial number n is at n - 1.
   /// Last answer to (stage, item).
   std::map<std::pair<std::int64_t, std::string>, std::string> answers;
   /// What was told of the last answer, until the next trial begins.
@@ -70,6 +75,10 @@ struct SessionState {
   std::int64_t last_time_ns = 0;
   std::int64_t last_tick = -1;  ///< The last tick that any event speaks of.
 
+  /// One of the stages that were entered and not finished.
+  [[nodiscard]] bool is_under_way(std::int64_t of_stage) const {
+    return stage_open && of_stage >= first_together && of_stage < first_together + num_together;
+  }
   void forget_told() {
     feedback_right.reset();
     missed_deadline = false;
@@ -82,8 +91,12 @@ struct SessionState {
   [[nodiscard]] std::optional<std::int64_t> current_trial() const;
   /// Those of the stage that wait behind the current one, in the order in which they come.
   [[nodiscard]] std::vector<std::int64_t> trials_after_current() const;
+  /// Whether a trial of this stage waits, whosever turn it is.
+  [[nodiscard]] bool has_waiting(std::int64_t of_stage) const;
   /// The last answered trial, in any stage.
   [[nodiscard]] std::optional<std::int64_t> last_answered_trial() const;
+  /// The last answered trial of a stage.
+  [[nodiscard]] std::optional<std::int64_t> last_answered_in(std::int64_t of_stage) const;
   /// The trials of a stage with their answers, in the order they were drawn.
   [[nodiscard]] std::vector<AnsweredTrial> answered_in(std::int64_t of_stage) const;
 };

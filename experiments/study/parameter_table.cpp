@@ -140,7 +140,9 @@ std::string expectation(const Parameter& parameter) {
     case ValueKind::kObjects:
       return list + "objects";
     case ValueKind::kStages:
-      return list + "stages";
+      return list + (parameter.allowed.empty()
+                         ? "stages"
+                         : "stages of kind " + one_of_words(parameter.allowed));
     case ValueKind::kArms:
       return R"(an object such as {"priming": "primed"})";
     case ValueKind::kLevels:

@@ -58,7 +58,7 @@ struct Parameter {
       default_json{};  ///< What an absent optional key stands for; "" is nothing at all.
   std::string unit{};  ///< In words: "Pa s"; "" for numbers that have none.
   Range range{};       ///< Of a number, measured or not, or of each number of a list.
-  std::vector<std::string> allowed{};
+  std::vector<std::string> allowed{};            ///< Words; of kStages their kinds, none: any.
   bool may_be_empty = false;                     ///< Of a kString: "" means not known.
   std::size_t min_items = 1, max_items = 10000;  ///< Of a list.
   const ParameterTable* nested = nullptr;

@@ -18,6 +18,7 @@ void walk(const json& stages, const std::string& pointer,
       walk(list(arms[arm], "stages"), here + "/arms/" + std::to_string(arm) + "/stages", visit);
     }
     walk(list(stages[i], "between"), here + "/between", visit);
+    walk(list(stages[i], "blocks"), here + "/blocks", visit);
   }
 }
 

@@ -185,6 +185,21 @@ struct Counterbalance {
   std::string stratify_by;     ///< Field within whose values it is balanced; "": over all.
 };
 
+/// How the blocks of a group take turns, trial by trial.
+enum class Turns {
+  kRounds,  ///< In a round each block that has trials left comes once, in drawn order.
+  kRandom,  ///< Each trial is drawn from all that are left, whatever their block.
+};
+
+/// A group of blocks whose trials are mixed, as each of its blocks knows it.
+struct Interleaving {
+  std::string name;  ///< Of the group; unique in the study, unlike that of any stage.
+  Text title;        ///< May be empty.
+  Turns turns = Turns::kRounds;
+
+  friend bool operator==(const Interleaving&, const Interleaving&) = default;
+};
+
 struct Stage {
   std::string name;  ///< Unique in the study; [a-z0-9_]+.
   Text title;        ///< May be empty.
@@ -195,6 +210,9 @@ struct Stage {
                Questionnaire, Counterbalance>
       content;
   int line = 0;  ///< Where it stands in the file, for messages.
+  /// Of a block whose trials are mixed with those of others. The blocks of a group stand one
+  /// after the other in every list of stages.
+  std::optional<Interleaving> interleaving{};
 };
 
 enum class Blinding { kNone, kParticipant, kDouble };

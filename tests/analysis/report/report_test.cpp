@@ -347,6 +347,30 @@ TEST_F(ReportTest, MethodsTellHowTheOrderOfTheIntervalsCameAboutAndLeaveNoGap) {
   EXPECT_FALSE(has(html, "; ;"));
 }
 
+TEST_F(ReportTest, MethodsTellWhichBlocksWereMixed) {
+  HandMadeStudy study(R"json({"name": "by_hand", "stages": [
+    {"kind": "interleaved", "name": "fluids", "blocks": [
+      {"kind": "block", "name": "thin", "procedure": "constant_stimuli", "medium": "viscous",
+       "reference_viscosity_pa_s": 8},
+      {"kind": "block", "name": "thick", "procedure": "constant_stimuli", "medium": "viscous",
+       "title": {"en": "Thick fluids"}, "reference_viscosity_pa_s": 8}]}]})json");
+  (void)study.add("P01", false, kLaboratory);
+  study.compare_ten("thin", 8);
+  study.compare_ten("thick", 8);
+  const StudyData data = load_study(study.store());
+  const StudyResults results = results_of(data, {}, {.num_resamples = 50});
+  const std::string html = without_breaks(whole_report({.store = study.store(),
+                                                        .data = data,
+                                                        .results = results,
+                                                        .results_options = {},
+                                                        .movement = {},
+                                                        .program_version = "1"},
+                                                       {}, {}));
+  EXPECT_TRUE(has(html,
+                  "Trials of “thin” and “Thick fluids” were interleaved: in every round each "
+                  "block that had trials left came once, in an order drawn anew."));
+}
+
 TEST_F(ReportTest, MethodsTellWhatBoundsATrialAndWhatBecomesOfAnswersWithoutAChoice) {
   HandMadeStudy study(R"json({"name": "by_hand", "stages": [
     {"kind": "block", "name": "thicker", "procedure": "constant_stimuli", "medium": "viscous",

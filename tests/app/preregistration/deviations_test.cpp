@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/interleaved_study.h"
 #include "app/preregistration/preregistration.h"
 #include "core/error.h"
 #include "experiments/designed_study.h"
@@ -138,6 +139,21 @@ std::string told(const std::vector<Deviation>& deviations) {
   return all;
 }
 
+TEST(Preregistration, SaysWhichBlocksAreMixedAndHow) {
+  const experiments::Study study = experiments::read_study_text(kInterleavedStudy, "x.json");
+  const Preregistration plan = preregistration_of(
+      study, "x.json", {.num_participants = 4, .device = "lumped"}, nullptr, kRegistered_ns);
+  ASSERT_EQ(plan.at("interleaved").size(), 2U);
+  EXPECT_EQ(plan.at("interleaved")[0].dump(),
+            R"({"name":"two_kinds","turns":"random","blocks":["constant","adaptive"]})");
+  EXPECT_EQ(plan.at("interleaved")[1].at("turns"), "rounds");
+  const std::string text = preregistration_markdown(plan);
+  EXPECT_NE(text.find("- two kinds: trials of constant, adaptive are mixed; the next trial is "
+                      "drawn from all that are left."),
+            std::string::npos)
+      << text;
+}
+
 TEST(Deviations, NoneIsInvented) {
   const Conducted run = as_planned();
   EXPECT_EQ(told(Folder(run).deviations({})), "");
@@ -155,6 +171,13 @@ std::function<void(Conducted&)> text_with(const std::string& from, const std::st
     ASSERT_NE(at, std::string::npos) << from;
     run.text.replace(at, from.size(), to);
   };
+}
+
+void mixes_the_last_blocks(Conducted& run) {
+  text_with(R"({"kind": "block", "name": "thick_b")",
+            R"({"kind": "interleaved", "name": "mixed", "blocks": [
+               {"kind": "block", "name": "thick_b")")(run);
+  text_with("\n  ]\n}\n", "\n  ]}]\n}\n")(run);
 }
 
 const std::vector<Seeded>& seeded() {
@@ -183,6 +206,7 @@ const std::vector<Seeded>& seeded() {
       {"blinding",
        text_with("\"authors\": [", "\"blinding\": \"participant\", \"authors\": [")},
       {"study file", text_with("Stir.", "Stir it.")},
+      {"interleaved mixed", mixes_the_last_blocks},
       // Of how it was run.
       {"number of participants", [](Conducted& run) { run.num_participants = 3; }},
       {"number of participants", [](Conducted& run) { run.num_participants = 5; }},

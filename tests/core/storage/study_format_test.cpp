@@ -101,8 +101,13 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
       EXPECT_EQ(store.trials(7)[0].right_interval, 2);
       EXPECT_EQ(store.trials(7)[0].measures.chosen_interval, 2);
     }
-    EXPECT_THAT(store.looks(), IsEmpty());
-    EXPECT_THAT(store.unsealings(), IsEmpty());
+    ASSERT_EQ(store.looks().size(), has(10) ? 1U : 0U);
+    ASSERT_EQ(store.unsealings().size(), has(10) ? 1U : 0U);
+    if (has(10)) {
+      EXPECT_EQ(store.looks()[0].decision, "go_on");
+      EXPECT_THAT(store.looks()[0].sessions, ElementsAre(3, 4));
+      EXPECT_EQ(store.unsealings()[0].reason, "a visit");
+    }
   }
 
   static void expect_adaptive_trials(const StudyStore& store) {

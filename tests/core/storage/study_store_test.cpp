@@ -355,9 +355,10 @@ class AdaptiveTrialsTest : public StudyStoreTest {
  protected:
   AdaptiveTrialsTest() : store_(with_session()) {}
 
-  void draw(std::int64_t trial) {
+  void draw(std::int64_t trial, std::int64_t stage = 0) {
     Commit commit = event(++sequence_, "trials_drawn");
-    commit.design = {{.session = 1, .trial = trial, .sequence = sequence_, .series = 1}};
+    commit.design = {
+        {.session = 1, .trial = trial, .stage = stage, .sequence = sequence_, .series = 1}};
     store_->append(commit);
   }
   void answer(std::int64_t trial) { store_->append(answered(++sequence_, trial, 1.0)); }
@@ -407,6 +408,21 @@ TEST_F(AdaptiveTrialsTest, WhatWasDrawnWithTheTrialStays) {
   EXPECT_EQ(in_force(), (Trials{1, 2, 3}));
 }
 
+/// Of blocks whose trials are mixed.
+TEST_F(AdaptiveTrialsTest, WhatWasDrawnForAnotherBlockStays) {
+  draw(1, 1);
+  draw(2, 2);
+  answer(1);
+  draw(3, 1);
+  answer(2);
+  draw(4, 2);
+  undo(2);
+  EXPECT_EQ(in_force(), (Trials{1, 2, 3})) << "of its own block the next one is void";
+  undo(1);
+  EXPECT_EQ(in_force(), (Trials{1, 2})) << "and now of the other one, too";
+  EXPECT_EQ(store_->overview().front().num_trials, 2);
+}
+
 /// The store looks for them in another order than the view does.
 TEST_F(AdaptiveTrialsTest, WhatIsInForceIsWhatTheViewSays) {
   RandomStream random(7, "acts of a session");
@@ -421,7 +437,8 @@ TEST_F(AdaptiveTrialsTest, WhatIsInForceIsWhatTheViewSays) {
     } else if (static_cast<std::size_t>(next) <= drawn.size()) {
       answer(drawn[static_cast<std::size_t>(next) - 1]);
     } else {
-      draw(++num_trials);
+      ++num_trials;
+      draw(num_trials, num_trials % 2);
     }
     Trials by_view;
     Database database(folder() / "study.sqlite", Database::Mode::kReadOnly,

@@ -42,7 +42,7 @@ TEST(ShippedStudies, HaveNoProblem) {
     }
     EXPECT_EQ(read_study(entry.path()).name, entry.path().stem());
   }
-  EXPECT_EQ(num_studies, 14);
+  EXPECT_EQ(num_studies, 15);
 }
 
 TEST(ShippedStudies, TellEditorsWhereTheSchemaIs) {

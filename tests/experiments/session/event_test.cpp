@@ -20,7 +20,8 @@ std::vector<EventData> one_of_each() {
                                                  .limited_ticks = 4,
                                                  .finger_lag_s = 0.012}};
   return {SessionStarted{"de", {{"sex", "female"}}},
-          StageEntered{2},
+          StageEntered{.stage = 2, .num_together = 3},
+          TurnTaken{4},
           ItemAnswered{2, "about_you", "body_height_m", "1.75"},
           MediumExplored{2, "viscous", 16.0, 10, 20},
           StageFinished{2},

@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "analysis/results/block_words.h"
+#include "app/language/words.h"
+#include "app/operator/operated_session.h"
+#include "experiments/order/block_turns.h"
+#include "experiments/procedures/expected_session.h"
+#include "experiments/procedures/practice.h"
+#include "experiments/procedures/procedure_registry.h"
+
+// What a view of a session counts and lists. The blocks of a group are one here: whose turn it
+// is would tell which stimulus comes.
+
+namespace jnd::app {
+
+using namespace experiments;
+
+namespace {
+
+constexpr std::size_t kMostAnswersShown = 50;
+
+Text instruction_of(const Stage& stage) {
+  struct Instruction {
+    Text operator()(const Explore& content) const { return content.instruction; }
+    Text operator()(const Training& content) const { return content.instruction; }
+    Text operator()(const Block& content) const { return content.instruction; }
+    Text operator()(const Break& content) const { return content.instruction; }
+    Text operator()(const Questionnaire& content) const { return content.instruction; }
+    Text operator()(const Checklist&) const { return {}; }
+    Text operator()(const Consent&) const { return {}; }
+    Text operator()(const PostExperiment&) const { return {}; }
+    Text operator()(const Counterbalance&) const { return {}; }
+  };
+  return std::visit(Instruction{}, stage.content);
+}
+
+}  // namespace
+
+/// What is said at the begin of the current stage; of a group what is said of each of its
+/// blocks, each text once.
+std::string OperatedSession::instructions() const {
+  std::vector<std::string> told;
+  for (const std::int64_t index : session_.current_stages()) {
+    std::string text =
+        words(instruction_of(*session_.stages().at(static_cast<std::size_t>(index))));
+    if (!text.empty() && std::ranges::find(told, text) == told.end()) {
+      told.push_back(std::move(text));
+    }
+  }
+  std::string all;
+  for (const std::string& text : told) all += (all.empty() ? "" : "\n") + text;
+  return all;
+}
+
+/// What the procedures of the stage under way say of its answers; "" for nothing.
+std::string OperatedSession::cautions() const {
+  std::string all;
+  for (const std::int64_t index : session_.current_stages()) {
+    const auto& its =
+        std::get<Block>(session_.stages().at(static_cast<std::size_t>(index))->content);
+    const std::string caution =
+        procedure_named(its.procedure).caution(its, state().answered_in(index));
+    if (!caution.empty()) all += (all.empty() ? "" : "; ") + caution;
+  }
+  return all;
+}
+
+/// Which trial it is, and of how many.
+void OperatedSession::count_trials(TrialView& view) const {
+  view.num_in_block = 0;
+  view.in_block = 1;
+  const bool is_group = state().num_together > 1;
+  for (const std::int64_t index : session_.current_stages()) {
+    int num = 0;
+    for (const TrialState& trial : state().trials) {
+      if (trial.stage != index || trial.is_void) continue;
+      ++num;
+      // Blocks of a group have repetitions each of its own.
+      if (!is_group) {
+        view.num_repetitions = std::max(view.num_repetitions, trial.planned.repetition);
+      }
+      // By what was answered: a trial that was put off comes later than its number.
+      if (trial.is_answered) ++view.in_block;
+    }
+    const auto& its =
+        std::get<Block>(session_.stages().at(static_cast<std::size_t>(index))->content);
+    if (analysis::length_is_expected(its) || its.practice) {
+      view.num_is_expected = true;
+      num = std::max(num, expected_trials(its));
+    }
+    view.num_in_block += num;
+  }
+}
+
+/// Of the stages that are run with this one.
+std::size_t OperatedSession::first_together(std::size_t stage) const {
+  std::size_t first = 0;
+  while (first + num_run_together(session_.stages(), first) <= stage) {
+    first += num_run_together(session_.stages(), first);
+  }
+  return first;
+}
+
+/// Indices of all trials, stage by stage as they were drawn; those of a group as they were
+/// answered, the others of it behind.
+std::vector<std::size_t> OperatedSession::trials_in_order() const {
+  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  std::vector<std::pair<std::pair<std::size_t, std::int64_t>, std::size_t>> places;
+  for (std::size_t i = 0; i < state().trials.size(); ++i) {
+    const TrialState& trial = state().trials[i];
+    const auto stage = static_cast<std::size_t>(trial.stage);
+    const bool is_mixed = session_.stages().at(stage)->interleaving.has_value();
+    const std::int64_t place = !is_mixed           ? static_cast<std::int64_t>(i)
+                               : trial.is_answered ? trial.answer_sequence
+                                                   : kNever;
+    places.push_back({{first_together(stage), place}, i});
+  }
+  std::ranges::sort(places);
+  std::vector<std::size_t> order;
+  for (const auto& [place, index] : places) order.push_back(index);
+  return order;
+}
+
+std::vector<AnswerLine> OperatedSession::answer_lines() const {
+  std::vector<AnswerLine> lines;
+  const std::optional<std::int64_t> last = state().last_answered_trial();
+  std::map<std::size_t, int> in_block;  // By the stage, or the first one of its group.
+  for (const std::size_t i : trials_in_order()) {
+    const TrialState& trial = state().trials[i];
+    if (trial.is_void) continue;  // It was never run.
+    const auto its_stage = static_cast<std::size_t>(trial.stage);
+    const int number = ++in_block[first_together(its_stage)];
+    if (!trial.is_answered) continue;
+    const Block& its_block = std::get<Block>(session_.stages().at(its_stage)->content);
+    const AnswerKind kind = procedure_named(its_block.procedure).form(its_block).answer;
+    AnswerLine line{.trial = static_cast<std::int64_t>(i) + 1,
+                    .in_block = number,
+                    .block = title_of(its_stage),
+                    .kind = kind,
+                    .takes_cannot_tell = its_block.cannot_tell,
+                    .response_time_s = trial.measures.response_time_s.value_or(0.0)};
+    line.answer = answer_in_words(its_block, kind, trial);
+    line.can_undo = last == line.trial && state().is_under_way(trial.stage) && !state().ended;
+    lines.push_back(std::move(line));
+  }
+  std::reverse(lines.begin(), lines.end());
+  if (lines.size() > kMostAnswersShown) lines.resize(kMostAnswersShown);
+  return lines;
+}
+
+void OperatedSession::describe_progress(SessionView& view) const {
+  const std::vector<const Stage*>& stages = session_.stages();
+  double done_s = 0.0;
+  double whole_s = 0.0;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < stages.size(); i = next) {
+    next = i + num_run_together(stages, i);
+    double expected_s = 0.0;
+    for (std::size_t one = i; one < next; ++one) {
+      expected_s += expected_duration_s(*stages[one]);
+    }
+    whole_s += expected_s;
+    StageLine line{.title = title_of(i)};
+    if (state().ended || static_cast<std::int64_t>(next) <= state().stage) {
+      line.status = StageLine::Status::kDone;
+      done_s += expected_s;
+    } else if (static_cast<std::int64_t>(i) <= state().stage && begun_) {
+      line.status = StageLine::Status::kNow;
+      if (view.trial) {
+        done_s += expected_s * (view.trial->in_block - 1) / view.trial->num_in_block;
+      } else if (block() != nullptr && state().stage_open) {
+        done_s += expected_s;
+      }
+    }
+    view.stages.push_back(std::move(line));
+  }
+  view.elapsed_s = begun_ ? now_s() - begun_s_ : 0.0;
+  view.left_s = std::max(0.0, whole_s - done_s);
+  view.done_ratio = state().completed ? 1.0 : whole_s > 0.0 ? done_s / whole_s : 0.0;
+}
+
+}  // namespace jnd::app
