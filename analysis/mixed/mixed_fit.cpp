@@ -79,13 +79,7 @@ MixedRefit::MixedRefit(const MixedData& data, const MixedOptions& options) : opt
   fit_.num_parameters = model_.num_parameters();
   Eigen::VectorXd start = Eigen::VectorXd::Zero(model_.num_parameters());
   start.head(model_.num_fixed()) = fixed_start(model_);
-  for (const TermPlace& place : places_) {
-    Eigen::Index at = place.first_theta;
-    for (Eigen::Index size = place.scale.rows(); size > 0; --size) {
-      start[at] = kStartLoading;
-      at += size;
-    }
-  }
+  spread_at_least(kStartLoading, start);
   MixedLikelihood laplace(model_, 1);
   MixedOptimum optimum = most_likely(laplace, start, model_.num_fixed());
   if (options.num_nodes > 1) {
@@ -112,6 +106,17 @@ MixedRefit::MixedRefit(const MixedData& data, const MixedOptions& options) : opt
   fit_.bic = std::log(static_cast<double>(fit_.num_rows)) * fit_.num_parameters -
              2.0 * fit_.log_likelihood;
   tell_effects(data, parameters_, covariance_);
+}
+
+/// The likelihood is even in a loading, so that a search would not leave 0.
+void MixedRefit::spread_at_least(double loading, Eigen::VectorXd& parameters) const {
+  for (const TermPlace& place : places_) {
+    Eigen::Index at = place.first_theta;
+    for (Eigen::Index size = place.scale.rows(); size > 0; --size) {
+      if (std::fabs(parameters[at]) < loading) parameters[at] = loading;
+      at += size;
+    }
+  }
 }
 
 void MixedRefit::build_model(const MixedData& data) {
@@ -254,6 +259,8 @@ Eigen::VectorXd MixedRefit::redrawn(std::uint64_t seed, std::int64_t index) cons
   }
   MixedLikelihood likelihood(drawn, options_.num_nodes);
   Eigen::VectorXd parameters = parameters_;
+  constexpr double kLeastLoading = 0.05;
+  spread_at_least(kLeastLoading, parameters);
   Eigen::MatrixXd inverse = covariance_;
   inverse.diagonal().array() += 1e-6;
   double log_likelihood = 0.0;

@@ -88,6 +88,7 @@ class MixedRefit {
   };
 
   void build_model(const MixedData& data);
+  void spread_at_least(double loading, Eigen::VectorXd& parameters) const;
   void tell_effects(const MixedData& data, const Eigen::VectorXd& parameters,
                     const Eigen::MatrixXd& covariance);
 
