@@ -164,6 +164,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
       "analysis/statistics",
       "analysis/fits",
       "analysis/hierarchical",
+      "analysis/mixed",
       "analysis/results",
       "analysis/movement",
       "analysis/export",
