@@ -10,14 +10,12 @@
 
 namespace jnd::app {
 
-void add_answer_options(CLI::App& command, AnswerOptions& options) {
+void add_answer_columns(CLI::App& command, AnswerOptions& options) {
   command
       .add_option("--csv", options.csv,
                   "table of trials or counts: commas, semicolons or tabs between the cells, or "
                   "jsPsych's JSON")
       ->required();
-  command.add_option("--intensity", options.intensity, "column of the intensities")
-      ->option_text("COLUMN [intensity]");
   command
       .add_option("--yes", options.yes,
                   "column of the answers: 0 or 1, true or false, -1 or 1; with --trials how "
@@ -32,39 +30,56 @@ void add_answer_options(CLI::App& command, AnswerOptions& options) {
                   "column of how many trials a row is; where --yes is given, 1 without it")
       ->option_text("COLUMN [num_trials]");
   command
-      .add_option("--group-by", options.group_by, "columns; one fit for each of their values")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->option_text("COLUMN[,COLUMN,..]");
-  command
       .add_option("--where", options.where,
                   "take the rows alone that have this cell; may be given several times")
       ->allow_extra_args(false)
       ->option_text("COLUMN=CELL");
 }
 
-analysis::AnswerFile read_answers(const AnswerOptions& options, bool signed_intensities) {
-  analysis::AnswerColumns columns = {.intensity = options.intensity,
-                                     .yes = options.yes.empty() ? "num_yes" : options.yes,
-                                     .yes_value = {},
-                                     .trials = {},
-                                     .group_by = options.group_by,
-                                     .where = {},
-                                     .signed_intensities = signed_intensities};
-  if (!options.yes_value.empty()) columns.yes_value = options.yes_value;
+void add_answer_options(CLI::App& command, AnswerOptions& options) {
+  add_answer_columns(command, options);
+  command.add_option("--intensity", options.intensity, "column of the intensities")
+      ->option_text("COLUMN [intensity]");
+  command
+      .add_option("--group-by", options.group_by, "columns; one fit for each of their values")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("COLUMN[,COLUMN,..]");
+}
+
+analysis::AnswerWords answer_words(const AnswerOptions& options) {
+  analysis::AnswerWords words{
+      .yes = options.yes.empty() ? "num_yes" : options.yes, .yes_value = {}, .trials = {}};
+  if (!options.yes_value.empty()) words.yes_value = options.yes_value;
   if (!options.trials.empty()) {
-    columns.trials = options.trials;
+    words.trials = options.trials;
   } else if (options.yes.empty()) {
-    columns.trials = "num_trials";
+    words.trials = "num_trials";
   }
+  return words;
+}
+
+std::vector<std::pair<std::string, std::string>> where_of(const AnswerOptions& options) {
+  std::vector<std::pair<std::string, std::string>> where;
   for (const std::string& one : options.where) {
     const std::size_t sign = one.find('=');
     if (sign == 0 || sign == std::string::npos) {
       throw UsageError(fmt::format("--where: expected COLUMN=CELL, found {}", one));
     }
-    columns.where.emplace_back(one.substr(0, sign), one.substr(sign + 1));
+    where.emplace_back(one.substr(0, sign), one.substr(sign + 1));
   }
-  return analysis::read_answer_file(options.csv, columns);
+  return where;
+}
+
+analysis::AnswerFile read_answers(const AnswerOptions& options, bool signed_intensities) {
+  const analysis::AnswerWords words = answer_words(options);
+  return analysis::read_answer_file(options.csv, {.intensity = options.intensity,
+                                                  .yes = words.yes,
+                                                  .yes_value = words.yes_value,
+                                                  .trials = words.trials,
+                                                  .group_by = options.group_by,
+                                                  .where = where_of(options),
+                                                  .signed_intensities = signed_intensities});
 }
 
 std::vector<analysis::AnswerCount> rows_of(const analysis::AnswerGroup& group) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "analysis/data/answer_cells.h"
 #include "analysis/data/answer_file.h"
 #include "analysis/fits/curve_fit.h"
 
@@ -19,7 +21,18 @@ struct AnswerOptions {
   bool json = false;
 };
 
+/// --csv, --yes, --yes-value, --trials and --where.
+void add_answer_columns(CLI::App& command, AnswerOptions& options);
+
+/// The same with --intensity and --group-by.
 void add_answer_options(CLI::App& command, AnswerOptions& options);
+
+/// Which columns are the answers: num_yes and num_trials where none is named.
+[[nodiscard]] analysis::AnswerWords answer_words(const AnswerOptions& options);
+
+/// Column and cell of each --where. Throws `UsageError` for what is no COLUMN=VALUE.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> where_of(
+    const AnswerOptions& options);
 
 /// The groups of the file. Where no column of answers is named they are num_yes and num_trials.
 /// Throws `UsageError` for a --where that is no COLUMN=VALUE, `core::Error` as

@@ -13,6 +13,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/commands/fit_detection.h"
+#include "app/commands/fit_glmm.h"
 #include "app/commands/fit_group.h"
 #include "app/commands/fit_psychometric.h"
 #include "app/commands/fit_tables.h"
@@ -188,6 +189,7 @@ void add_fit(CLI::App& program, Invocation& invocation) {
   add_fit_psychometric(fit, invocation);
   add_fit_weber(fit, invocation);
   add_fit_group(fit, invocation);
+  add_fit_glmm(fit, invocation);
   add_fit_detection(fit, invocation);
 
   CLI::App& power = *fit.add_subcommand("power", "Power law from magnitudes");

@@ -1,0 +1,137 @@
+#include "analysis/data/trial_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "analysis/data/answer_rows.h"
+
+namespace jnd::analysis {
+namespace {
+
+/// Takes the rows of a table, whose columns it knows once it has the header.
+class TrialCollector final : public RowSink {
+ public:
+  TrialCollector(std::string name, const TrialColumns& columns)
+      : RowSink(std::move(name)),
+        columns_(columns),
+        places_of_cells_(columns.variables.size()) {
+    for (const std::string& variable : columns.variables) {
+      table_.variables.push_back({.name = variable, .cells = {}, .numbers = {}, .place = {}});
+    }
+  }
+
+  void set_header(std::vector<std::string> header, int line) override {
+    for (const std::string& variable : columns_.variables) {
+      const auto found = std::ranges::find(header, variable);
+      if (found == header.end()) throw UnknownColumn(problems().name(), variable, header);
+      variables_.push_back(static_cast<std::size_t>(found - header.begin()));
+    }
+    yes_ = problems().place_of(columns_.answers.yes, header, line);
+    if (columns_.answers.trials) {
+      trials_ = problems().place_of(*columns_.answers.trials, header, line);
+    }
+    for (const auto& [name, cell] : columns_.where) {
+      where_.push_back(problems().place_of(name, header, line));
+    }
+    problems().throw_problems();
+  }
+
+  void add_row(const std::vector<std::string_view>& cells, int line,
+               bool decimal_comma) override {
+    ++table_.num_rows_in_file;
+    const auto cell = [&](std::size_t place) {
+      return place < cells.size() ? cells[place] : std::string_view();
+    };
+    for (std::size_t i = 0; i < where_.size(); ++i) {
+      if (!is_same_cell(cell(where_[i]), columns_.where[i].second, decimal_comma)) {
+        ++table_.num_elsewhere;
+        return;
+      }
+    }
+    const std::string_view trials = trials_ ? cell(*trials_) : std::string_view();
+    if (skips(cell(yes_), columns_.answers.yes)) return;
+    if (trials_ && skips(trials, *columns_.answers.trials)) return;
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+      if (skips(cell(variables_[i]), columns_.variables[i])) return;
+    }
+    const std::optional<CountedAnswers> counted =
+        counted_answers(columns_.answers, cell(yes_), trials, decimal_comma, line, problems());
+    if (!counted) return;
+    if (counted->num_trials == 0) {
+      ++table_.num_without_trials;
+      return;
+    }
+    table_.num_yes.push_back(static_cast<double>(counted->num_yes));
+    table_.num_trials.push_back(static_cast<double>(counted->num_trials));
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+      add_cell(i, cell(variables_[i]), decimal_comma);
+    }
+  }
+
+  [[nodiscard]] TrialTable finish() {
+    problems().throw_problems();
+    return std::move(table_);
+  }
+
+ private:
+  bool skips(std::string_view cell, const std::string& column) {
+    if (!is_missing(cell)) return false;
+    ++table_.num_missing[column];
+    return true;
+  }
+
+  void add_cell(std::size_t index, std::string_view cell, bool decimal_comma) {
+    TrialVariable& variable = table_.variables[index];
+    text_ = cell;
+    const auto [found, is_new] = places_of_cells_[index].try_emplace(
+        text_, static_cast<std::uint32_t>(variable.cells.size()));
+    if (is_new) {
+      variable.cells.push_back(text_);
+      variable.numbers.push_back(number_of(cell, decimal_comma));
+    }
+    variable.place.push_back(found->second);
+  }
+
+  const TrialColumns& columns_;
+  TrialTable table_;
+  std::size_t yes_ = 0;
+  std::optional<std::size_t> trials_;
+  std::vector<std::size_t> variables_, where_;
+  std::vector<std::unordered_map<std::string, std::uint32_t>> places_of_cells_;
+  std::string text_;
+};
+
+}  // namespace
+
+bool TrialVariable::is_numeric() const noexcept {
+  return std::ranges::none_of(numbers, [](double number) { return std::isnan(number); });
+}
+
+const TrialVariable* TrialTable::find(std::string_view name) const noexcept {
+  const auto found = std::ranges::find(variables, name, &TrialVariable::name);
+  return found == variables.end() ? nullptr : &*found;
+}
+
+UnknownColumn::UnknownColumn(const std::string& where, std::string missing,
+                             const std::vector<std::string>& header)
+    : core::Error(where + ": " + missing +
+                  ": expected a column of this name, found the columns " +
+                  shown_columns(header)),
+      column(std::move(missing)),
+      known(shown_columns(header)) {}
+
+TrialTable read_trial_table(const std::filesystem::path& file, const TrialColumns& columns) {
+  TrialCollector collector(file.string(), columns);
+  read_rows(file, collector);
+  return collector.finish();
+}
+
+TrialTable parse_trial_table(std::string_view text, const std::string& name,
+                             const TrialColumns& columns) {
+  TrialCollector collector(name, columns);
+  parse_rows(text, collector);
+  return collector.finish();
+}
+
+}  // namespace jnd::analysis

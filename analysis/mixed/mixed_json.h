@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "analysis/mixed/mixed_derived.h"
+#include "analysis/mixed/mixed_fit.h"
+
+namespace jnd::analysis {
+
+/// A mixed model as the command line's contract has it: status, reason, fixed, random,
+/// log_likelihood, aic, bic, num_parameters, num_rows. Numbers that do not exist are null.
+[[nodiscard]] nlohmann::ordered_json to_json(const MixedFit& fit);
+
+/// A list of name, value, standard_error, ci95 and, with redraws, bootstrap_ci95.
+[[nodiscard]] nlohmann::ordered_json to_json(const std::vector<DerivedQuantity>& derived,
+                                             bool has_bootstrap);
+
+}  // namespace jnd::analysis

@@ -1,0 +1,351 @@
+#include "app/commands/fit_glmm.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "analysis/mixed/mixed_json.h"
+#include "app/command_line/json_text.h"
+#include "app/command_line/option_checks.h"
+#include "app/commands/glmm_options.h"
+#include "core/parallel.h"
+
+namespace jnd::app {
+namespace {
+
+using analysis::FitStatus;
+using analysis::FormulaError;
+
+[[noreturn]] void throw_formula(const char* option, const FormulaError& error) {
+  throw UsageError(fmt::format("{}: {}\n{}", option, error.what(), error.picture));
+}
+
+analysis::MixedFormulas formulas_of(const FitGlmmOptions& options, const std::string& fixed) {
+  analysis::MixedFormulas formulas;
+  try {
+    formulas.fixed = analysis::parse_formula(fixed);
+  } catch (const FormulaError& error) {
+    throw_formula("--fixed", error);
+  }
+  try {
+    for (const std::string& one : options.random) {
+      for (analysis::RandomTerm& term : analysis::parse_random_terms(one)) {
+        formulas.random.push_back(std::move(term));
+      }
+    }
+  } catch (const FormulaError& error) {
+    throw_formula("--random", error);
+  }
+  return formulas;
+}
+
+/// A name as a formula reads it.
+std::string in_formula(const std::string& name) {
+  const bool is_plain = std::ranges::all_of(name, [](char letter) {
+    return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' ||
+           letter == '.';
+  });
+  return is_plain ? name : "`" + name + "`";
+}
+
+bool has_history(const FitGlmmOptions& options) { return options.terms == "history"; }
+
+/// The fixed effects with those of the trial before.
+std::string whole_fixed(const FitGlmmOptions& options) {
+  if (!has_history(options)) return options.fixed;
+  return options.fixed + " + " + in_formula(analysis::previous_stimulus(options.stimulus)) +
+         " + " + analysis::kPreviousAnswer;
+}
+
+void require_glmm_options(const FitGlmmOptions& options) {
+  if (options.script == "python") {
+    throw UsageError(
+        "--script python: expected r, found python, for which no package has this model: the "
+        "mixed binomial models of statsmodels are Bayesian approximations; --script r writes "
+        "one for lme4");
+  }
+  if (options.json && !options.script.empty()) {
+    throw UsageError("--json, --script: expected one of them at most, found both");
+  }
+  if (has_history(options) && options.stimulus.empty()) {
+    throw UsageError(
+        "--terms history: expected with --stimulus COLUMN, of which the value before is taken, "
+        "found without");
+  }
+  if (options.num_bootstrap > 0 && options.stimulus.empty()) {
+    throw UsageError(
+        "--bootstrap: expected with --stimulus COLUMN, of whose PSE and JND it is, found "
+        "without");
+  }
+  if (!(options.jnd_at > 0.0 && options.jnd_at < 1.0) || options.jnd_at == 0.5) {
+    throw UsageError(
+        fmt::format("--jnd-at: expected a number between 0 and 1 that is not 0.5, found {}",
+                    options.jnd_at));
+  }
+  if (std::stod(options.guess) + std::stod(options.lapse) >= 1.0) {
+    throw UsageError(fmt::format(
+        "--lapse: expected a rate that leaves the curve a rise above --guess {}, found {}",
+        options.guess, options.lapse));
+  }
+}
+
+/// The table with the columns that the formulas name, and those of the trial before.
+void read_glmm_table(const FitGlmmOptions& options, GlmmResult& result) {
+  const std::string previous =
+      has_history(options) ? analysis::previous_stimulus(options.stimulus) : "";
+  analysis::TrialColumns columns{.answers = answer_words(options),
+                                 .variables = analysis::columns_of(result.formulas),
+                                 .where = where_of(options)};
+  if (has_history(options)) {
+    std::erase(columns.variables, previous);
+    std::erase(columns.variables, analysis::kPreviousAnswer);
+  }
+  try {
+    result.table = analysis::read_trial_table(options.csv, columns);
+  } catch (const analysis::UnknownColumn& unknown) {
+    const bool is_fixed = std::ranges::any_of(
+        result.formulas.fixed.variables,
+        [&](const auto& variable) { return variable.column == unknown.column; });
+    throw_formula(is_fixed ? "--fixed" : "--random",
+                  analysis::unknown_in(result.formulas, unknown.column, unknown.known));
+  }
+  const analysis::TrialTable& table = result.table;
+  if (table.num_elsewhere > 0) {
+    result.notes.push_back(fmt::format("left out {} of {} rows by --where", table.num_elsewhere,
+                                       table.num_rows_in_file));
+  }
+  for (const auto& [column, number] : table.num_missing) {
+    result.notes.push_back(
+        fmt::format("left out {} of {} rows, which have nothing in the column {}", number,
+                    table.num_rows_in_file, column));
+  }
+  if (table.num_without_trials > 0) {
+    result.notes.push_back(fmt::format("left out {} of {} rows, which have no trials",
+                                       table.num_without_trials, table.num_rows_in_file));
+  }
+  if (!has_history(options) || table.num_rows() == 0) return;
+  const std::string& person = result.formulas.random.front().group_columns.front();
+  const std::size_t num_first = analysis::add_history(result.table, options.stimulus, person);
+  result.notes.push_back(fmt::format(
+      "{} is the stimulus and {} the answer (1 for yes) of the row before of the same {}; left "
+      "out {} rows, which are the first of theirs",
+      previous, analysis::kPreviousAnswer, person, num_first));
+}
+
+void add_derived(const FitGlmmOptions& options, const analysis::MixedOptions& how,
+                 const analysis::MixedRefit& refit, GlmmResult& result) {
+  std::vector<Eigen::VectorXd> redrawn(static_cast<std::size_t>(options.num_bootstrap));
+  const int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  core::for_each_index(redrawn.size(), jobs, [&](std::size_t i) {
+    redrawn[i] = refit.redrawn(options.seed, static_cast<std::int64_t>(i));
+  });
+  result.num_without_fit = static_cast<int>(
+      std::erase_if(redrawn, [](const Eigen::VectorXd& one) { return one.size() == 0; }));
+  result.derived = analysis::derived_quantities(result.lines, how.curve.link, options.jnd_at,
+                                                result.fit.estimates(),
+                                                result.fit.fixed_covariance, redrawn);
+  for (const std::string& name : result.lines.held) {
+    result.notes.push_back(fmt::format("PSE and JND are where {} is at its mean", name));
+  }
+  for (const analysis::MixedCell& cell : result.lines.cells) {
+    const double slope = cell.slope.dot(result.fit.estimates());
+    const double error = std::sqrt(cell.slope.dot(result.fit.fixed_covariance * cell.slope));
+    if (std::fabs(slope) > 1.96 * error) continue;
+    result.notes.push_back(fmt::format(
+        "the curve{} is not steeper than none by two standard errors, so that its PSE and JND "
+        "have no interval worth the name; --bootstrap shows how far they scatter",
+        cell.name.empty() ? "" : " of " + cell.name));
+  }
+}
+
+GlmmResult glmm_result(const FitGlmmOptions& options) {
+  GlmmResult result;
+  result.formulas = formulas_of(options, whole_fixed(options));
+  const auto& variables = result.formulas.fixed.variables;
+  if (!options.stimulus.empty() &&
+      std::ranges::find(variables, options.stimulus, &analysis::FormulaVariable::column) ==
+          variables.end()) {
+    throw UsageError(
+        fmt::format("--stimulus: expected a column of --fixed, found {}", options.stimulus));
+  }
+  read_glmm_table(options, result);
+  if (result.table.num_rows() == 0) {
+    throw core::Error(options.csv + ": expected rows with answers, found none");
+  }
+  const auto contrasts =
+      options.contrasts == "sum" ? analysis::Contrasts::kSum : analysis::Contrasts::kTreatment;
+  const analysis::MixedOptions how = {.curve = {.link = *analysis::mixed_link(options.link),
+                                                .guess_rate = std::stod(options.guess),
+                                                .lapse_rate = std::stod(options.lapse)},
+                                      .num_nodes = options.num_nodes};
+  std::optional<analysis::Design> design;
+  try {
+    design.emplace(result.formulas.fixed, result.table, contrasts);
+    if (!options.stimulus.empty()) {
+      result.lines = analysis::stimulus_lines(result.formulas.fixed, *design, result.table,
+                                              options.stimulus);
+    }
+  } catch (const FormulaError& error) {
+    throw_formula("--fixed", error);
+  }
+  analysis::MixedData data;
+  try {
+    data = analysis::mixed_data(result.formulas, *design, result.table, contrasts);
+  } catch (const FormulaError& error) {
+    throw_formula("--random", error);
+  }
+  for (const analysis::MixedTerm& term : data.terms) {
+    const auto known = std::ranges::find(result.groups, term.group,
+                                         &std::pair<std::string, std::size_t>::first);
+    if (known == result.groups.end()) result.groups.emplace_back(term.group, term.num_groups);
+  }
+  std::optional<analysis::MixedRefit> refit;
+  try {
+    refit.emplace(data, how);
+  } catch (const core::Error& error) {
+    throw core::Error(options.csv + ": " + error.what());
+  }
+  result.fit = refit->fit();
+  result.notes.insert(result.notes.end(), result.fit.notes.begin(), result.fit.notes.end());
+  if (result.fit.status == FitStatus::kOk && !options.stimulus.empty()) {
+    add_derived(options, how, *refit, result);
+  }
+  return result;
+}
+
+nlohmann::ordered_json document_of(const FitGlmmOptions& options, const GlmmResult& result) {
+  using Json = nlohmann::ordered_json;
+  Json json = analysis::to_json(result.fit);
+  json["derived"] = analysis::to_json(result.derived, options.num_bootstrap > 0);
+  json["link"] = options.link;
+  json["guess_rate"] = std::stod(options.guess);
+  json["lapse_rate"] = std::stod(options.lapse);
+  json["contrasts"] = options.contrasts;
+  json["nodes"] = options.num_nodes;
+  json["formula"] = {{"fixed", result.formulas.fixed.text}, {"random", options.random}};
+  json["groups"] = Json::object();
+  for (const auto& [name, number] : result.groups) json["groups"][name] = number;
+  if (!options.stimulus.empty()) {
+    json["stimulus"] = options.stimulus;
+    json["axis"] =
+        result.lines.axis == analysis::StimulusAxis::kLinear ? "linear" : "logarithmic";
+    json["jnd_at"] = options.jnd_at;
+  }
+  if (options.num_bootstrap > 0) {
+    json["bootstrap"] = {{"num", options.num_bootstrap},
+                         {"num_without_fit", result.num_without_fit},
+                         {"seed", options.seed}};
+  }
+  json["num_rows_in_file"] = result.table.num_rows_in_file;
+  json["num_rows_elsewhere"] = result.table.num_elsewhere;
+  json["num_rows_missing"] = Json(result.table.num_missing);
+  json["notes"] = result.notes;
+  return json;
+}
+
+int fit_glmm(const FitGlmmOptions& options) {
+  require_glmm_options(options);
+  const GlmmResult result = glmm_result(options);
+  if (options.json) {
+    fmt::print("{}\n", json_text(document_of(options, result)));
+  } else if (!options.script.empty()) {
+    fmt::print("{}", glmm_script(options, result));
+  } else {
+    print_glmm(options, result);
+  }
+  if (result.fit.status == FitStatus::kOk) return kDone;
+  fmt::print(stderr, "jnd: {}: expected answers that have a mixed model, found none: {}\n",
+             options.csv, result.fit.reason);
+  return kHasProblems;
+}
+
+}  // namespace
+
+void add_fit_glmm(CLI::App& fit, Invocation& invocation) {
+  const auto options = std::make_shared<FitGlmmOptions>();
+  CLI::App& command = *fit.add_subcommand(
+      "glmm",
+      "Generalised linear mixed model of yes and no: P(yes) = guess + (1 - guess - lapse) "
+      "F(eta), eta being the fixed effects plus random effects, normal between groups");
+  add_answer_columns(command, *options);
+  command
+      .add_option(
+          "--fixed", options->fixed,
+          "right side of a formula as R has it: + of terms, a:b for their product, a*b "
+          "for a + b + a:b, (a + b)^2, 0 or -1 for no intercept; a column of numbers is "
+          "a covariate, any other or factor(column) a factor; log, log2, log10, exp, "
+          "sqrt, abs, scale and center of a column; names in backquotes")
+      ->required()
+      ->option_text("FORMULA REQUIRED");
+  command
+      .add_option("--random", options->random,
+                  "effects that differ between groups: \"1 + u | participant\", correlated, or "
+                  "with || not; a:b or a/b for groups within groups; several times, or "
+                  "\"(1 | person) + (1 | item)\"")
+      ->required()
+      ->allow_extra_args(false)
+      ->option_text("FORMULA REQUIRED");
+  command
+      .add_option("--link", options->link,
+                  "F: probit Phi(eta); logit 1 / (1 + exp(-eta)); cloglog 1 - exp(-exp(eta))")
+      ->check(CLI::IsMember({"probit", "logit", "cloglog"}))
+      ->capture_default_str();
+  command
+      .add_option("--guess", options->guess, "lower end of the curve, 1/2 of two alternatives")
+      ->transform(rate())
+      ->option_text("RATE [0]");
+  command.add_option("--lapse", options->lapse, "distance of the upper end from 1")
+      ->transform(rate())
+      ->option_text("RATE [0]");
+  command
+      .add_option("--contrasts", options->contrasts,
+                  "of factors: each level against the first, or, sum, against the mean of all")
+      ->check(CLI::IsMember({"treatment", "sum"}))
+      ->capture_default_str();
+  command
+      .add_option("--nodes", options->num_nodes,
+                  "of adaptive Gauss-Hermite quadrature in each dimension, for one grouping; 1 "
+                  "is Laplace's approximation, for any number")
+      ->check(whole_number(1, 61))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--stimulus", options->stimulus,
+          "covariate of which PSE, JND and Weber fraction are told in each combination "
+          "of the factors' levels, with their differences: eta = a + b x has PSE = "
+          "(q(1/2) - a) / b, JND = |q(at) - q(1/2)| / |b| and Weber fraction JND / PSE; "
+          "eta = a + b ln x has their exponentials, Weber fraction = exp(|q(at) - "
+          "q(1/2)| / |b|) - 1; q is the inverse of F")
+      ->option_text("COLUMN");
+  command.add_option("--jnd-at", options->jnd_at, "level of F, from 0 to 1, of the JND")
+      ->option_text("LEVEL [0.75]");
+  command
+      .add_option("--terms", options->terms,
+                  "history: adds the stimulus and the answer of the row before of the same "
+                  "group of the first --random, as previous_COLUMN and previous_answer")
+      ->check(CLI::IsMember({"history"}));
+  command
+      .add_option("--bootstrap", options->num_bootstrap,
+                  "refits of answers drawn from the model, random effects anew among them, for "
+                  "intervals beside those of the delta method")
+      ->check(whole_number(0, 1'000'000));
+  command.add_option("--seed", options->seed, "of the bootstrap")
+      ->check(seed_number())
+      ->capture_default_str();
+  command
+      .add_option("--script", options->script,
+                  "print a script that repeats the fit by lme4 in R")
+      ->check(CLI::IsMember({"r", "python"}));
+  command.add_flag("--json", options->json, "print one JSON document");
+  command.callback(
+      [&invocation, options] { invocation.run = [options] { return fit_glmm(*options); }; });
+}
+
+}  // namespace jnd::app

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "analysis/mixed/mixed_derived.h"
+#include "analysis/mixed/mixed_fit.h"
+#include "analysis/mixed/mixed_table.h"
+#include "app/commands/answer_options.h"
+
+namespace jnd::app {
+
+struct FitGlmmOptions : AnswerOptions {
+  std::string fixed;
+  std::vector<std::string> random;
+  std::string link = "probit", contrasts = "treatment", guess = "0", lapse = "0";
+  std::string stimulus, terms, script;
+  double jnd_at = 0.75;
+  int num_nodes = 1, num_bootstrap = 0;
+  std::uint64_t seed = 1;
+};
+
+/// A mixed model that was fitted, and what it was fitted to.
+struct GlmmResult {
+  analysis::MixedFormulas formulas;  ///< With the terms of the history.
+  analysis::TrialTable table;
+  analysis::MixedFit fit;
+  analysis::StimulusLines lines;
+  std::vector<analysis::DerivedQuantity> derived;
+  /// Groups of each random term, by the name of the grouping.
+  std::vector<std::pair<std::string, std::size_t>> groups;
+  int num_without_fit = 0;  ///< Of the bootstrap.
+  std::vector<std::string> notes;
+};
+
+/// For people, on stdout.
+void print_glmm(const FitGlmmOptions& options, const GlmmResult& result);
+
+/// A script that repeats the fit by lme4 in R.
+[[nodiscard]] std::string glmm_script(const FitGlmmOptions& options, const GlmmResult& result);
+
+}  // namespace jnd::app
