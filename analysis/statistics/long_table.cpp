@@ -1,21 +1,16 @@
 #include "analysis/statistics/long_table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "analysis/data/answer_rows.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
 namespace {
-
-bool is_missing_cell(const std::string& cell) {
-  static const std::set<std::string> kMissing = {"",     "NA",  "N/A", "na",
-                                                 "null", "NaN", "nan", "None"};
-  return kMissing.contains(cell);
-}
 
 struct Row {
   std::string condition, person;
@@ -76,68 +71,96 @@ std::string listed(const std::vector<std::string>& words) {
   return list;
 }
 
-/// Throws where a level that is asked for is nobody's condition.
-void require_levels(const CsvTable& table, std::size_t by_at, const LongColumns& columns) {
-  std::vector<std::string> known;
-  for (std::size_t row = 0; row < table.num_rows(); ++row) {
-    const std::string& cell = table.cell(row, by_at);
-    if (!is_missing_cell(cell) && !std::ranges::count(known, cell)) known.push_back(cell);
+/// Takes the rows of each group as they are read.
+class LongCollector : public RowSink {
+ public:
+  LongCollector(std::string name, const LongColumns& columns)
+      : RowSink(std::move(name)), columns_(columns) {
+    if (columns_.group_by.empty()) groups_.emplace_back();
   }
-  for (const std::string& level : columns.levels) {
-    if (std::ranges::count(known, level)) continue;
-    throw core::Error(table.name() + ": " + columns.by + ": expected one of " + listed(known) +
-                      " for --levels, found \"" + level + "\"");
+
+  void set_header(std::vector<std::string> header, int line) override {
+    const auto place = [&](const std::string& column) {
+      return problems().place_of(column, header, line);
+    };
+    value_ = place(columns_.value);
+    by_ = place(columns_.by);
+    if (!columns_.pair.empty()) pair_ = place(columns_.pair);
+    for (const std::string& column : columns_.group_by) group_by_.push_back(place(column));
+    problems().throw_problems();
   }
-}
+
+  void add_row(const std::vector<std::string_view>& cells, int line,
+               bool decimal_comma) override {
+    const auto cell = [&cells](std::size_t at) {
+      return at < cells.size() ? cells[at] : std::string_view();
+    };
+    Row row{.condition = std::string(cell(by_)),
+            .person = pair_ ? std::string(cell(*pair_)) : ""};
+    if (is_missing(cell(value_)) || is_missing(row.condition) ||
+        (pair_ && is_missing(row.person))) {
+      ++num_missing_;
+      return;
+    }
+    if (!std::ranges::count(known_, row.condition)) known_.push_back(row.condition);
+    if (!columns_.levels.empty() && !std::ranges::count(columns_.levels, row.condition)) return;
+    row.value = number_of(cell(value_), decimal_comma);
+    if (std::isnan(row.value)) {
+      problems().report(line, columns_.value, "a number, or NA", cell(value_));
+      return;
+    }
+    Key key;
+    for (std::size_t i = 0; i < group_by_.size(); ++i) {
+      key.emplace_back(columns_.group_by[i], cell(group_by_[i]));
+    }
+    auto group =
+        std::ranges::find_if(groups_, [&](const auto& one) { return one.first == key; });
+    if (group == groups_.end()) {
+      groups_.emplace_back(std::move(key), std::vector<Row>());
+      group = std::prev(groups_.end());
+    }
+    group->second.push_back(std::move(row));
+  }
+
+  [[nodiscard]] LongTable finish() {
+    problems().throw_problems();
+    for (const std::string& level : columns_.levels) {
+      if (std::ranges::count(known_, level)) continue;
+      throw core::Error(problems().name() + ": " + columns_.by + ": expected one of " +
+                        listed(known_) + " for --levels, found \"" + level + "\"");
+    }
+    LongTable table{.groups = {}, .num_missing = num_missing_};
+    for (auto& [key, rows] : groups_) {
+      table.groups.push_back(group_of(std::move(key), rows, columns_));
+    }
+    return table;
+  }
+
+ private:
+  using Key = std::vector<std::pair<std::string, std::string>>;
+
+  const LongColumns& columns_;
+  std::size_t value_ = 0, by_ = 0;
+  std::optional<std::size_t> pair_;
+  std::vector<std::size_t> group_by_;
+  std::vector<std::string> known_;  ///< Conditions, in the order of their first rows.
+  std::vector<std::pair<Key, std::vector<Row>>> groups_;
+  std::int64_t num_missing_ = 0;
+};
 
 }  // namespace
 
-LongTable read_long(const CsvTable& table, const LongColumns& columns) {
-  CsvReader reader(table);
-  const auto value_at = reader.column(columns.value), by_at = reader.column(columns.by);
-  const auto pair_at = columns.pair.empty() ? std::nullopt : reader.column(columns.pair);
-  std::vector<std::size_t> group_at;
-  for (const std::string& column : columns.group_by) {
-    if (const auto at = reader.column(column)) group_at.push_back(*at);
-  }
-  reader.throw_problems();
-  require_levels(table, *by_at, columns);
-  LongTable result;
-  std::vector<std::pair<std::vector<std::pair<std::string, std::string>>, std::vector<Row>>>
-      groups;
-  if (columns.group_by.empty()) groups.emplace_back();
-  for (std::size_t row = 0; row < table.num_rows(); ++row) {
-    const std::string& cell = table.cell(row, *value_at);
-    Row one{.condition = table.cell(row, *by_at),
-            .person = pair_at ? table.cell(row, *pair_at) : ""};
-    if (is_missing_cell(cell) || is_missing_cell(one.condition) ||
-        (pair_at && is_missing_cell(one.person))) {
-      ++result.num_missing;
-      continue;
-    }
-    if (!columns.levels.empty() && !std::ranges::count(columns.levels, one.condition)) continue;
-    const char* const end = cell.data() + cell.size();
-    const auto [last, error] = std::from_chars(cell.data(), end, one.value);
-    if (error != std::errc() || last != end || !std::isfinite(one.value)) {
-      reader.report(row, columns.value, "a number, or NA");
-      continue;
-    }
-    std::vector<std::pair<std::string, std::string>> key;
-    for (std::size_t i = 0; i < group_at.size(); ++i) {
-      key.emplace_back(columns.group_by[i], table.cell(row, group_at[i]));
-    }
-    auto group = std::ranges::find_if(groups, [&](const auto& g) { return g.first == key; });
-    if (group == groups.end()) {
-      groups.emplace_back(std::move(key), std::vector<Row>());
-      group = std::prev(groups.end());
-    }
-    group->second.push_back(std::move(one));
-  }
-  reader.throw_problems();
-  for (auto& [key, rows] : groups) {
-    result.groups.push_back(group_of(std::move(key), rows, columns));
-  }
-  return result;
+LongTable read_long(const std::filesystem::path& file, const LongColumns& columns) {
+  LongCollector collector(file.string(), columns);
+  read_rows(file, collector);
+  return collector.finish();
+}
+
+LongTable parse_long(std::string_view text, const std::string& name,
+                     const LongColumns& columns) {
+  LongCollector collector(name, columns);
+  parse_rows(text, collector);
+  return collector.finish();
 }
 
 ComparedColumns two_conditions(const LongGroup& group, bool are_paired,

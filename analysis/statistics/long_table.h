@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "analysis/data/csv_table.h"
 #include "analysis/statistics/comparison_data.h"
 #include "analysis/statistics/omnibus_test.h"
 
@@ -38,8 +39,14 @@ struct LongTable {
   std::int64_t num_missing = 0;   ///< Rows left out: a cell is empty, NA, null, NaN or None.
 };
 
-/// Throws `core::Error` with the problems, each "FILE:LINE: column: expected this, found that".
-[[nodiscard]] LongTable read_long(const CsvTable& table, const LongColumns& columns);
+/// Reads the file as `read_rows`: commas, semicolons or tabs, decimal commas, JSON. Throws
+/// `core::Error` with the problems, each "FILE:LINE: column: expected this, found that".
+[[nodiscard]] LongTable read_long(const std::filesystem::path& file,
+                                  const LongColumns& columns);
+
+/// The same of a text; `name` is what messages call it.
+[[nodiscard]] LongTable parse_long(std::string_view text, const std::string& name,
+                                   const LongColumns& columns);
 
 /// Two conditions as the columns a and b; with `are_paired`, of the people who have a value
 /// under both. Throws `core::Error` that begins with `name` where there are not two.

@@ -135,12 +135,12 @@ void require_long_format(const CompareOptions& options) {
 
 /// Throws `core::Error` where the table has problems.
 Tests tests_of(const CompareOptions& options) {
-  const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
   Tests tests;
   if (options.value.empty()) {
-    tests.columns = analysis::read_compared(table, options.group_by, is_paired(options.test));
+    tests.columns = analysis::read_compared(analysis::CsvTable::read(options.csv),
+                                            options.group_by, is_paired(options.test));
   } else {
-    tests.long_table = analysis::read_long(table, long_columns(options));
+    tests.long_table = analysis::read_long(options.csv, long_columns(options));
     for (const analysis::LongGroup& group : tests.long_table.groups) {
       tests.columns.push_back(
           analysis::two_conditions(group, is_paired(options.test), options.csv));
@@ -219,8 +219,7 @@ void print_for_people(const Tests& tests) {
 
 /// Of several conditions at once, a test for each group.
 int run_omnibus(const CompareOptions& options) {
-  const analysis::LongTable table =
-      analysis::read_long(analysis::CsvTable::read(options.csv), long_columns(options));
+  const analysis::LongTable table = analysis::read_long(options.csv, long_columns(options));
   std::vector<analysis::OmnibusTest> tests;
   std::vector<std::optional<double>> p_values;
   for (const analysis::LongGroup& group : table.groups) {

@@ -17,14 +17,16 @@ constexpr char kRows[] =
     "P1,thin,0.5\nP1,thick,0.2\nP2,thin,0.7\nP2,thick,0.3\nP2,thick,0.5\n"
     "P3,thin,0.4\nP3,thick,NA\nP3,middle,0.3\n";
 
-CsvTable table() { return CsvTable::parse(kRows, "t.csv"); }
+LongTable read(const LongColumns& columns, const char* text = kRows) {
+  return parse_long(text, "t.csv", columns);
+}
 
 TEST(LongTable, PairsByPersonAveragesAndNamesWhoLacksACondition) {
-  const LongTable read = read_long(
-      table(), {.value = "w", .by = "fluid", .pair = "who", .levels = {"thick", "thin"}});
-  ASSERT_EQ(read.groups.size(), 1U);
-  EXPECT_EQ(read.num_missing, 1);
-  const LongGroup& group = read.groups[0];
+  const LongTable table =
+      read({.value = "w", .by = "fluid", .pair = "who", .levels = {"thick", "thin"}});
+  ASSERT_EQ(table.groups.size(), 1U);
+  EXPECT_EQ(table.num_missing, 1);
+  const LongGroup& group = table.groups[0];
   EXPECT_THAT(group.conditions, ElementsAre("thick", "thin"));
   EXPECT_THAT(group.complete.people, ElementsAre("P1", "P2"));
   EXPECT_THAT(group.incomplete, ElementsAre("P3"));
@@ -35,24 +37,31 @@ TEST(LongTable, PairsByPersonAveragesAndNamesWhoLacksACondition) {
 }
 
 TEST(LongTable, GroupsOfDifferentPeopleKeepEveryValue) {
-  const LongTable read =
-      read_long(table(), {.value = "w", .by = "fluid", .levels = {"thin", "thick"}});
-  const ComparedColumns columns = two_conditions(read.groups[0], false, "t.csv");
+  const LongTable table = read({.value = "w", .by = "fluid", .levels = {"thin", "thick"}});
+  const ComparedColumns columns = two_conditions(table.groups[0], false, "t.csv");
   EXPECT_THAT(columns.a, ElementsAre(0.5, 0.7, 0.4));
   EXPECT_THAT(columns.b, ElementsAre(0.2, 0.3, 0.5));
 }
 
+TEST(LongTable, SemicolonsAndDecimalCommasAreReadAsWell) {
+  const LongTable table =
+      read({.value = "w", .by = "fluid"}, "fluid;w\nthin;0,5\nthick;0,25\nthick;\n");
+  EXPECT_THAT(table.groups[0].values[0], ElementsAre(0.5));
+  EXPECT_THAT(table.groups[0].values[1], ElementsAre(0.25));
+  EXPECT_EQ(table.num_missing, 1);
+}
+
 TEST(LongTable, GroupsComeInTheOrderOfTheirFirstRows) {
-  const LongTable read = read_long(table(), {.value = "w", .by = "fluid", .group_by = {"who"}});
-  ASSERT_EQ(read.groups.size(), 3U);
-  EXPECT_EQ(read.groups[1].key[0].second, "P2");
-  EXPECT_THAT(read.groups[1].values[1], ElementsAre(0.3, 0.5));
+  const LongTable table = read({.value = "w", .by = "fluid", .group_by = {"who"}});
+  ASSERT_EQ(table.groups.size(), 3U);
+  EXPECT_EQ(table.groups[1].key[0].second, "P2");
+  EXPECT_THAT(table.groups[1].values[1], ElementsAre(0.3, 0.5));
 }
 
 std::string problem_of(const LongColumns& columns, const char* text = kRows) {
   try {
-    const LongTable read = read_long(CsvTable::parse(text, "t.csv"), columns);
-    (void)two_conditions(read.groups.at(0), false, "t.csv");
+    const LongTable table = parse_long(text, "t.csv", columns);
+    (void)two_conditions(table.groups.at(0), false, "t.csv");
   } catch (const core::Error& error) {
     return error.what();
   }

@@ -204,9 +204,12 @@ TEST_F(FitGlmm, HistoryAddsTheTrialBefore) {
 
 /// What stands behind "NAME " at the beginning of a line or behind a comma.
 double printed(const std::string& text, const std::string& name) {
-  std::size_t at = text.find("\n" + name + " ");
-  if (at == std::string::npos) at = text.find(", " + name + " ") + 1;
-  return at == 0 ? std::nan("") : std::stod(text.substr(at + name.size() + 2));
+  for (const char* before : {"\n", ", "}) {
+    const std::string words = before + name + " ";
+    const std::size_t at = text.find(words);
+    if (at != std::string::npos) return std::stod(text.substr(at + words.size()));
+  }
+  return std::nan("");
 }
 
 TEST_F(FitGlmm, ItsScriptFindsTheSame) {

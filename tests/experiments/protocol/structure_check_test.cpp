@@ -105,7 +105,8 @@ TEST(StructureCheck, NamesTheNearestMediumProcedureAndStage) {
             "`constant_stimulus`; did you mean `constant_stimuli`?");
   EXPECT_EQ(problems_of(broken("\"kind\": \"break\"", "\"kind\": \"brake\"")),
             "x.json:11:18: /stages/0/arms/0/stages/0/kind: expected `checklist`, `consent`, "
-            "`explore`, `training`, `block`, `break`, `post_experiment`, `questionnaire` or "
+            "`explore`, `training`, `block`, `interleaved`, `break`, `post_experiment`, "
+            "`questionnaire` or "
             "`counterbalance`, found `brake`; did you mean `break`?");
 }
 

@@ -21,7 +21,6 @@ std::vector<EventData> one_of_each() {
                                                  .finger_lag_s = 0.012}};
   return {SessionStarted{"de", {{"sex", "female"}}},
           StageEntered{.stage = 2, .num_together = 3},
-          TurnTaken{4},
           ItemAnswered{2, "about_you", "body_height_m", "1.75"},
           MediumExplored{2, "viscous", 16.0, 10, 20},
           StageFinished{2},
@@ -72,6 +71,7 @@ std::vector<EventData> one_of_each() {
                       .neutral_pose_m = {{"thumb", {0.0, -0.061, -0.1}},
                                          {"index", {1.0 / 3.0, 0.059, -0.1}}}},
           QuestionAnswered{4, 2, "confidence", "3"},
+          TurnTaken{4},
           SessionCompleted{},
           SessionEndedEarly{"why"}};
 }
