@@ -7,6 +7,7 @@ namespace jnd::app {
 inline constexpr char kInterleavedStudy[] = R"json({
   "format": 1, "name": "mixed", "languages": ["en"], "title": {"en": "Mixed"},
   "authors": ["A. Author"],
+  "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05},
   "stages": [
     {"kind": "interleaved", "name": "two_kinds", "title": {"en": "Two kinds"},
      "turns": "random", "blocks": [

@@ -31,7 +31,7 @@ TEST_F(FullDiskTest, ASessionSaysSoKeepsWhatItAcknowledgedAndGoesOnOnceThereIsRo
   ASSERT_EQ(run("whole.study").exit_code, 0);
   const core::StudyStore whole(path("whole.study"), core::StudyStore::Mode::kReadOnly);
   int num_in_session = 0;
-  for (const int size_kib : {8, 40, 120, 200, 300, 400, 500, 600}) {
+  for (const int size_kib : {8, 40, 120, 200, 300, 400, 500, 560, 600}) {
     SCOPED_TRACE(size_kib);
     const test_support::SmallDisk disk(path("disk"), size_kib);
     if (!disk.mounted()) GTEST_SKIP() << "mounting a disk is not allowed here";
