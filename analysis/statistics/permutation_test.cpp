@@ -109,35 +109,38 @@ double drawn_of_groups(std::vector<double> values, std::size_t num_a) {
 
 std::string drawn_words() { return ", " + std::to_string(kNumDrawn) + " arrangements drawn"; }
 
+/// A t test with its estimate and effect sizes, and nothing yet of its distribution: that of
+/// the arrangements takes its place.
+Comparison of_arrangements(Comparison result, Comparison::Kind kind, const char* method) {
+  result.kind = kind;
+  result.method = method;
+  result.ci95 = {};
+  result.degrees_of_freedom.reset();
+  result.p_value.reset();
+  result.statistic = result.status == FitStatus::kOk ? result.estimate : std::nullopt;
+  result.statistic_name = "mean_difference";
+  return result;
+}
+
 }  // namespace
 
 Comparison permutation_test(const std::vector<double>& a, const std::vector<double>& b) {
-  Comparison result = paired_t_test(a, b);
-  result.kind = Comparison::Kind::kPermutation;
-  result.method = "permutation test of the mean of the differences, all signs";
-  result.ci95 = {};
-  result.degrees_of_freedom.reset();
-  result.statistic.reset();
-  result.p_value.reset();
+  Comparison result =
+      of_arrangements(paired_t_test(a, b), Comparison::Kind::kPermutation,
+                      "permutation test of the mean of the differences, all signs");
   if (result.status != FitStatus::kOk) return result;
   std::vector<double> differences;
   for (std::size_t pair = 0; pair < a.size(); ++pair) differences.push_back(a[pair] - b[pair]);
   const bool is_exact = std::exp2(static_cast<double>(a.size())) <= kMostArrangements;
   result.p_value = is_exact ? exact_of_signs(differences) : drawn_of_signs(differences);
   if (!is_exact) result.method += drawn_words();
-  result.statistic = result.estimate;
-  result.statistic_name = "mean_difference";
   return result;
 }
 
 Comparison group_permutation_test(const std::vector<double>& a, const std::vector<double>& b) {
-  Comparison result = welch_t_test(a, b);
-  result.kind = Comparison::Kind::kGroupPermutation;
-  result.method = "permutation test of the difference of the means, all groupings";
-  result.ci95 = {};
-  result.degrees_of_freedom.reset();
-  result.statistic.reset();
-  result.p_value.reset();
+  Comparison result =
+      of_arrangements(welch_t_test(a, b), Comparison::Kind::kGroupPermutation,
+                      "permutation test of the difference of the means, all groupings");
   if (result.status != FitStatus::kOk) return result;
   std::vector<double> all = a;
   all.insert(all.end(), b.begin(), b.end());
@@ -147,8 +150,6 @@ Comparison group_permutation_test(const std::vector<double>& a, const std::vecto
   const bool is_exact = num_ways(a.size(), all.size()) <= kMostArrangements;
   result.p_value = is_exact ? exact_of_groups(all, a.size()) : drawn_of_groups(all, a.size());
   if (!is_exact) result.method += drawn_words();
-  result.statistic = result.estimate;
-  result.statistic_name = "mean_difference";
   return result;
 }
 

@@ -224,10 +224,6 @@ void OperatedSession::rest_before_trial() {
   const std::optional<std::int64_t> trial = state().current_trial();
   if (!trial || state().trial(*trial).under_way || resting_for_trial_ == *trial) return;
   if (session_.open_question()) return;  // The rest begins when it is answered.
-  if (resting_for_trial_ == 0) {
-    block_begun_s_ = now_s();
-    answered_before_ = static_cast<std::int64_t>(state().answered_in(state().stage).size());
-  }
   resting_for_trial_ = *trial;
   rest_until_s_ = now_s() + block()->free_space_between_s;
   running_.apparatus().go_home();

@@ -164,8 +164,6 @@ class OperatedSession {
   std::int64_t resting_for_trial_ = 0;
   double break_until_s_ = 0.0;
   std::optional<double> first_felt_s_;  ///< The trial's reference, or first interval.
-  double block_begun_s_ = 0.0;
-  std::int64_t answered_before_ = 0;  ///< In this block, before this visit.
 };
 
 }  // namespace jnd::app
