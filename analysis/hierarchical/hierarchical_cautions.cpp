@@ -96,6 +96,7 @@ void caution_of_misfit(HierarchicalFit& fit, std::optional<double> p_value) {
   if (!p_value || !(*p_value < kScatterBelow)) return;
   for (HierarchicalCondition& one : fit.conditions) {
     if (!one.weber_fraction) continue;
+    one.is_rejected_by_fit = true;
     one.cautions.emplace_back(
         "the answers lie farther from people's curves than chance has them (deviance, p < "
         "0.01): the curve is not theirs, or a person changed from session to session, and the "

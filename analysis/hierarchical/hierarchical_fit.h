@@ -65,6 +65,8 @@ struct HierarchicalCondition {
   /// the median person gets right in 84.13 % but for lapses.
   double easy_ratio = 0.0;
   std::vector<std::string> cautions;  ///< Levels that are too hard, answers far off.
+  /// The goodness of fit of everybody's answers rejects the curves; a caution says so.
+  bool is_rejected_by_fit = false;
   std::optional<double> pse;
   std::optional<Interval> pse_ci95;  ///< Absent unless the pse was free.
   double slope_number = 0.0;         ///< a of HierarchicalLink, of the median person.

@@ -265,11 +265,24 @@ void write_free_answers(HtmlText& html, const ResultsSection& section) {
   }
 }
 
-/// What each block was asked for.
+/// What each block was asked for. A value whose own goodness of fit rejects it is not told.
 HtmlTable primary_table(const StudyResults& results, const StudyTitles& titles) {
   HtmlTable table = estimates_table("Primary values");
+  bool any_rejected = false;
   for (const Estimate* estimate : estimates_where(results, &Estimate::primary)) {
-    table.rows.push_back(estimate_row(titles, *estimate));
+    std::vector<std::string> row = estimate_row(titles, *estimate);
+    if (estimate->is_rejected_by_fit) {
+      any_rejected = true;
+      row[1] = "– †";
+      row[2] = "–";
+    }
+    table.rows.push_back(std::move(row));
+  }
+  if (any_rejected) {
+    table.notes.emplace_back(
+        "† Not told here, for its own goodness of fit rejects the curve that it is of "
+        "(p < 0.01): a single number would promise more than these answers hold. The value "
+        "and its caution are in the supplement.");
   }
   return table;
 }

@@ -168,6 +168,7 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
     fraction.value = one.weber_fraction;
     fraction.ci95 = one.weber_fraction_ci95;
     fraction.cautions = one.cautions;
+    fraction.is_rejected_by_fit = place.is_rejected_by_fit = one.is_rejected_by_fit;
     place.value = one.pse;
     place.ci95 = one.pse_ci95.value_or(Interval{});
     spread.value = one.slope_sd;

@@ -41,6 +41,8 @@ struct Estimate {
   int n = 0;                  ///< Participants it rests on.
   std::string reason{};       ///< Why there is no value; "" if there is one.
   bool is_separated = false;  ///< There is none, for it is less than the stimuli can show.
+  /// The answers lie farther from the curve that it is of than chance has them.
+  bool is_rejected_by_fit = false;
   std::vector<std::string> cautions{};  ///< Why it may be wrong for these data, one each.
 
   /// Whether there is a published finding to compare with.

@@ -253,6 +253,7 @@ json results_json(const analysis::StudyResults& results) {
            {"n", estimate.n},
            {"reason", estimate.reason},
            {"cautions", estimate.cautions}});
+      if (estimate.is_rejected_by_fit) estimates.back()["rejected_by_fit"] = true;
       if (estimate.device_ci95.low) {
         estimates.back()["ci95_device"] = interval(estimate.device_ci95);
       }

@@ -687,7 +687,9 @@ TEST(HierarchicalFit, AnswersOfAnotherShapeHaveACaution) {
   ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
   EXPECT_THAT(fit.conditions.front().cautions,
               testing::Contains(testing::HasSubstr("farther from people's curves")));
+  EXPECT_TRUE(fit.conditions.front().is_rejected_by_fit);
   EXPECT_TRUE(fit_hierarchical(right, {}).conditions.front().cautions.empty());
+  EXPECT_FALSE(fit_hierarchical(right, {}).conditions.front().is_rejected_by_fit);
 }
 
 }  // namespace hierarchical_fit_test

@@ -69,6 +69,25 @@ TEST_F(ThresholdReportTest, ANumberThatMayBeWrongSaysSoBesideIt) {
   EXPECT_NE(glance.text().find(". Caution: few answers"), std::string::npos);
 }
 
+TEST_F(ThresholdReportTest, TheFirstPageTellsNoValueThatItsOwnFitRejects) {
+  ResultsSection section{.name = "group"};
+  section.estimates = {{.name = "group.weber_fraction_median_person",
+                        .value = 0.2468,
+                        .ci95 = {0.1357, 0.3579},
+                        .meaning = "median person's w",
+                        .primary = true,
+                        .is_rejected_by_fit = true}};
+  const StudyResults results{.study = "by_hand", .sections = {section}};
+  HtmlText glance, supplement;
+  write_at_a_glance(glance, results, {});
+  for (const char* number : {"0.2468", "0.1357", "0.3579"}) {
+    EXPECT_EQ(glance.text().find(number), std::string::npos) << number;
+  }
+  EXPECT_NE(glance.text().find("its own goodness of fit rejects"), std::string::npos);
+  write_section(supplement, data_, results, {}, section);
+  EXPECT_NE(supplement.text().find("0.2468"), std::string::npos);
+}
+
 TEST_F(ThresholdReportTest, SectionsOfAProcedureAreTitledByIt) {
   StudyTitles titles;
   titles.stages["felt"] = "Least viscosity";
