@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/charts/axis_range.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/statistics/wilson_interval.h"
+#include "core/error.h"
 
 namespace jnd::analysis {
 namespace {
@@ -14,12 +16,10 @@ constexpr int kNumCurvePoints = 201;
 /// Below so many answers a point, bars say nothing but that they are few.
 constexpr double kFewestForBars = 3.0;
 
-bool has_curve(const CurveFit& fit) { return fit.status == FitStatus::kOk; }
-
-AxisRange intensity_range(const std::vector<CurveFit>& fits, bool logarithmic) {
+AxisRange intensity_range(const std::vector<DrawnCurve>& curves, bool logarithmic) {
   std::vector<double> intensities;
-  for (const CurveFit& fit : fits) {
-    for (const CurvePoint& point : fit.points) {
+  for (const DrawnCurve& curve : curves) {
+    for (const CurvePoint& point : curve.points) {
       if (point.intensity > 0.0 || !logarithmic) intensities.push_back(point.intensity);
     }
   }
@@ -33,11 +33,11 @@ AxisRange intensity_range(const std::vector<CurveFit>& fits, bool logarithmic) {
   return range;
 }
 
-FigureTable answers_table(const std::vector<CurveFit>& fits) {
+FigureTable answers_table(const std::vector<DrawnCurve>& curves) {
   FigureTable table{.name = "answers",
                     .columns = {"series", "intensity", "proportion", "low", "high", "trials"}};
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    for (const CurvePoint& point : fits[i].points) {
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    for (const CurvePoint& point : curves[i].points) {
       const auto [low, high] = wilson_interval(static_cast<std::int64_t>(point.num_yes),
                                                static_cast<std::int64_t>(point.num_trials));
       const double share = point.num_yes / point.num_trials;
@@ -49,35 +49,33 @@ FigureTable answers_table(const std::vector<CurveFit>& fits) {
   return table;
 }
 
-FigureTable curves_table(const std::vector<CurveFit>& fits, const AxisRange& range,
+FigureTable curves_table(const std::vector<DrawnCurve>& curves, const AxisRange& range,
                          bool logarithmic) {
   FigureTable table{.name = "curves", .columns = {"series", "intensity", "proportion"}};
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    if (!has_curve(fits[i])) continue;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (!curves[i].probability) continue;
     for (int point = 0; point < kNumCurvePoints; ++point) {
       const double share = static_cast<double>(point) / (kNumCurvePoints - 1);
       const double x = logarithmic ? range.low * std::pow(range.high / range.low, share)
                                    : range.low + share * (range.high - range.low);
-      table.rows.push_back({static_cast<int>(i) + 1, x, fits[i].probability(x)});
+      table.rows.push_back({static_cast<int>(i) + 1, x, curves[i].probability(x)});
     }
   }
   return table;
 }
 
-FigureTable thresholds_table(const std::vector<CurveFit>& fits, const AxisRange& range) {
+FigureTable thresholds_table(const std::vector<DrawnCurve>& curves, const AxisRange& range) {
   FigureTable table{.name = "thresholds",
                     .columns = {"series", "at", "intensity", "proportion", "low", "high"}};
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    if (!has_curve(fits[i])) continue;
-    for (const CurveThreshold& one : fits[i].thresholds) {
-      const double x = one.intensity.value.value_or(NAN);
-      if (!(x >= range.low && x <= range.high)) continue;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    for (const DrawnThreshold& one : curves[i].thresholds) {
+      if (!(one.intensity >= range.low && one.intensity <= range.high)) continue;
       const auto within = [&](const std::optional<double>& end, double open) {
         return std::clamp(end.value_or(open), range.low, range.high);
       };
-      table.rows.push_back({static_cast<int>(i) + 1, one.at, x, one.proportion,
-                            within(one.intensity.ci95.low, range.low),
-                            within(one.intensity.ci95.high, range.high)});
+      table.rows.push_back({static_cast<int>(i) + 1, one.at, one.intensity, one.proportion,
+                            within(one.ci95.low, range.low),
+                            within(one.ci95.high, range.high)});
     }
   }
   return table;
@@ -102,70 +100,82 @@ std::string series_commands(const std::vector<FigureTable>& tables, int series, 
          ":'low':'high' with xerrorbars" + type + (small ? " lw 1.2" : " lw 1.8") + " ps 0";
 }
 
-std::string axes_of(const std::vector<CurveFit>& fits, const AxisRange& range, bool logarithmic,
-                    bool small) {
+std::string axes_of(const CurveAxes& axes, const AxisRange& range, bool small) {
   std::string text = "  set xrange " + range_words(range) + "\n  set yrange [-0.03:1.03]\n" +
                      "  set ytics 0,0.25,1" + (small ? " font small" : "") + "\n";
-  if (logarithmic) {
+  if (axes.logarithmic) {
     text += "  set logscale x\n" + log_tics("x", range, small);
   } else if (small) {
     text += small_tics("x", range);
   }
   text += "  set bars 0\n";
-  const double guess = fits.front().guess_rate.value.value_or(0.0);
-  if (guess > 0.0 && !fits.front().model.free_guess) {
-    text += "  set arrow 1 from graph 0,first " + plot_number(guess) + " to graph 1,first " +
-            plot_number(guess) + " nohead ls 12\n";
+  if (axes.guess_rate > 0.0) {
+    text += "  set arrow 1 from graph 0,first " + plot_number(axes.guess_rate) +
+            " to graph 1,first " + plot_number(axes.guess_rate) + " nohead ls 12\n";
   }
   return text;
 }
 
+std::string title_of(const DrawnCurve& curve) {
+  return curve.name + (curve.probability ? "" : " (no curve)");
+}
+
+DrawnCurve drawn(const std::string& name, const CurveFit& fit) {
+  DrawnCurve curve{.name = name, .points = fit.points};
+  if (fit.status != FitStatus::kOk) return curve;
+  curve.probability = [fit](double intensity) { return fit.probability(intensity); };
+  for (const CurveThreshold& one : fit.thresholds) {
+    if (!one.intensity.value) continue;
+    curve.thresholds.push_back({.at = one.at,
+                                .intensity = *one.intensity.value,
+                                .proportion = one.proportion,
+                                .ci95 = one.intensity.ci95});
+  }
+  return curve;
+}
+
 }  // namespace
 
-Figure curve_figure(const std::vector<std::string>& names, const std::vector<CurveFit>& fits,
-                    const std::string& intensity_name, const std::string& answer_name) {
-  const std::vector<CurveFit> shown(
-      fits.begin(),
-      fits.begin() + static_cast<std::ptrdiff_t>(std::min(fits.size(), kMostPanels)));
-  const bool logarithmic = shown.front().model.is_logarithmic();
-  const AxisRange range = intensity_range(shown, logarithmic);
+Figure curve_figure(const std::vector<DrawnCurve>& curves, const CurveAxes& axes) {
+  const std::vector<DrawnCurve> shown(
+      curves.begin(),
+      curves.begin() + static_cast<std::ptrdiff_t>(std::min(curves.size(), kMostPanels)));
+  if (std::ranges::all_of(shown, [](const DrawnCurve& one) { return one.points.empty(); })) {
+    throw core::Error("expected answers to draw, found none");
+  }
+  const AxisRange range = intensity_range(shown, axes.logarithmic);
   Figure figure{.name = "psychometric",
                 .section = "psychometric",
                 .title = "Psychometric functions",
                 .caption = "Answers, the fitted curves, and their thresholds with 95 %."};
-  figure.tables = {answers_table(shown), curves_table(shown, range, logarithmic),
+  figure.tables = {answers_table(shown), curves_table(shown, range, axes.logarithmic),
                    thresholds_table(shown, range)};
   const double most_trials = largest_in(figure.tables[0], "trials");
-  const bool right = shown.front().guess_rate.value.value_or(0.0) > 0.0;
-  const std::string y_title = answer_name.empty() || answer_name == "num_yes"
-                                  ? (right ? "Proportion right" : "Proportion yes")
-                                  : "Proportion of " + answer_name;
   if (shown.size() <= kMostTogether) {
     figure.width_in = 5.2;
     figure.height_in = 3.7;
-    const bool has_key = shown.size() > 1 || !names.front().empty();
+    const bool has_key = shown.size() > 1 || !shown.front().name.empty();
     if (has_key) {
       figure.height_in += 0.2 * std::ceil(static_cast<double>(shown.size()) / 2.0);
       figure.plot = "  set key outside above left horizontal reverse Left font small\n";
     }
-    figure.plot += "  set xlabel " + gnuplot_quoted(intensity_name) + "\n  set ylabel " +
-                   gnuplot_quoted(y_title) + "\n" +
-                   axes_of(shown, range, logarithmic, /*small=*/false) + "  plot ";
+    figure.plot += "  set xlabel " + gnuplot_quoted(axes.intensity_name) + "\n  set ylabel " +
+                   gnuplot_quoted(axes.answer_name) + "\n" +
+                   axes_of(axes, range, /*small=*/false) + "  plot ";
     for (std::size_t i = 0; i < shown.size(); ++i) {
       const int series = static_cast<int>(i) + 1;
-      const std::string title =
-          has_key ? names[i] + (has_curve(shown[i]) ? "" : " (no curve)") : "";
-      figure.plot += (i == 0 ? "" : ", ") +
-                     series_commands(figure.tables, series, series, title, most_trials, false);
+      figure.plot += (i == 0 ? "" : ", ") + series_commands(figure.tables, series, series,
+                                                            has_key ? title_of(shown[i]) : "",
+                                                            most_trials, false);
     }
     figure.plot += "\n";
     return figure;
   }
-  PanelGrid grid{.num_columns = 4, .x_title = intensity_name, .y_title = y_title};
+  PanelGrid grid{.num_columns = 4, .x_title = axes.intensity_name, .y_title = axes.answer_name};
   std::vector<Panel> panels;
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    panels.push_back({.title = names[i] + (has_curve(shown[i]) ? "" : " (no curve)"),
-                      .before = axes_of(shown, range, logarithmic, /*small=*/true),
+    panels.push_back({.title = title_of(shown[i]),
+                      .before = axes_of(axes, range, /*small=*/true),
                       .plot = "plot " + series_commands(figure.tables, static_cast<int>(i) + 1,
                                                         1, "", most_trials, true)});
   }
@@ -173,6 +183,20 @@ Figure curve_figure(const std::vector<std::string>& names, const std::vector<Cur
   figure.height_in = grid_height_in(grid, panels.size(), 1.1);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
   return figure;
+}
+
+Figure curve_figure(const std::vector<std::string>& names, const std::vector<CurveFit>& fits,
+                    const std::string& intensity_name, const std::string& answer_name) {
+  std::vector<DrawnCurve> curves;
+  for (std::size_t i = 0; i < fits.size(); ++i) curves.push_back(drawn(names[i], fits[i]));
+  const double guess = fits.front().guess_rate.value.value_or(0.0);
+  const std::string y_title = answer_name.empty() || answer_name == "num_yes"
+                                  ? (guess > 0.0 ? "Proportion right" : "Proportion yes")
+                                  : "Proportion of " + answer_name;
+  return curve_figure(curves, {.intensity_name = intensity_name,
+                               .answer_name = y_title,
+                               .logarithmic = fits.front().model.is_logarithmic(),
+                               .guess_rate = fits.front().model.free_guess ? 0.0 : guess});
 }
 
 }  // namespace jnd::analysis

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "analysis/fits/fit_json.h"
+#include "analysis/report/single_figure.h"
+#include "analysis/report/value_figure.h"
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/comparison_data.h"
 #include "analysis/statistics/equivalence_test.h"
@@ -18,6 +20,7 @@
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/commands/comparison_words.h"
+#include "app/commands/fit_figures.h"
 #include "app/commands/fit_words.h"
 #include "core/error.h"
 
@@ -34,11 +37,16 @@ struct CompareOptions {
   std::string value, by, pair;  ///< Long format: one value a row; "" for the columns a and b.
   std::vector<std::string> levels;
   std::optional<double> margin, margin_ratio;
+  std::string figure;  ///< "" for none.
   bool json = false;
 };
 
 bool is_paired(const std::string& test) {
   return test != "welch" && test != "ranksum" && test != "group-permutation";
+}
+
+bool is_correlation(const std::string& test) {
+  return test == "pearson" || test == "spearman" || test == "kendall";
 }
 
 /// Of several conditions at once.
@@ -190,12 +198,59 @@ Json to_json(const Tests& tests) {
   return {{"groups", std::move(groups)}};
 }
 
-void print_group(const std::vector<std::pair<std::string, std::string>>& key) {
+std::string group_heading(const std::vector<std::pair<std::string, std::string>>& key) {
   std::string heading;
   for (const auto& [column, value] : key) {
     heading += (heading.empty() ? "" : ", ") + column + " " + group_words(value);
   }
+  return heading;
+}
+
+void print_group(const std::vector<std::pair<std::string, std::string>>& key) {
+  const std::string heading = group_heading(key);
   if (!heading.empty()) fmt::print("{}\n", heading);
+}
+
+/// Name of the numbers in a figure.
+std::string value_name(const CompareOptions& options) {
+  return options.value.empty() ? "Value" : options.value;
+}
+
+void draw(const CompareOptions& options, const Tests& tests) {
+  if (options.figure.empty()) return;
+  std::vector<analysis::ComparedValues> groups;
+  for (std::size_t i = 0; i < tests.columns.size(); ++i) {
+    const analysis::ComparedColumns& columns = tests.columns[i];
+    groups.push_back({.name = group_heading(columns.key),
+                      .conditions = {"a", "b"},
+                      .values = {columns.a, columns.b},
+                      .are_paired = is_paired(options.test)});
+    if (!tests.long_table.groups.empty()) {
+      groups.back().conditions = tests.long_table.groups[i].conditions;
+    }
+  }
+  analysis::write_single_figure(
+      is_correlation(options.test)
+          ? analysis::scatter_figure(groups, /*has_line=*/options.test == "pearson")
+          : analysis::value_figure(groups, value_name(options)),
+      options.figure);
+}
+
+void draw(const CompareOptions& options, const analysis::LongTable& table) {
+  if (options.figure.empty()) return;
+  std::vector<analysis::ComparedValues> groups;
+  for (const analysis::LongGroup& group : table.groups) {
+    std::vector<std::vector<double>> values(group.complete.conditions.size());
+    for (const std::vector<double>& person : group.complete.values) {
+      for (std::size_t i = 0; i < values.size(); ++i) values[i].push_back(person[i]);
+    }
+    groups.push_back({.name = group_heading(group.key),
+                      .conditions = group.complete.conditions,
+                      .values = std::move(values),
+                      .are_paired = true});
+  }
+  analysis::write_single_figure(analysis::value_figure(groups, value_name(options)),
+                                options.figure);
 }
 
 void print_test(const Tests& tests, std::size_t i) {
@@ -252,6 +307,7 @@ int run_omnibus(const CompareOptions& options) {
                                      : Json{{"groups", std::move(groups)}}));
   }
   if (!options.json) print_missing(table);
+  draw(options, table);
   const auto lacking = std::ranges::find_if(
       tests, [](const analysis::OmnibusTest& one) { return one.status != FitStatus::kOk; });
   if (lacking == tests.end() && !tests.empty()) return kDone;
@@ -262,6 +318,7 @@ int run_omnibus(const CompareOptions& options) {
 
 int run_compare(const CompareOptions& options) {
   require_long_format(options);
+  if (!options.figure.empty()) analysis::require_figure_file(options.figure);
   if (is_omnibus(options.test)) return run_omnibus(options);
   const Tests tests = tests_of(options);
   if (options.json) {
@@ -277,6 +334,7 @@ int run_compare(const CompareOptions& options) {
     fmt::print(stderr, "jnd: {}: expected rows below the header, found none\n", options.csv);
     return kHasProblems;
   }
+  draw(options, tests);
   const auto lacks = [](const Comparison& one) { return one.status != FitStatus::kOk; };
   const auto first = std::ranges::find_if(tests.results, lacks);
   if (first == tests.results.end()) return kDone;
@@ -358,6 +416,7 @@ void add_compare(CLI::App& program, Invocation& invocation) {
       ->check(CLI::Range(1.001, 1e6))
       ->excludes(difference)
       ->option_text("R");
+  add_figure_option(compare, options->figure);
   compare.add_flag("--json", options->json, "print one JSON document");
   compare.callback(
       [&invocation, options] { invocation.run = [options] { return run_compare(*options); }; });

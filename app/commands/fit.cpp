@@ -10,9 +10,12 @@
 
 #include "analysis/fits/fit_data.h"
 #include "analysis/fits/fit_json.h"
+#include "analysis/report/power_law_figure.h"
+#include "analysis/report/single_figure.h"
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/commands/fit_detection.h"
+#include "app/commands/fit_figures.h"
 #include "app/commands/fit_glmm.h"
 #include "app/commands/fit_group.h"
 #include "app/commands/fit_psychometric.h"
@@ -104,6 +107,11 @@ void print_for_people(const analysis::ShiftedPowerFit& fit) {
   }
 }
 
+void draw_laws(const std::vector<analysis::DrawnPowerLaw>& laws, const FitOptions& options) {
+  if (options.figure.empty()) return;
+  analysis::write_single_figure(analysis::power_law_figure(laws), options.figure);
+}
+
 /// With intervals by the profile of the squares.
 int fit_shifted(const FitOptions& options, analysis::PowerMethod method) {
   const auto shift = options.shift == "threshold" ? analysis::PowerShift::kThreshold
@@ -115,18 +123,32 @@ int fit_shifted(const FitOptions& options, analysis::PowerMethod method) {
         "through logarithms");
   }
   const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
-  return fit_groups(
+  std::vector<analysis::DrawnPowerLaw> laws;
+  const int outcome = fit_groups(
       analysis::read_magnitudes(table, options.group_by), options, "power law",
-      [&](const auto& group) { return analysis::fit_shifted_power(group.rows, method, shift); },
+      [&](const auto& group) {
+        analysis::ShiftedPowerFit fit = analysis::fit_shifted_power(group.rows, method, shift);
+        laws.push_back({.name = heading_of(group.key),
+                        .rows = group.rows,
+                        .k = fit.k,
+                        .a = fit.a,
+                        .intensity_threshold = fit.intensity_threshold.value_or(0.0),
+                        .magnitude_offset = fit.magnitude_offset.value_or(0.0)});
+        return fit;
+      },
       [](const auto& fit, const auto&) { print_for_people(fit); });
+  draw_laws(laws, options);
+  return outcome;
 }
 
 int fit_power(const FitOptions& options) {
   const auto method = options.power_method == "loglog" ? analysis::PowerMethod::kLogLog
                                                        : analysis::PowerMethod::kNonlinear;
+  if (!options.figure.empty()) analysis::require_figure_file(options.figure);
   if (!options.shift.empty()) return fit_shifted(options, method);
   const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
-  return fit_groups(
+  std::vector<analysis::DrawnPowerLaw> laws;
+  const int outcome = fit_groups(
       analysis::read_magnitudes(table, options.group_by), options, "power law",
       [&](const auto& group) {
         analysis::PowerFit fit = analysis::fit_power(group.rows, method);
@@ -137,9 +159,13 @@ int fit_power(const FitOptions& options) {
               "not: the intervals are too narrow; {} fits each of them",
               num, grouped_also_by(options, "participant")));
         }
+        laws.push_back(
+            {.name = heading_of(group.key), .rows = group.rows, .k = fit.k, .a = fit.a});
         return fit;
       },
       [](const auto& fit, const auto& group) { print_for_people(fit, group.lines); });
+  draw_laws(laws, options);
+  return outcome;
 }
 
 int fit_between(const FitOptions& options) {
@@ -203,6 +229,7 @@ void add_fit(CLI::App& program, Invocation& invocation) {
                   "Each with intervals by the profile of the sum of squares, and a test "
                   "against the law without the shift")
       ->check(CLI::IsMember({"none", "threshold", "offset"}));
+  add_figure_option(power, options->figure);
   power.callback(
       [&invocation, options] { invocation.run = [options] { return fit_power(*options); }; });
 

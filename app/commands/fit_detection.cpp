@@ -11,9 +11,11 @@
 #include "analysis/fits/detection_fit.h"
 #include "analysis/fits/same_different_fit.h"
 #include "analysis/fits/signal_detection.h"
+#include "analysis/report/single_figure.h"
 #include "analysis/statistics/json_values.h"
 #include "app/command_line/json_text.h"
 #include "app/commands/answer_options.h"
+#include "app/commands/fit_figures.h"
 #include "app/commands/fit_words.h"
 
 namespace jnd::app {
@@ -191,16 +193,31 @@ void print_detection(const analysis::SameDifferentFit& fit) {
   fmt::print("  log-likelihood  {}\n", number(fit.log_likelihood));
 }
 
+struct DetectionOptions : AnswerOptions {
+  std::string figure;
+  std::string answer_name = "Proportion yes";
+};
+
+struct SameDifferentOptions : DetectionOptions {
+  double reference = 0.0;
+};
+
 /// Fits each group, and says whether every one has a value; `what` is what may be lacking.
-template <typename Fit>
-int tell_groups(const AnswerOptions& options, const char* what, const Fit& fit) {
+/// `draw` makes a curve of a group's name, rows and result.
+template <typename Fit, typename Draw>
+int tell_groups(const DetectionOptions& options, const char* what, const Fit& fit,
+                const Draw& draw) {
+  if (!options.figure.empty()) analysis::require_figure_file(options.figure);
   const analysis::AnswerFile file = read_answers(options, /*signed_intensities=*/false);
   const std::vector<std::string> notes = notes_of(file, options);
   DetectionJson all = DetectionJson::array();
   std::size_t num_lacking = 0;
   std::string reason;
+  std::vector<analysis::DrawnCurve> curves;
   for (const analysis::AnswerGroup& group : file.groups) {
-    const auto result = fit(rows_of(group));
+    const std::vector<AnswerCount> rows = rows_of(group);
+    const auto result = fit(rows);
+    curves.push_back(draw(words_of(group), rows, result));
     if (result.status != FitStatus::kOk && num_lacking++ == 0) reason = result.reason;
     if (options.json) {
       DetectionJson json;
@@ -223,6 +240,12 @@ int tell_groups(const AnswerOptions& options, const char* what, const Fit& fit) 
   } else {
     for (const std::string& note : notes) fmt::print("note: {}\n", note);
   }
+  if (!options.figure.empty()) {
+    analysis::write_single_figure(
+        analysis::curve_figure(
+            curves, {.intensity_name = options.intensity, .answer_name = options.answer_name}),
+        options.figure);
+  }
   if (num_lacking == 0 && file.num_rows > 0) return kDone;
   fmt::print(stderr, "jnd: {}: expected answers that have a {}, found none in {} of {}: {}\n",
              options.csv, what, num_lacking, file.groups.size(),
@@ -230,45 +253,54 @@ int tell_groups(const AnswerOptions& options, const char* what, const Fit& fit) 
   return kHasProblems;
 }
 
-struct SameDifferentOptions : AnswerOptions {
-  double reference = 0.0;
-};
-
 int fit_same_different_groups(const SameDifferentOptions& options) {
   if (!(options.reference > 0.0 && std::isfinite(options.reference))) {
     throw UsageError(fmt::format(
         "--reference: expected a number > 0 in the unit of the intensities, found {}",
         options.reference));
   }
-  return tell_groups(options, "Weber fraction", [&](const std::vector<AnswerCount>& rows) {
-    return analysis::fit_same_different(rows, options.reference);
-  });
+  return tell_groups(
+      options, "Weber fraction",
+      [&](const std::vector<AnswerCount>& rows) {
+        return analysis::fit_same_different(rows, options.reference);
+      },
+      [&](const std::string& name, const std::vector<AnswerCount>& rows,
+          const analysis::SameDifferentFit& fit) {
+        return drawn_curve(name, rows, fit, options.reference);
+      });
 }
 
 }  // namespace
 
 void add_fit_detection(CLI::App& fit, Invocation& invocation) {
-  const auto detection = std::make_shared<AnswerOptions>();
+  const auto detection = std::make_shared<DetectionOptions>();
   CLI::App& command = *fit.add_subcommand("detection",
                                           "d', criterion and A' of yes and no, with catch "
                                           "trials at intensity 0; and the threshold");
   add_answer_options(command, *detection);
+  add_figure_option(command, detection->figure);
   command.add_flag("--json", detection->json, "print one JSON document");
   command.callback([&invocation, detection] {
     invocation.run = [detection] {
-      return tell_groups(*detection, "d'", [](const std::vector<AnswerCount>& rows) {
-        return detection_of(rows);
-      });
+      return tell_groups(
+          *detection, "d'",
+          [](const std::vector<AnswerCount>& rows) { return detection_of(rows); },
+          [](const std::string& name, const std::vector<AnswerCount>& rows,
+             const DetectionResult& result) {
+            return drawn_curve(name, rows, result.threshold);
+          });
     };
   });
 
   const auto same = std::make_shared<SameDifferentOptions>();
+  same->answer_name = "Proportion different";
   CLI::App& pairs = *fit.add_subcommand(
       "same-different",
       "Weber fraction and criterion of \"same\" and \"different\", a yes being \"different\"");
   add_answer_options(pairs, *same);
   pairs.add_option("--reference", same->reference, "the other stimulus of every pair, > 0")
       ->required();
+  add_figure_option(pairs, same->figure);
   pairs.add_flag("--json", same->json, "print one JSON document");
   pairs.callback([&invocation, same] {
     invocation.run = [same] { return fit_same_different_groups(*same); };

@@ -12,8 +12,10 @@
 #include <thread>
 
 #include "analysis/mixed/mixed_json.h"
+#include "analysis/report/single_figure.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
+#include "app/commands/fit_figures.h"
 #include "app/commands/glmm_options.h"
 #include "core/parallel.h"
 
@@ -73,6 +75,14 @@ void require_glmm_options(const FitGlmmOptions& options) {
   }
   if (options.json && !options.script.empty()) {
     throw UsageError("--json, --script: expected one of them at most, found both");
+  }
+  if (!options.figure.empty()) {
+    if (options.stimulus.empty()) {
+      throw UsageError(
+          "--figure: expected with --stimulus COLUMN, over which the curves are drawn, found "
+          "without");
+    }
+    analysis::require_figure_file(options.figure);
   }
   if (has_history(options) && options.stimulus.empty()) {
     throw UsageError(
@@ -185,7 +195,7 @@ GlmmResult glmm_result(const FitGlmmOptions& options) {
                                                 .guess_rate = std::stod(options.guess),
                                                 .lapse_rate = std::stod(options.lapse)},
                                       .num_nodes = options.num_nodes};
-  std::optional<analysis::Design> design;
+  std::optional<analysis::Design>& design = result.design;
   try {
     design.emplace(result.formulas.fixed, result.table, contrasts);
     if (!options.stimulus.empty()) {
@@ -260,7 +270,10 @@ int fit_glmm(const FitGlmmOptions& options) {
   } else {
     print_glmm(options, result);
   }
-  if (result.fit.status == FitStatus::kOk) return kDone;
+  if (result.fit.status == FitStatus::kOk) {
+    if (!options.figure.empty()) draw_glmm(options, result, options.figure);
+    return kDone;
+  }
   fmt::print(stderr, "jnd: {}: expected answers that have a mixed model, found none: {}\n",
              options.csv, result.fit.reason);
   return kHasProblems;
@@ -343,6 +356,7 @@ void add_fit_glmm(CLI::App& fit, Invocation& invocation) {
       .add_option("--script", options->script,
                   "print a script that repeats the fit by lme4 in R")
       ->check(CLI::IsMember({"r", "python"}));
+  add_figure_option(command, options->figure);
   command.add_flag("--json", options->json, "print one JSON document");
   command.callback(
       [&invocation, options] { invocation.run = [options] { return fit_glmm(*options); }; });

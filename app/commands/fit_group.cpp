@@ -16,8 +16,10 @@
 #include "analysis/hierarchical/hierarchical_data.h"
 #include "analysis/hierarchical/hierarchical_json.h"
 #include "analysis/hierarchical/hierarchical_warnings.h"
+#include "analysis/report/single_figure.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
+#include "app/commands/fit_figures.h"
 #include "app/commands/fit_words.h"
 
 namespace jnd::app {
@@ -31,6 +33,7 @@ struct FitGroupOptions {
   std::vector<std::string> free;
   std::optional<double> reference;
   int num_nodes = 0;
+  std::string figure;  ///< "" for none.
   bool json = false;
 };
 
@@ -138,8 +141,38 @@ bool adds_up_orders(const analysis::CsvTable& table) {
       });
 }
 
+/// The median person's curve in each condition, over everybody's answers.
+void draw_hierarchical(const FitGroupOptions& options, const analysis::HierarchicalFit& fit,
+                       const std::vector<analysis::ParticipantAnswers>& answers) {
+  std::vector<analysis::DrawnCurve> curves;
+  bool all_above_zero = true;
+  for (const analysis::HierarchicalCondition& one : fit.conditions) {
+    std::vector<analysis::AnswerCount> rows;
+    for (const analysis::ParticipantAnswers& person : answers) {
+      if (person.condition != one.condition) continue;
+      rows.insert(rows.end(), person.rows.begin(), person.rows.end());
+    }
+    for (const analysis::AnswerCount& row : rows) all_above_zero &= row.intensity > 0.0;
+    analysis::PsychometricFit curve{.status = fit.status, .weber_fraction = one.weber_fraction};
+    curve.pse = one.pse;
+    curve.pse_ci95 = one.pse_ci95;
+    curve.lapse_rate = fit.lapse_rate;
+    curve.guess_rate = fit.guess_rate;
+    curve.symmetric_lapse = fit.guess_rate == 0.0;
+    curves.push_back(drawn_curve(one.condition, rows, curve));
+  }
+  analysis::write_single_figure(
+      analysis::curve_figure(
+          curves, {.intensity_name = "Intensity",
+                   .answer_name = fit.guess_rate > 0.0 ? "Proportion right" : "Proportion yes",
+                   .logarithmic = all_above_zero,
+                   .guess_rate = fit.guess_rate}),
+      options.figure);
+}
+
 int fit_hierarchical(const FitGroupOptions& options) {
   require_reference(options);
+  if (!options.figure.empty()) analysis::require_figure_file(options.figure);
   require_lapses(options);
   const std::optional<double> lapse = lapse_of(options);
   const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
@@ -184,7 +217,10 @@ int fit_hierarchical(const FitGroupOptions& options) {
     print_for_people(fit);
     for (const std::string& warning : warnings) fmt::print("  note: {}\n", warning);
   }
-  if (fit.status == FitStatus::kOk) return kDone;
+  if (fit.status == FitStatus::kOk) {
+    if (!options.figure.empty()) draw_hierarchical(options, fit, answers);
+    return kDone;
+  }
   fmt::print(stderr, "jnd: {}: expected answers that have a hierarchical fit, found none: {}\n",
              options.csv, fit.reason);
   return kHasProblems;
@@ -307,6 +343,7 @@ void add_fit_group(CLI::App& fit, Invocation& invocation) {
       .add_option("--nodes", options->num_nodes,
                   "of the quadrature, a dimension; 1 is Laplace (default: by dimension)")
       ->check(whole_number(1, 61));
+  add_figure_option(group, options->figure);
   group.callback([&invocation, options] {
     invocation.run = [options] { return fit_hierarchical(*options); };
   });

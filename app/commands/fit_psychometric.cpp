@@ -1,4 +1,5 @@
 #include "app/commands/fit_psychometric.h"
+#include "app/commands/fit_figures.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -340,8 +341,7 @@ void add_fit_psychometric(CLI::App& fit, Invocation& invocation) {
   command.add_flag("--compare", options->compare,
                    "which parameters differ between the groups, and how far their thresholds "
                    "are apart");
-  command.add_option("--figure", options->figure, "also a picture: a new .svg, .pdf or .png")
-      ->option_text("FILE");
+  add_figure_option(command, options->figure);
   command
       .add_option("--script", options->script,
                   "print a script that repeats the fit without this program")

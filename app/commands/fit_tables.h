@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/data/csv_table.h"
@@ -23,8 +24,19 @@ namespace jnd::app {
 struct TableOptions {
   std::string csv;
   std::vector<std::string> group_by;
+  std::string figure;  ///< "" for none.
   bool json = false;
 };
+
+/// "participant 3, condition A"; "" for a group of all rows.
+[[nodiscard]] inline std::string heading_of(
+    const std::vector<std::pair<std::string, std::string>>& key) {
+  std::string heading;
+  for (const auto& [column, value] : key) {
+    heading += (heading.empty() ? "" : ", ") + column + " " + group_words(value);
+  }
+  return heading;
+}
 
 /// What stderr is told of fits without a value: one sentence, whatever stdout shows.
 inline void print_lacking(const TableOptions& options, const char* what,
@@ -60,10 +72,7 @@ int fit_groups(const std::vector<Group>& groups, const TableOptions& options, co
       results.push_back(std::move(json));
       continue;
     }
-    std::string heading;
-    for (const auto& [column, value] : group.key) {
-      heading += (heading.empty() ? "" : ", ") + column + " " + group_words(value);
-    }
+    const std::string heading = heading_of(group.key);
     if (!heading.empty()) fmt::print("{}\n", heading);
     print(result, group);
   }

@@ -14,7 +14,9 @@
 
 #include "analysis/fits/calibrated_drop.h"
 #include "analysis/fits/fit_data.h"
+#include "analysis/report/single_figure.h"
 #include "app/command_line/option_checks.h"
+#include "app/commands/fit_figures.h"
 #include "app/commands/fit_tables.h"
 #include "app/commands/fit_words.h"
 
@@ -258,6 +260,13 @@ std::vector<std::string> reference_warnings(
       fmt::join(others, ", "), reference)};
 }
 
+bool all_above_zero(const std::vector<analysis::DrawnCurve>& curves) {
+  return std::ranges::all_of(curves, [](const analysis::DrawnCurve& curve) {
+    return std::ranges::all_of(
+        curve.points, [](const analysis::CurvePoint& point) { return point.intensity > 0.0; });
+  });
+}
+
 int fit_weber(const FitWeberOptions& options) {
   if (!(options.reference > 0.0 && std::isfinite(options.reference))) {
     throw UsageError(
@@ -291,8 +300,10 @@ int fit_weber(const FitWeberOptions& options) {
       .num_calibration = options.num_calibration,
       .posterior = options.posterior,
       .seed = options.seed};
+  if (!options.figure.empty()) analysis::require_figure_file(options.figure);
   const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
-  return fit_groups(
+  std::vector<analysis::DrawnCurve> curves;
+  const int outcome = fit_groups(
       analysis::read_answer_counts(table, options.group_by), options, "Weber fraction",
       [&](const auto& group) {
         analysis::PsychometricFit fit = analysis::fit_psychometric(group.rows, how);
@@ -301,9 +312,22 @@ int fit_weber(const FitWeberOptions& options) {
             reference_warnings(table, group, options.reference);
         pooled.insert(pooled.end(), references.begin(), references.end());
         fit.warnings.insert(fit.warnings.begin(), pooled.begin(), pooled.end());
+        curves.push_back(drawn_curve(heading_of(group.key), group.rows, fit));
         return fit;
       },
       [&](const auto& fit, const auto&) { print_for_people(fit, options); });
+  if (!options.figure.empty()) {
+    const double guess = rate_of(options.guess);
+    analysis::write_single_figure(
+        analysis::curve_figure(
+            curves, {.intensity_name = "Intensity",
+                     .answer_name = guess > 0.0 ? "Proportion right" : "Proportion yes",
+                     .logarithmic = how.family != analysis::PsychometricFamily::kGauss &&
+                                    all_above_zero(curves),
+                     .guess_rate = guess}),
+        options.figure);
+  }
+  return outcome;
 }
 
 }  // namespace
@@ -375,6 +399,7 @@ void add_fit_weber(CLI::App& fit, Invocation& invocation) {
   weber.add_option("--seed", options->seed, "of bootstrap, goodness of fit and calibration")
       ->check(seed_number())
       ->capture_default_str();
+  add_figure_option(weber, options->figure);
   weber.add_flag("--json", options->json, "print one JSON document");
   weber.callback(
       [&invocation, options] { invocation.run = [options] { return fit_weber(*options); }; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct FitGlmmOptions : AnswerOptions {
   std::string fixed;
   std::vector<std::string> random;
   std::string link = "probit", contrasts = "treatment", guess = "0", lapse = "0";
-  std::string stimulus, terms, script;
+  std::string stimulus, terms, script, figure;
   double jnd_at = 0.75;
   int num_nodes = 1, num_bootstrap = 0;
   std::uint64_t seed = 1;
@@ -25,6 +26,7 @@ struct FitGlmmOptions : AnswerOptions {
 struct GlmmResult {
   analysis::MixedFormulas formulas;  ///< With the terms of the history.
   analysis::TrialTable table;
+  std::optional<analysis::Design> design;  ///< Of the fixed effects.
   analysis::MixedFit fit;
   analysis::StimulusLines lines;
   std::vector<analysis::DerivedQuantity> derived;

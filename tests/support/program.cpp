@@ -9,6 +9,8 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <sstream>
 #include <stdexcept>
 
 #include "support/places.h"
@@ -149,6 +151,16 @@ ProgramOutcome RunningProgram::wait() {
 ProgramOutcome run_program(const std::vector<std::string>& arguments,
                            const ProgramOptions& options) {
   return RunningProgram(arguments, options).wait();
+}
+
+std::string installed_program(const std::string& name) {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
+    if (std::filesystem::exists(file)) return file.string();
+  }
+  return "";
 }
 
 }  // namespace jnd::test_support

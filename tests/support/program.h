@@ -56,6 +56,9 @@ class RunningProgram {
   std::string buffer_;
 };
 
+/// Where a program of this machine is; "" where it is not installed.
+[[nodiscard]] std::string installed_program(const std::string& name);
+
 /// Runs the program to its end.
 [[nodiscard]] ProgramOutcome run_program(const std::vector<std::string>& arguments,
                                          const ProgramOptions& options = {});

@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -47,15 +45,6 @@ class FitGlmm : public FitFixture {
     Words words = {"--csv", "c.csv", "--yes", "k", "--trials", "n"};
     words.insert(words.end(), more.begin(), more.end());
     return glmm(words, as_json);
-  }
-  [[nodiscard]] static std::string rscript() {
-    std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-      if (std::filesystem::exists(std::filesystem::path(folder) / "Rscript")) {
-        return folder + "/Rscript";
-      }
-    }
-    return "";
   }
 };
 
@@ -213,7 +202,7 @@ double printed(const std::string& text, const std::string& name) {
 }
 
 TEST_F(FitGlmm, ItsScriptFindsTheSame) {
-  const std::string program = rscript();
+  const std::string program = test_support::installed_program("Rscript");
   if (program.empty()) GTEST_SKIP() << "R is not installed";
   test_support::ProgramOptions there = options_;
   there.program = program;

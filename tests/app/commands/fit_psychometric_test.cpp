@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <sstream>
 
 #include "app/commands/fit_fixture.h"
 #include "app/json_document.h"
@@ -21,15 +19,6 @@ class FitPsychometric : public FitFixture {
   ProgramOutcome psychometric(std::vector<std::string> words, bool as_json = true) {
     words.insert(words.begin(), "psychometric");
     return fit(words, as_json);
-  }
-  /// A program of this machine; "" where it is not installed.
-  [[nodiscard]] static std::string installed(const std::string& name) {
-    std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-      if (std::filesystem::exists(std::filesystem::path(folder) / name))
-        return folder + "/" + name;
-    }
-    return "";
   }
 };
 
@@ -135,7 +124,8 @@ TEST_F(FitPsychometric, PrintsATableWithARowForEachThreshold) {
 }
 
 TEST_F(FitPsychometric, DrawsANewFileAndOverwritesNone) {
-  if (installed("gnuplot").empty()) GTEST_SKIP() << "gnuplot is not installed";
+  if (test_support::installed_program("gnuplot").empty())
+    GTEST_SKIP() << "gnuplot is not installed";
   table("a.csv", kSigned);
   for (const char* name : {"a.svg", "a.pdf", "a.png"}) {
     const ProgramOutcome outcome =
@@ -164,7 +154,7 @@ TEST_F(FitPsychometric, ItsScriptsFindTheSameCurve) {
   for (const auto& [language, program, file] :
        {std::array<std::string, 3>{"python", "python3", "s.py"},
         std::array<std::string, 3>{"r", "Rscript", "s.R"}}) {
-    const std::string found = installed(program);
+    const std::string found = test_support::installed_program(program);
     if (found.empty()) continue;
     for (const std::vector<std::string>& words : fits) {
       const auto fit = document(psychometric(words).out)["fits"][0];
