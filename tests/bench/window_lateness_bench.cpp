@@ -25,13 +25,13 @@ std::string study_of_one_medium(int seconds) {
                   std::to_string(seconds) + "}]}");
 }
 
-struct Lateness {
+struct StoredLateness {
   double p50_us = 0.0, p99_us = 0.0, p999_us = 0.0;
   double missed_ticks = 0.0;
 };
 
 /// Of the whole session, as it was stored with it.
-Lateness stored_lateness(const fs::path& study) {
+StoredLateness stored_lateness(const fs::path& study) {
   const core::StudyStore store(study, core::StudyStore::Mode::kReadOnly);
   std::optional<nlohmann::json> measured;
   for (const core::EventRow& event : store.events(1)) {
@@ -56,7 +56,7 @@ Lateness stored_lateness(const fs::path& study) {
   return {at_us(0.5), at_us(0.99), at_us(0.999), measured->at("missed_ticks")};
 }
 
-Lateness without_window(int seconds) {
+StoredLateness without_window(int seconds) {
   const test_support::TemporaryFolder folder(test_support::memory_folder());
   write_file(folder.path() / "study.json", study_of_one_medium(seconds));
   const test_support::ProgramOutcome outcome =
@@ -68,7 +68,7 @@ Lateness without_window(int seconds) {
 }
 
 /// Thirty frames a second, with live plots.
-Lateness with_window(int seconds) {
+StoredLateness with_window(int seconds) {
   MeasuredWindow window(false);
   write_file(window.path("study.json"), study_of_one_medium(seconds));
   WindowDriver& person = window.person();
@@ -84,7 +84,7 @@ Lateness with_window(int seconds) {
   return stored_lateness(window.path("a.study"));
 }
 
-int seconds_a_round() {
+int session_seconds() {
   const char* text = std::getenv("JND_BENCH_SECONDS");
   return std::max(text == nullptr ? 20 : std::atoi(text), 1);
 }
@@ -94,28 +94,28 @@ int seconds_a_round() {
 /// written. Medians of the rounds, and their ratios.
 void loop_beside_window(benchmark::State& state) {
   constexpr int kNumRounds = 3;
-  const int seconds = seconds_a_round();
-  std::vector<Lateness> with, without;
+  const int seconds = session_seconds();
+  std::vector<StoredLateness> with, without;
   measure(state, [&] {
     for (int round = 0; round < kNumRounds; ++round) {
       without.push_back(without_window(seconds));
       with.push_back(with_window(seconds));
     }
-    const auto tell = [&](const std::string& name, double Lateness::*percentile_us) {
+    const auto tell = [&](const std::string& name, double StoredLateness::*percentile_us) {
       std::vector<double> ours, theirs;
-      for (const Lateness& run : with) ours.push_back(run.*percentile_us);
-      for (const Lateness& run : without) theirs.push_back(run.*percentile_us);
+      for (const StoredLateness& run : with) ours.push_back(run.*percentile_us);
+      for (const StoredLateness& run : without) theirs.push_back(run.*percentile_us);
       state.counters["with_" + name + "_us"] = median(ours);
       state.counters["without_" + name + "_us"] = median(theirs);
       state.counters["ratio_" + name] = median(ours) / median(theirs);
     };
-    tell("p50", &Lateness::p50_us);
-    tell("p99", &Lateness::p99_us);
-    tell("p999", &Lateness::p999_us);
+    tell("p50", &StoredLateness::p50_us);
+    tell("p99", &StoredLateness::p99_us);
+    tell("p999", &StoredLateness::p999_us);
     double missed = 0.0;
-    for (const Lateness& run : with) missed += run.missed_ticks;
+    for (const StoredLateness& run : with) missed += run.missed_ticks;
     state.counters["missed_ticks"] = missed;
-    state.counters["seconds_a_round"] = seconds;
+    state.counters["session_seconds"] = seconds;
   });
 }
 BENCHMARK(loop_beside_window)->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();

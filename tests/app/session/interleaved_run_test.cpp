@@ -143,7 +143,7 @@ class InterleavedRunTest : public ::testing::Test {
     return fraction;
   }
 
-  static constexpr int kPeople = 16;
+  static constexpr int kPeople = 12;
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
   experiments::Study study_ = experiments::read_study_text(kInterleavedStudy, "study.json");
   experiments::Laboratory laboratory_ = experiments::thesis_laboratory();
