@@ -10,21 +10,28 @@ namespace {
 /// A set of variables by their places; 0 is the intercept.
 using TermBits = std::uint64_t;
 constexpr std::size_t kMostVariables = 60;
+/// Each becomes a column of the design. A product of thirty columns would be a thousand million.
+constexpr std::size_t kMostTerms = 500;
+/// Parentheses and functions within one another.
+constexpr int kDeepest = 100;
 
 /// A part of a formula: its terms, and whether it says 0, which takes the intercept away.
 struct TermList {
   std::vector<TermBits> terms;
   bool says_zero = false;
 
+  /// One more than there may be is enough to tell that there are too many.
   void add(TermBits term) {
-    if (std::ranges::find(terms, term) == terms.end()) terms.push_back(term);
+    if (!is_too_long() && std::ranges::find(terms, term) == terms.end()) terms.push_back(term);
   }
+  [[nodiscard]] bool is_too_long() const { return terms.size() > kMostTerms; }
 };
 
 TermList crossed(const TermList& left, const TermList& right) {
   TermList result;
   for (const TermBits one : left.terms) {
     for (const TermBits other : right.terms) result.add(one | other);
+    if (result.is_too_long()) break;
   }
   return result;
 }
@@ -108,6 +115,7 @@ class FormulaReader {
     while (sign() == '+' || sign() == '-') {
       const bool is_minus = text_[at_++] == '-';
       join(all, is_minus, star());
+      require_few(all);
     }
     Formula formula{
         .text = text_, .has_intercept = false, .variables = variables_, .terms = {}};
@@ -146,6 +154,7 @@ class FormulaReader {
     while (sign() == '+' || sign() == '-') {
       const bool is_minus = text_[at_++] == '-';
       join(all, is_minus, star());
+      require_few(all);
     }
     return all;
   }
@@ -166,6 +175,7 @@ class FormulaReader {
         for (const TermBits term : right.terms) result.add(term);
       }
       for (const TermBits term : crossed(within, right).terms) result.add(term);
+      require_few(result);
       left = result;
     }
     return left;
@@ -173,7 +183,10 @@ class FormulaReader {
 
   TermList product() {
     TermList left = power();
-    while (take(':')) left = crossed(left, power());
+    while (take(':')) {
+      left = crossed(left, power());
+      require_few(left);
+    }
     return left;
   }
 
@@ -186,13 +199,34 @@ class FormulaReader {
     TermList result = base;
     for (int left = text_[at_++] - '0'; left > 1; --left) {
       for (const TermBits term : crossed(result, base).terms) result.add(term);
+      require_few(result);
     }
     return result;
   }
 
+  /// Of what is in a parenthesis or a function.
+  template <typename Read>
+  auto deeper(const Read& read) {
+    if (++depth_ > kDeepest) {
+      throw FormulaError("expected at most 100 parentheses within one another, found more",
+                         text_, at_);
+    }
+    auto result = read();
+    --depth_;
+    return result;
+  }
+
+  void require_few(const TermList& list) const {
+    if (!list.is_too_long()) return;
+    throw FormulaError(
+        "expected at most 500 terms, found more: a product of columns stands for every "
+        "product of some of them; (a + b + c)^2 has those of two",
+        text_, at_);
+  }
+
   TermList atom() {
     if (take('(')) {
-      TermList inside = sum();
+      TermList inside = deeper([this] { return sum(); });
       if (sign() == '|') fail_at_sign("no bar here; random terms go to --random");
       expect(')', ") or an operator");
       return inside;
@@ -235,7 +269,7 @@ class FormulaReader {
           text_, result.at);
     }
     ++at_;  // The parenthesis.
-    FormulaVariable inside = variable();
+    FormulaVariable inside = deeper([this] { return variable(); });
     expect(')', ") behind what " + word + " is of, which is one column");
     inside.name = word + "(" + inside.name + ")";
     inside.functions.push_back(std::move(word));
@@ -308,14 +342,24 @@ class FormulaReader {
 
   const std::string& text_;
   std::size_t at_ = 0;
+  int depth_ = 0;
   std::vector<FormulaVariable> variables_;
 };
 
+/// Without what a terminal obeys: controls, and those of U+0080 to U+009F.
+std::string without_controls(std::string text, char instead) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    if (byte < 0x20 || byte == 0x7F) text[i] = instead;
+    if (byte == 0xC2 && next >= 0x80 && next < 0xA0) text.replace(i, 2, 1, instead);
+  }
+  return text;
+}
+
 /// The caret stands below the letter, not the byte.
 std::string caret_picture(const std::string& formula, std::size_t at) {
-  std::string line = formula;
-  std::ranges::replace(line, '\n', ' ');
-  std::ranges::replace(line, '\t', ' ');
+  const std::string line = without_controls(formula, ' ');
   const auto before = std::string_view(line).substr(0, std::min(at, line.size()));
   const auto letters = std::ranges::count_if(
       before, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; });
@@ -326,7 +370,7 @@ std::string caret_picture(const std::string& formula, std::size_t at) {
 
 FormulaError::FormulaError(const std::string& sentence, const std::string& formula,
                            std::size_t at)
-    : core::Error(sentence), picture(caret_picture(formula, at)) {}
+    : core::Error(without_controls(sentence, '?')), picture(caret_picture(formula, at)) {}
 
 Formula parse_formula(const std::string& text) { return FormulaReader(text).whole_formula(); }
 

@@ -20,6 +20,7 @@ int laboratory_fuzz_input(const std::uint8_t* data, std::size_t size);
 int datagram_fuzz_input(const std::uint8_t* data, std::size_t size);
 int force_map_fuzz_input(const std::uint8_t* data, std::size_t size);
 int device_profile_fuzz_input(const std::uint8_t* data, std::size_t size);
+int formula_fuzz_input(const std::uint8_t* data, std::size_t size);
 }
 
 namespace corpus_test {
@@ -78,6 +79,10 @@ TEST(FuzzCorpus, LaboratoriesAreReadOrRefusedWithASentence) {
 TEST(FuzzCorpus, DeviceProfilesAreReadOrRefusedWithASentence) {
   expect_sound(device_profile_fuzz_input, "tests/fuzz/corpus/device_profile");
   expect_sound(device_profile_fuzz_input, "tests/experiments/device_profile/broken");
+}
+
+TEST(FuzzCorpus, FormulasAreReadOrRefusedWithASentence) {
+  expect_sound(formula_fuzz_input, "tests/fuzz/corpus/formula");
 }
 
 }  // namespace corpus_test

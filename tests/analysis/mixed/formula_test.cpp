@@ -85,6 +85,34 @@ TEST(Formula, PointsAtWhatIsWrong) {
   expect_error("y ~ u", 2, "expected an operator");
 }
 
+TEST(Formula, RefusesWhatNoDesignCanHoldBeforeItIsBuilt) {
+  std::string product = "a", sum = "a0*b0";
+  for (char letter = 'b'; letter <= 'z'; ++letter) product += std::string("*") + letter;
+  for (int i = 1; i < 30; ++i) {
+    const std::string number = std::to_string(i);
+    sum += " + a" + number + "*b" + number;
+  }
+  EXPECT_THROW((void)parse_formula(product), FormulaError);
+  EXPECT_THROW((void)parse_formula("(a+b+c+d+e+f+g+h+i+j+k+l+m)^9"), FormulaError);
+  EXPECT_EQ(parse_formula(sum).terms.size(), 90U);
+  const auto within = [](int depth) {
+    const auto times = static_cast<std::size_t>(depth);
+    return std::string(times, '(') + "a" + std::string(times, ')');
+  };
+  EXPECT_EQ(parse_formula(within(90)).terms.size(), 1U);
+  EXPECT_THROW((void)parse_formula(within(200'000)), FormulaError);
+}
+
+TEST(Formula, ItsMessagesHaveNoControlCharacters) {
+  try {
+    (void)parse_formula("a + \x1b[2J");
+    FAIL() << "nothing was refused";
+  } catch (const FormulaError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\x1b'), std::string::npos);
+    EXPECT_EQ(error.picture.find('\x1b'), std::string::npos);
+  }
+}
+
 TEST(Formula, TheCaretCountsLettersAndNotBytes) {
   try {
     static_cast<void>(parse_formula("größe * "));
