@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "analysis/fits/interval_order_fit.h"
 #include "analysis/fits/psychometric_model.h"
@@ -46,6 +47,24 @@ bool anybody_in_several(const HierarchicalArrangement& all) {
       return cell.condition != person.front().condition;
     });
   });
+}
+
+/// Random effects of one condition alone first, by condition: see `HierarchicalLikelihood`.
+void number_own_effects_first(HierarchicalStructure& structure) {
+  const std::vector<int> conditions = structure.conditions_of_effects();
+  std::vector<int> order(conditions.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int effect) {
+    const int condition = conditions[static_cast<std::size_t>(effect)];
+    return condition == HierarchicalStructure::kSeveral ? structure.num_conditions : condition;
+  });
+  std::vector<int> place(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    place[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+  }
+  for (HierarchicalStructure::Loading& one : structure.loadings) {
+    one.random_effect = place[static_cast<std::size_t>(one.random_effect)];
+  }
 }
 
 }  // namespace
@@ -148,6 +167,7 @@ HierarchicalStructure structure_of(const HierarchicalArrangement& all,
     structure.known_lapse_rate = options.lapse_rate;
   }
   structure.num_parameters = parameter + (structure.has_lapses ? 1 : 0);
+  number_own_effects_first(structure);
   return structure;
 }
 

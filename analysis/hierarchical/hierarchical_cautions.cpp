@@ -9,9 +9,12 @@
 namespace jnd::analysis {
 namespace {
 
-/// The search of a step stops somewhere between two levels, and rounding alone is its error.
+/// The search of a step stops somewhere between two levels, all of which are then where the
+/// curve is flat, so that no answer tells the slope; often rounding alone is its error.
 bool is_step(const HierarchicalCondition& condition) {
+  constexpr double kFlat = 5.0;      // There F is 3e-7 from its end.
   constexpr double kNoError = 1e-6;  // Of 1e12 answers.
+  if (condition.least_level_z > kFlat) return true;
   return !(condition.slope_standard_error.value_or(1.0) > kNoError &&
            condition.place_standard_error.value_or(1.0) > kNoError);
 }

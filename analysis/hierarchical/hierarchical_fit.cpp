@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/hierarchical/hierarchical_arrangement.h"
 #include "analysis/hierarchical/hierarchical_cautions.h"
@@ -77,6 +78,29 @@ Interval pse_interval(const HierarchicalStructure& structure, const Hierarchical
   return {pse * std::exp(-reach), pse * std::exp(reach)};
 }
 
+/// Least |z| of the median person over the levels of a condition.
+double least_level_z(const HierarchicalArrangement& all, const HierarchicalStructure& structure,
+                     const Eigen::VectorXd& parameters, int condition) {
+  const double number = parameters(condition);
+  const double place = structure.has_places ? parameters(structure.place_at(condition)) : 0.0;
+  const double by_order =
+      structure.has_orders() ? parameters(structure.order_at(condition)) : 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const HierarchicalPerson& person : all.people) {
+    for (const HierarchicalCell& cell : person) {
+      if (cell.condition != condition) continue;
+      for (std::size_t level = 0; level < cell.log_ratio.size(); ++level) {
+        const double at = place + by_order * cell.order[level], u = cell.log_ratio[level];
+        const double z = structure.link == HierarchicalLink::kLinear
+                             ? number * u + at
+                             : std::exp(number) * (u - at);
+        least = std::min(least, std::fabs(z));
+      }
+    }
+  }
+  return least;
+}
+
 void fill_conditions(HierarchicalFit& fit, const HierarchicalArrangement& all,
                      const HierarchicalStructure& structure, const HierarchicalOptimum& found,
                      const HierarchicalOptions& options) {
@@ -103,6 +127,7 @@ void fill_conditions(HierarchicalFit& fit, const HierarchicalArrangement& all,
                                               : pse_interval(structure, found, condition,
                                                              *one.pse, one.num_participants);
     }
+    one.least_level_z = least_level_z(all, structure, found.parameters, condition);
     double slope_variance = 0.0;
     for (const HierarchicalStructure::Loading& loading : structure.loadings) {
       const double value = found.parameters(loading.parameter);

@@ -73,6 +73,8 @@ struct HierarchicalCondition {
   std::optional<double> slope_standard_error;
   double place_number = 0.0;
   std::optional<double> place_standard_error;
+  /// Least |z| of the median person over the levels that have answers.
+  double least_level_z = 0.0;
   /// Between people, of a: with kLogSlope the sd of ln ln(1 + w).
   double slope_sd = 0.0;
   /// Between people, of p, or of q where there is one; 0 unless personal.

@@ -74,7 +74,25 @@ AnswerProbabilities answer_probabilities(double z, double lapse_rate, double gue
 /// Of a share of attentive answers: its density is that to this.
 constexpr double kPriorPower = 19.0;
 
+/// One node of no dimension where there is none.
+GaussHermiteGrid grid_of(int num_nodes, int num_dimensions) {
+  if (num_dimensions > 0) return gauss_hermite_grid(num_nodes, num_dimensions);
+  return {{RandomEffects(0)}, {1.0}};
+}
+
 }  // namespace
+
+std::vector<int> HierarchicalStructure::conditions_of_effects() const {
+  constexpr int kUnknown = -2;
+  std::vector<int> conditions(static_cast<std::size_t>(num_random_effects), kUnknown);
+  for (const Loading& one : loadings) {
+    int& known = conditions[static_cast<std::size_t>(one.random_effect)];
+    const int condition = condition_of(one.number);
+    known = known == kUnknown || known == condition ? condition : kSeveral;
+  }
+  std::ranges::replace(conditions, kUnknown, kSeveral);
+  return conditions;
+}
 
 double HierarchicalStructure::lapse_rate(const Eigen::VectorXd& parameters) const noexcept {
   if (!has_lapses) return known_lapse_rate;
@@ -96,8 +114,25 @@ HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& stru
     : structure_(structure),
       has_orders_(structure.has_orders()),
       people_(people),
-      grid_(gauss_hermite_grid(num_nodes, structure.num_random_effects)),
-      last_(people.size(), RandomEffects::Zero(structure.num_random_effects)) {}
+      own_(static_cast<std::size_t>(structure.num_conditions)),
+      is_laplace_(num_nodes == 1),
+      last_(people.size(), RandomEffects::Zero(structure.num_random_effects)) {
+  const std::vector<int> conditions = structure.conditions_of_effects();
+  // Numbered as they have to be, or all in one sum.
+  const auto shared = std::ranges::find(conditions, HierarchicalStructure::kSeveral);
+  const bool is_ordered = std::ranges::is_sorted(conditions.begin(), shared) &&
+                          std::all_of(shared, conditions.end(), [](int condition) {
+                            return condition == HierarchicalStructure::kSeveral;
+                          });
+  first_shared_ = is_ordered ? static_cast<int>(shared - conditions.begin()) : 0;
+  for (int effect = 0; effect < first_shared_; ++effect) {
+    OwnEffects& own =
+        own_[static_cast<std::size_t>(conditions[static_cast<std::size_t>(effect)])];
+    if (own.num++ == 0) own.first = effect;
+  }
+  for (OwnEffects& own : own_) own.grid = grid_of(num_nodes, own.num);
+  shared_grid_ = grid_of(num_nodes, structure.num_random_effects - first_shared_);
+}
 
 HierarchicalLikelihood::Population HierarchicalLikelihood::population_of(
     const Eigen::VectorXd& parameters) const {
@@ -112,38 +147,46 @@ HierarchicalLikelihood::Population HierarchicalLikelihood::population_of(
 }
 
 double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
+                                              const Numbers& numbers,
+                                              double lapse_rate) const noexcept {
+  double value = 0.0;
+  for (const HierarchicalCell& cell : person) {
+    value += log_likelihood(cell, numbers, lapse_rate, nullptr);
+  }
+  return value;
+}
+
+double HierarchicalLikelihood::log_likelihood(const HierarchicalCell& cell,
                                               const Numbers& numbers, double lapse_rate,
                                               Score* score) const noexcept {
   double value = 0.0, by_lapse = 0.0;
-  for (const HierarchicalCell& cell : person) {
-    const int place_at = structure_.place_at(cell.condition);
-    const int order_at = structure_.order_at(cell.condition);
-    const double slope = slope_of(structure_.link, numbers(cell.condition));
-    const double place = structure_.has_places ? numbers(place_at) : 0.0;
-    const double by_interval = has_orders_ ? numbers(order_at) : 0.0;
-    double by_slope = 0.0, by_place = 0.0, by_order = 0.0;
-    for (std::size_t level = 0; level < cell.log_ratio.size(); ++level) {
-      const double order = has_orders_ ? cell.order[level] : 0.0;
-      const Predictor at =
-          predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level]);
-      const double yes = cell.num_yes[level], no = cell.num_no[level];
-      const AnswerProbabilities answer =
-          answer_probabilities(at.z, lapse_rate, structure_.guess_rate, yes > 0.0, no > 0.0);
-      // A zero count contributes nothing, even where its logarithm is infinite.
-      if (yes > 0.0) value += yes * answer.log_yes;
-      if (no > 0.0) value += no * answer.log_no;
-      const double by_z = yes * answer.by_z_yes - no * answer.by_z_no;
-      by_lapse += yes * answer.by_lapse_yes + no * answer.by_lapse_no;
-      by_slope += by_z * at.by_slope;
-      by_place += by_z * at.by_place;
-      by_order += by_z * at.by_place * order;
-    }
-    if (score == nullptr) continue;
-    score->numbers(cell.condition) += by_slope;
-    if (structure_.has_places) score->numbers(place_at) += by_place;
-    if (has_orders_) score->numbers(order_at) += by_order;
+  const int place_at = structure_.place_at(cell.condition);
+  const int order_at = structure_.order_at(cell.condition);
+  const double slope = slope_of(structure_.link, numbers(cell.condition));
+  const double place = structure_.has_places ? numbers(place_at) : 0.0;
+  const double by_interval = has_orders_ ? numbers(order_at) : 0.0;
+  double by_slope = 0.0, by_place = 0.0, by_order = 0.0;
+  for (std::size_t level = 0; level < cell.log_ratio.size(); ++level) {
+    const double order = has_orders_ ? cell.order[level] : 0.0;
+    const Predictor at =
+        predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level]);
+    const double yes = cell.num_yes[level], no = cell.num_no[level];
+    const AnswerProbabilities answer =
+        answer_probabilities(at.z, lapse_rate, structure_.guess_rate, yes > 0.0, no > 0.0);
+    // A zero count contributes nothing, even where its logarithm is infinite.
+    if (yes > 0.0) value += yes * answer.log_yes;
+    if (no > 0.0) value += no * answer.log_no;
+    const double by_z = yes * answer.by_z_yes - no * answer.by_z_no;
+    by_lapse += yes * answer.by_lapse_yes + no * answer.by_lapse_no;
+    by_slope += by_z * at.by_slope;
+    by_place += by_z * at.by_place;
+    by_order += by_z * at.by_place * order;
   }
-  if (score != nullptr) score->lapse_rate += by_lapse;
+  if (score == nullptr) return value;
+  score->numbers(cell.condition) += by_slope;
+  if (structure_.has_places) score->numbers(place_at) += by_place;
+  if (has_orders_) score->numbers(order_at) += by_order;
+  score->lapse_rate += by_lapse;
   return value;
 }
 
@@ -197,7 +240,7 @@ HierarchicalLikelihood::Mode HierarchicalLikelihood::mode_of(const HierarchicalP
   constexpr int kMaxIterations = 200, kMaxHalvings = 40;
   constexpr double kSmallStep = 1e-12;
   const auto log_density = [&](const RandomEffects& at) {
-    return log_likelihood(person, population.at(at), population.lapse_rate, nullptr) -
+    return log_likelihood(person, population.at(at), population.lapse_rate) -
            0.5 * at.squaredNorm();
   };
   Mode mode{start, {}};
@@ -231,49 +274,23 @@ Eigen::VectorXd HierarchicalLikelihood::of_people(const Eigen::VectorXd& paramet
   if (scores == nullptr && is_known) return last_values_;
   const Population population = population_of(parameters);
   const auto num_people = static_cast<Eigen::Index>(people_.size());
-  const Eigen::Index num_numbers = population.median.size();
   if (scores != nullptr) scores->setZero(structure_.num_parameters, num_people);
-  std::vector<double> log_term(grid_.node.size());
-  std::vector<RandomEffects> effects(grid_.node.size());
-  std::vector<Score> score(grid_.node.size());
-  Eigen::VectorXd values(num_people);
+  Eigen::VectorXd values(num_people), score;
   for (std::size_t person = 0; person < people_.size(); ++person) {
     const Mode mode = mode_of(people_[person], population, last_[person]);
     last_[person] = mode.at;
     const Eigen::LLT<Curvature> root(mode.information);
-    const Curvature lower = root.matrixL();
-    double largest = -std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < grid_.node.size(); ++k) {
-      effects[k] = mode.at + RandomEffects(root.matrixU().solve(grid_.node[k]));
-      score[k] = {.numbers = Numbers::Zero(num_numbers)};
-      log_term[k] =
-          log_likelihood(people_[person], population.at(effects[k]), population.lapse_rate,
-                         scores != nullptr ? &score[k] : nullptr) +
-          0.5 * (grid_.node[k].squaredNorm() - effects[k].squaredNorm()) +
-          std::log(grid_.weight[k]);
-      largest = std::max(largest, log_term[k]);
-    }
-    double sum = 0.0;
-    for (const double term : log_term) sum += std::exp(term - largest);
+    const Curvature upper = root.matrixU();
     const auto column = static_cast<Eigen::Index>(person);
-    values(column) = largest + std::log(sum) - lower.diagonal().array().log().sum();
+    values(column) = log_integral(people_[person], population, mode, upper,
+                                  scores != nullptr ? &score : nullptr) -
+                     upper.diagonal().array().log().sum();
     if (scores == nullptr) continue;
-    double by_lapse_rate = 0.0;
-    for (std::size_t k = 0; k < grid_.node.size(); ++k) {
-      const double share = std::exp(log_term[k] - largest) / sum;
-      for (Eigen::Index number = 0; number < num_numbers; ++number) {
-        (*scores)(number, column) += share * score[k].numbers(number);
-      }
-      for (const HierarchicalStructure::Loading& one : structure_.loadings) {
-        (*scores)(one.parameter, column) +=
-            share * score[k].numbers(one.number) * effects[k](one.random_effect);
-      }
-      by_lapse_rate += share * score[k].lapse_rate;
-    }
+    scores->col(column) = score.head(structure_.num_parameters);
     if (structure_.has_lapses && population.lapse_rate > 0.0) {
       (*scores)(structure_.angle_at(), column) =
           structure_.lapse_limit() * std::sin(2.0 * parameters(structure_.angle_at())) *
-          by_lapse_rate;
+          score(structure_.num_parameters);
     }
   }
   last_parameters_ = parameters;

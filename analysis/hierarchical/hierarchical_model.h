@@ -76,6 +76,11 @@ struct HierarchicalStructure {
     return has_orders_in[static_cast<std::size_t>(condition)] ? order_at(condition)
                                                               : place_at(condition);
   }
+  /// Which condition a number is of.
+  [[nodiscard]] int condition_of(int number) const noexcept { return number % num_conditions; }
+  /// Of each random effect the one condition whose numbers it moves, or `kSeveral`.
+  [[nodiscard]] std::vector<int> conditions_of_effects() const;
+  static constexpr int kSeveral = -1;
   [[nodiscard]] int angle_at() const noexcept { return num_parameters - 1; }
   /// That of random answers alone.
   [[nodiscard]] double lapse_limit() const noexcept {
@@ -95,6 +100,12 @@ struct HierarchicalStructure {
 /// Hermite's rule centred and scaled at each person's own mode (Liu and Pierce 1994; Pinheiro
 /// and Bates 1995). The scale is that of the expected information, as in lme4, so that one node
 /// is its Laplace approximation.
+///
+/// Given the random effects that several conditions share, those of one condition alone are
+/// independent of those of another. Where the structure numbers the former last, as
+/// `structure_of` does, the sum over all nodes is one over the shared nodes of products of sums
+/// over each condition's own: the same number in a time that grows by the conditions, not to
+/// their power.
 class HierarchicalLikelihood {
  public:
   HierarchicalLikelihood(const HierarchicalStructure& structure,
@@ -113,8 +124,8 @@ class HierarchicalLikelihood {
 
   [[nodiscard]] std::size_t num_people() const noexcept { return people_.size(); }
 
-  /// In all dimensions together.
-  [[nodiscard]] std::size_t num_nodes() const noexcept { return grid_.node.size(); }
+  /// Whether the integral is one node's, Laplace's approximation.
+  [[nodiscard]] bool is_laplace() const noexcept { return is_laplace_; }
 
   /// Each person's most likely numbers, given the parameters and the person's answers.
   [[nodiscard]] std::vector<Eigen::VectorXd> modes(const Eigen::VectorXd& parameters) const;
@@ -158,9 +169,17 @@ class HierarchicalLikelihood {
     double lapse_rate = 0.0;
   };
 
+  /// A person's integral over nodes, without the determinant of the scale; what it adds to the
+  /// scores is at `score`, where wanted: the parameters', and the lapse rate's behind them.
+  [[nodiscard]] double log_integral(const HierarchicalPerson& person,
+                                    const Population& population, const Mode& mode,
+                                    const Curvature& upper, Eigen::VectorXd* score) const;
   [[nodiscard]] Population population_of(const Eigen::VectorXd& parameters) const;
-  /// Log-likelihood of a person with these numbers; its derivatives are added to `score`.
+  /// Log-likelihood of a person with these numbers.
   [[nodiscard]] double log_likelihood(const HierarchicalPerson& person, const Numbers& numbers,
+                                      double lapse_rate) const noexcept;
+  /// That of one condition; its derivatives are added to `score`.
+  [[nodiscard]] double log_likelihood(const HierarchicalCell& cell, const Numbers& numbers,
                                       double lapse_rate, Score* score) const noexcept;
   [[nodiscard]] JointDerivatives joint_derivatives(const HierarchicalPerson& person,
                                                    const Population& population,
@@ -174,7 +193,16 @@ class HierarchicalLikelihood {
   HierarchicalStructure structure_;
   bool has_orders_ = false;  ///< In any condition.
   std::vector<HierarchicalPerson> people_;
-  GaussHermiteGrid grid_;
+  /// Random effects of one condition alone, by condition: the first, and how many. Those from
+  /// `first_shared_` on are of several.
+  struct OwnEffects {
+    int first = 0, num = 0;
+    GaussHermiteGrid grid;
+  };
+  std::vector<OwnEffects> own_;
+  int first_shared_ = 0;
+  GaussHermiteGrid shared_grid_;
+  bool is_laplace_ = false;
   mutable std::vector<RandomEffects>
       last_;  ///< Modes found last: where the next search starts.
   /// Where `of_people` was asked last, and what it said: the searches ask again.

@@ -34,7 +34,7 @@ void differentiate(const Function& function, const Eigen::VectorXd& at, const Ta
 Eigen::VectorXd gradient_of(const HierarchicalLikelihood& likelihood,
                             const Eigen::VectorXd& at) {
   Eigen::VectorXd gradient(at.size());
-  if (likelihood.num_nodes() > 1) {
+  if (!likelihood.is_laplace()) {
     (void)likelihood(at, &gradient);
     return gradient;
   }
@@ -46,7 +46,7 @@ Eigen::VectorXd gradient_of(const HierarchicalLikelihood& likelihood,
 /// A column a person, as `gradient_of`, without the prior.
 Eigen::MatrixXd scores_of(const HierarchicalLikelihood& likelihood, const Eigen::VectorXd& at) {
   Eigen::MatrixXd scores;
-  if (likelihood.num_nodes() > 1) {
+  if (!likelihood.is_laplace()) {
     (void)likelihood.of_people(at, &scores);
     return scores;
   }
@@ -66,8 +66,8 @@ Eigen::VectorXd roughly_most_likely(const HierarchicalLikelihood& likelihood,
     const Eigen::VectorXd at =
         Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
     Eigen::VectorXd rise;
-    value = -likelihood(at, likelihood.num_nodes() > 1 ? &rise : nullptr);
-    if (likelihood.num_nodes() == 1) rise = gradient_of(likelihood, at);
+    value = -likelihood(at, !likelihood.is_laplace() ? &rise : nullptr);
+    if (likelihood.is_laplace()) rise = gradient_of(likelihood, at);
     if (held >= 0) rise(held) = 0.0;
     for (std::size_t i = 0; i < gradient.size(); ++i) {
       gradient[i] = -rise(static_cast<Eigen::Index>(i));
@@ -85,7 +85,7 @@ Eigen::MatrixXd information_at(const HierarchicalLikelihood& likelihood,
                                const Eigen::VectorXd& at, double here) {
   constexpr double kStep = 1e-3;
   Eigen::MatrixXd information(at.size(), at.size());
-  if (likelihood.num_nodes() > 1) {
+  if (!likelihood.is_laplace()) {
     for (Eigen::Index i = 0; i < at.size(); ++i) {
       const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(at.size(), i);
       information.col(i) =
@@ -185,7 +185,7 @@ HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
     }
     // Where the curvature is still known, value and gradient come of one evaluation.
     Eigen::VectorXd rise;
-    const bool has_rise = inverse.matrix.size() > 0 && likelihood.num_nodes() > 1;
+    const bool has_rise = inverse.matrix.size() > 0 && !likelihood.is_laplace();
     found.log_likelihood = likelihood(found.parameters, has_rise ? &rise : nullptr);
     const auto inverse_here = [&] {
       return inverse_of(information_at(likelihood, found.parameters, found.log_likelihood));

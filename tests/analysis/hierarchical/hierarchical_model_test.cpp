@@ -1,0 +1,96 @@
+#include "analysis/hierarchical/hierarchical_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "analysis/hierarchical/hierarchical_arrangement.h"
+
+namespace jnd::analysis {
+namespace hierarchical_model_test {
+
+/// Four people in this many conditions, of unequal answers; the last lacks the last condition.
+HierarchicalArrangement people_in(int num_conditions) {
+  std::vector<ParticipantAnswers> all;
+  for (int person = 0; person < 4; ++person) {
+    for (int condition = 0; condition < num_conditions; ++condition) {
+      if (person == 3 && condition + 1 == num_conditions && num_conditions > 1) continue;
+      ParticipantAnswers one{
+          "P" + std::to_string(person), "c" + std::to_string(condition), 1.0, {}};
+      const std::int64_t shift = (person + 2 * condition) % 3;
+      for (const auto& [x, yes] : std::vector<std::pair<double, std::int64_t>>{
+               {0.6, 1}, {0.8, 3}, {0.95, 5}, {1.1, 6}, {1.3, 8}, {1.7, 9}}) {
+        one.rows.push_back({x, std::min<std::int64_t>(yes + shift, 12), 12});
+      }
+      all.push_back(std::move(one));
+    }
+  }
+  return arranged(all);
+}
+
+/// The same model, told that every random effect moves a number of another condition as well,
+/// by a parameter of its own that the tests keep at 0. Then nothing is independent, and all
+/// nodes are gone through.
+HierarchicalStructure all_shared(HierarchicalStructure structure, int idle_parameter) {
+  const std::vector<int> conditions = structure.conditions_of_effects();
+  for (int effect = 0; effect < structure.num_random_effects; ++effect) {
+    const int own = conditions[static_cast<std::size_t>(effect)];
+    if (own == HierarchicalStructure::kSeveral) continue;
+    structure.loadings.push_back(
+        {(own + 1) % structure.num_conditions, effect, idle_parameter});
+  }
+  return structure;
+}
+
+class ManyConditions : public ::testing::TestWithParam<HierarchicalOptions> {};
+
+TEST_P(ManyConditions, TheNestedSumIsThatOverAllNodes) {
+  for (const int num_conditions : {2, 3}) {
+    const HierarchicalArrangement all = people_in(num_conditions);
+    HierarchicalStructure nested = structure_of(all, GetParam());
+    // One more parameter, at the end but for the lapses' angle, that moves nothing.
+    const int idle = nested.num_parameters - (nested.has_lapses ? 1 : 0);
+    ++nested.num_parameters;
+    const HierarchicalStructure whole = all_shared(nested, idle);
+    Eigen::VectorXd at(nested.num_parameters);
+    for (Eigen::Index i = 0; i < at.size(); ++i) {
+      at(i) = 0.3 + 0.1 * std::sin(static_cast<double>(i));
+    }
+    at.head(num_conditions).array() += 0.8;
+    at(idle) = 0.0;
+    const HierarchicalLikelihood fast(nested, all.people, 3), slow(whole, all.people, 3);
+    Eigen::MatrixXd fast_scores, slow_scores;
+    const Eigen::VectorXd fast_values = fast.of_people(at, &fast_scores);
+    const Eigen::VectorXd slow_values = slow.of_people(at, &slow_scores);
+    EXPECT_LT((fast_values - slow_values).cwiseAbs().maxCoeff(), 1e-10);
+    slow_scores.row(idle).setZero();
+    EXPECT_LT((fast_scores - slow_scores).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_TRUE(fast_values.allFinite());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Structures, ManyConditions,
+    ::testing::Values(HierarchicalOptions{},
+                      HierarchicalOptions{.slopes = HierarchicalSlopes::kShared},
+                      HierarchicalOptions{.link = HierarchicalLink::kLinear,
+                                          .lapses = HierarchicalLapses::kNone},
+                      HierarchicalOptions{.pse = HierarchicalPse::kShared},
+                      HierarchicalOptions{.pse = HierarchicalPse::kReference,
+                                          .guess_rate = 0.5}));
+
+TEST(HierarchicalModel, EffectsOfOneConditionComeBeforeThoseOfSeveral) {
+  const HierarchicalArrangement all = people_in(3);
+  const HierarchicalStructure structure = structure_of(all, {});
+  EXPECT_EQ(structure.conditions_of_effects(),
+            (std::vector<int>{0, 1, 2, HierarchicalStructure::kSeveral}));
+  const HierarchicalStructure pair = structure_of(people_in(2), {});
+  // The second of two correlated slopes has a part of its own.
+  EXPECT_EQ(pair.conditions_of_effects(),
+            (std::vector<int>{0, 1, 1, HierarchicalStructure::kSeveral}));
+}
+
+}  // namespace hierarchical_model_test
+}  // namespace jnd::analysis
