@@ -1,15 +1,21 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "analysis/data/csv_table.h"
+#include "analysis/mixed/mixed_derived.h"
 #include "analysis/mixed/mixed_table.h"
 #include "support/files.h"
 #include "support/places.h"
 #include "support/reference_data.h"
 
-// Mixed models by lme4's glmer: data/reference/mixed/mixed_reference.R.
+// Mixed models by lme4's glmer: data/reference/mixed/mixed_reference.R; and PSE and JND as
+// MixedPsy computes them: data/reference/agreement/mixedpsy.R.
 
 namespace jnd::analysis {
 namespace mixed_reference_test {
@@ -123,6 +129,65 @@ TEST(MixedReference, EveryMaximumIsThatOfLme4OrHigher) {
   }
   EXPECT_GE(num_alike + num_higher, 20);
   EXPECT_GE(num_alike, 15);
+}
+
+struct PsychophysicalModel {
+  std::string study, fixed, random;
+};
+
+/// Its log-likelihood as "log_likelihood", and what it says of PSE and JND.
+std::vector<DerivedQuantity> said_of(const PsychophysicalModel& model) {
+  const MixedFormulas formulas{parse_formula(model.fixed), parse_random_terms(model.random)};
+  const std::string text = test_support::read_file(
+      test_support::source_folder() / "data" / "reference" / "agreement" / "mixedpsy_rows.csv");
+  const TrialTable table =
+      parse_trial_table(text, "mixedpsy_rows.csv",
+                        {.answers = {.yes = "num_yes", .yes_value = {}, .trials = "num_trials"},
+                         .variables = columns_of(formulas),
+                         .where = {{"study", model.study}}});
+  const Design design(formulas.fixed, table, Contrasts::kTreatment);
+  const MixedFit fit =
+      fit_mixed(mixed_data(formulas, design, table, Contrasts::kTreatment), {});
+  EXPECT_EQ(fit.status, FitStatus::kOk) << model.study << fit.reason;
+  std::vector<DerivedQuantity> said =
+      derived_quantities(stimulus_lines(formulas.fixed, design, table, "intensity"),
+                         MixedLink::kProbit, 0.75, fit.estimates(), fit.fixed_covariance, {});
+  said.push_back({.name = "log_likelihood", .value = fit.log_likelihood});
+  return said;
+}
+
+TEST(MixedReference, PseAndJndOfMixedPsysExamplesAreThoseOfItsFormulas) {
+  std::map<std::string, std::vector<DerivedQuantity>> said;
+  for (const PsychophysicalModel& model :
+       {PsychophysicalModel{"simul_data", "intensity", "1 | person"},
+        PsychophysicalModel{"vibro_exp3", "intensity * vibration", "1 + intensity | person"}}) {
+    said[model.study] = said_of(model);
+  }
+  const CsvTable table = CsvTable::read(test_support::source_folder() / "data" / "reference" /
+                                        "agreement" / "mixedpsy.csv");
+  for (std::size_t row = 0; row < table.num_rows(); ++row) {
+    const std::string& study = table.cell(row, 0);
+    const std::string& condition = table.cell(row, 1);
+    const std::string& quantity = table.cell(row, 2);
+    const double theirs = std::stod(table.cell(row, 3));
+    std::string name = quantity == "pse" ? "PSE" : quantity == "jnd" ? "JND" : quantity;
+    if (!condition.empty()) name += ", vibration " + condition;
+    const std::vector<DerivedQuantity>& ours = said.at(study);
+    const auto found = std::ranges::find_if(
+        ours, [&](const DerivedQuantity& one) { return one.name == name; });
+    ASSERT_NE(found, ours.end()) << study << " " << name;
+    if (quantity == "log_likelihood") {
+      EXPECT_GT(*found->value, theirs - 1e-7) << study;
+      EXPECT_NEAR(*found->value, theirs, 1e-5) << study;
+      continue;
+    }
+    const double error = std::stod(table.cell(row, 4));
+    EXPECT_NEAR(*found->value, theirs, 1e-5 * error + 1e-5 * std::fabs(theirs))
+        << study << " " << name;
+    // glmer's are of differences, and the second model is at its bound.
+    EXPECT_NEAR(*found->standard_error, error, 5e-3 * error) << study << " " << name;
+  }
+  EXPECT_EQ(table.num_rows(), 8);
 }
 
 }  // namespace mixed_reference_test
