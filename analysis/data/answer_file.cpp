@@ -76,11 +76,8 @@ class AnswerCollector final : public RowSink {
       where_.push_back(problems().place_of(name, file_.columns, line));
     problems().throw_problems();
     for (std::size_t i = 0; i < file_.columns.size(); ++i) {
-      const std::string& name = file_.columns[i];
-      const bool tells_apart =
-          std::ranges::any_of(kTellingApart, [&](const char* word) { return name == word; });
       const auto is_at = [i](std::size_t place) { return place == i; };
-      if (tells_apart && std::ranges::none_of(group_by_, is_at) &&
+      if (tells_rows_apart(file_.columns[i]) && std::ranges::none_of(group_by_, is_at) &&
           std::ranges::none_of(where_, is_at)) {
         pooled_.push_back(i);
       }
@@ -140,10 +137,6 @@ class AnswerCollector final : public RowSink {
   }
 
  private:
-  static constexpr std::array<const char*, 9> kTellingApart = {
-      "participant", "participant_id", "subject",  "Subject", "subj", "observer",
-      "obs",         "condition",      "Condition"};
-
   bool skips(std::string_view cell, const std::string& column) {
     if (!is_missing(cell)) return false;
     ++file_.num_missing[column];
@@ -189,6 +182,13 @@ class AnswerCollector final : public RowSink {
 };
 
 }  // namespace
+
+bool tells_rows_apart(std::string_view column) noexcept {
+  static constexpr std::array<std::string_view, 9> kTellingApart = {
+      "participant", "participant_id", "subject",  "Subject", "subj", "observer",
+      "obs",         "condition",      "Condition"};
+  return std::ranges::find(kTellingApart, column) != kTellingApart.end();
+}
 
 AnswerFile parse_answers(std::string_view text, const std::string& name,
                          const AnswerColumns& columns) {

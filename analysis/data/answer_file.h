@@ -49,6 +49,9 @@ struct AnswerFile {
   std::map<std::string, std::size_t> num_pooled;
 };
 
+/// Whether a column of this name tells people or conditions apart, as other programs call them.
+[[nodiscard]] bool tells_rows_apart(std::string_view column) noexcept;
+
 /// Reads answers row by row, adding up those of one group and intensity, so that a file of a
 /// million rows takes no more memory than it has different intensities.
 ///

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
-#include <string_view>
+
+#include "app/command_line/rate_text.h"
 
 namespace jnd::app {
 
@@ -44,19 +45,8 @@ CLI::Validator number_between(double lowest, double highest) {
 CLI::Validator rate(const std::vector<std::string>& words) {
   const auto check = [words](std::string& text) -> std::string {
     if (std::ranges::find(words, text) != words.end()) return "";
-    const auto number = [](std::string_view digits) -> std::optional<double> {
-      double value = 0.0;
-      const char* end = digits.data() + digits.size();
-      const auto [stop, error] = std::from_chars(digits.data(), end, value);
-      const bool whole = !digits.empty() && stop == end && error == std::errc();
-      return whole && value >= 0.0 ? std::optional(value) : std::nullopt;
-    };
-    const std::size_t slash = text.find('/');
-    const std::optional<double> above = number(text.substr(0, slash));
-    const std::optional<double> below =
-        slash == std::string::npos ? 1.0 : number(text.substr(slash + 1));
-    if (above && below && *above < *below) {
-      text = fmt::format("{}", *above / *below);
+    if (const std::optional<double> value = rate_of(text)) {
+      text = fmt::format("{}", *value);
       return "";
     }
     return fmt::format("expected a rate from 0 to below 1, such as 0.5 or 1/3{}{}, found `{}`",

@@ -21,7 +21,7 @@
 #include "app/command_line/json_text.h"
 #include "app/commands/comparison_words.h"
 #include "app/commands/fit_figures.h"
-#include "app/commands/fit_words.h"
+#include "app/curves/fit_words.h"
 #include "core/error.h"
 
 namespace jnd::app {

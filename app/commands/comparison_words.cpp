@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/commands/fit_words.h"
+#include "app/curves/fit_words.h"
 #include "app/results/statistic_words.h"
 
 namespace jnd::app {

@@ -21,7 +21,7 @@
 #include "app/commands/fit_psychometric.h"
 #include "app/commands/fit_tables.h"
 #include "app/commands/fit_weber.h"
-#include "app/commands/fit_words.h"
+#include "app/curves/fit_words.h"
 
 namespace jnd::app {
 namespace {

@@ -16,7 +16,7 @@
 #include "app/command_line/json_text.h"
 #include "app/commands/answer_options.h"
 #include "app/commands/fit_figures.h"
-#include "app/commands/fit_words.h"
+#include "app/curves/fit_words.h"
 
 namespace jnd::app {
 namespace {
@@ -193,7 +193,7 @@ void print_detection(const analysis::SameDifferentFit& fit) {
   fmt::print("  log-likelihood  {}\n", number(fit.log_likelihood));
 }
 
-struct DetectionOptions : AnswerOptions {
+struct DetectionOptions : AnswerRequest {
   std::string figure;
   std::string answer_name = "Proportion yes";
 };

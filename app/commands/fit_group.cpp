@@ -20,7 +20,7 @@
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/commands/fit_figures.h"
-#include "app/commands/fit_words.h"
+#include "app/curves/fit_words.h"
 
 namespace jnd::app {
 namespace {

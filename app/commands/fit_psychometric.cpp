@@ -1,8 +1,6 @@
 #include "app/commands/fit_psychometric.h"
-#include "app/commands/fit_figures.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -12,18 +10,18 @@
 #include <string>
 #include <vector>
 
-#include "analysis/fits/chance_level.h"
-#include "analysis/fits/curve_comparison.h"
 #include "analysis/fits/curve_fit.h"
 #include "analysis/fits/curve_json.h"
-#include "analysis/report/curve_figure.h"
 #include "analysis/report/single_figure.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/commands/answer_options.h"
+#include "app/commands/fit_figures.h"
 #include "app/commands/fit_script.h"
-#include "app/commands/fit_words.h"
 #include "app/commands/psychometric_words.h"
+#include "app/curves/curve_analysis.h"
+#include "app/curves/curve_request.h"
+#include "app/curves/curve_table.h"
 
 namespace jnd::app {
 namespace {
@@ -31,226 +29,84 @@ namespace {
 using analysis::CurveFit;
 using analysis::FitStatus;
 
-struct FitPsychometricOptions : AnswerOptions {
-  std::string family = "normal", axis = "linear", task, guess, lapse = "0";
-  std::string bootstrap_kind = "parametric", figure, script;
-  bool symmetric = false, falling = false, rising = false;
-  bool compare = false, posterior = false, as_csv = false;
-  std::vector<double> at = {0.5};
-  double jnd_at = analysis::CurveOptions{}.jnd_at;
-  int num_bootstrap = 0, num_goodness = 0;
-  std::uint64_t seed = 1;
+struct FitPsychometricOptions : CurveRequest {
+  std::string figure, script;
+  bool as_csv = false;
 };
 
-/// The guess rate of "mafc:3" is 1/3.
-std::optional<double> guess_of_task(const std::string& task) {
-  if (task.empty()) return std::nullopt;
-  if (task == "yes-no") return 0.0;
-  const std::string forced = "mafc:";
-  const std::string digits = task.starts_with(forced) ? task.substr(forced.size()) : "";
-  const bool is_number =
-      !digits.empty() && digits.size() < 4 &&
-      std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; });
-  if (!is_number || std::stoi(digits) < 2) {
-    throw UsageError(
-        fmt::format("--task: expected yes-no, or mafc:M with M alternatives such as mafc:2, "
-                    "found {}",
-                    task));
-  }
-  return 1.0 / std::stoi(digits);
-}
-
-analysis::CurveModel model_of(const FitPsychometricOptions& options) {
-  analysis::CurveModel model;
-  for (const analysis::CurveFamilyTraits& one : analysis::curve_families()) {
-    if (one.name == options.family) model.family = one.family;
-  }
-  model.log_axis = options.axis == "log";
-  const std::optional<double> by_task = guess_of_task(options.task);
-  if (options.guess == "free") {
-    model.free_guess = true;
-  } else if (!options.guess.empty()) {
-    model.guess_rate = std::stod(options.guess);
-  }
-  if (by_task && !options.guess.empty() &&
-      (model.free_guess || std::fabs(model.guess_rate - *by_task) > 1e-12)) {
-    throw UsageError(fmt::format(
-        "--task {} has a guess rate of {:.4g}: expected no --guess beside it, found --guess {}",
-        options.task, *by_task, options.guess));
-  }
-  if (by_task) model.guess_rate = *by_task;
-  model.free_lapse = options.lapse == "free";
-  if (!model.free_lapse) model.lapse_rate = std::stod(options.lapse);
-  model.symmetric = options.symmetric;
-  if (model.symmetric && model.free_guess) {
-    throw UsageError(
-        "--symmetric: expected with a guess rate that is known, found --guess free; without "
-        "--symmetric both ends are free");
-  }
-  const double lapses = model.lapse_rate * (model.symmetric ? 2.0 : 1.0);
-  if (model.guess_rate + lapses >= 1.0) {
-    throw UsageError(fmt::format(
-        "--lapse: expected a rate that leaves the curve a rise above a guess rate of {:.4g}, "
-        "found {:.4g}",
-        model.guess_rate, model.lapse_rate));
-  }
-  return model;
-}
-
-/// The answers of all groups on an axis of which the logarithm is that of the curve.
-std::vector<analysis::AnswerCount> all_for_chance(
-    const std::vector<std::vector<analysis::AnswerCount>>& groups,
-    const analysis::CurveModel& model) {
-  std::vector<analysis::AnswerCount> all;
-  for (const auto& rows : groups) all.insert(all.end(), rows.begin(), rows.end());
-  analysis::CurveModel plain = model;
-  plain.free_guess = plain.free_lapse = plain.symmetric = plain.falling = false;
-  plain.guess_rate = plain.lapse_rate = 0.0;
-  constexpr std::size_t kMostLevels = 60;
-  const analysis::PsychometricLevels levels =
-      analysis::binned(analysis::levels_of(all, plain), kMostLevels);
-  std::vector<analysis::AnswerCount> rows;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    rows.push_back({std::exp((model.falling ? -2.0 : 2.0) * levels.abscissa[i]),
-                    static_cast<std::int64_t>(levels.num_yes[i]),
-                    static_cast<std::int64_t>(levels.num_trials[i])});
-  }
-  return rows;
-}
-
 /// Asks what the task was where the answers look like right ones, and nobody said.
-void ask_for_task(const FitPsychometricOptions& options,
-                  const std::vector<std::vector<analysis::AnswerCount>>& groups,
-                  const analysis::CurveModel& model) {
-  if (!options.task.empty() || !options.guess.empty()) return;
-  const std::optional<double> chance =
-      analysis::suspected_chance(all_for_chance(groups, model));
-  if (!chance) return;
-  const long alternatives = std::lround(1.0 / *chance);
+void ask_for_task(const CurveAnalysis& curves) {
+  if (!curves.suspected_chance) return;
+  const double chance = *curves.suspected_chance;
+  const long alternatives = std::lround(1.0 / chance);
   throw UsageError(fmt::format(
       "{}: the answers look like right ones of a forced choice among {}, for no level lies "
       "below {:.3g} %: say --task mafc:{} if they are, --task yes-no if they are not",
-      options.csv, alternatives, 100.0 * *chance, alternatives));
+      curves.request.csv, alternatives, 100.0 * chance, alternatives));
 }
 
 void require_options(const FitPsychometricOptions& options) {
-  if (options.falling && options.rising) {
-    throw UsageError("--falling, --rising: expected one of them, found both");
-  }
+  require_request(options);
   if (static_cast<int>(options.json) + static_cast<int>(options.as_csv) +
           static_cast<int>(!options.script.empty()) >
       1) {
     throw UsageError("--json, --as-csv, --script: expected one of them at most, found several");
   }
-  if (options.compare && options.group_by.empty()) {
-    throw UsageError(
-        "--compare: expected with --group-by COLUMN, which says what is compared, found "
-        "without");
-  }
-  for (const double at : options.at) {
-    if (at > 0.0 && at < 1.0) continue;
-    throw UsageError(
-        fmt::format("--at: expected numbers between 0 and 1, such as 0.75, found {}", at));
-  }
-  if (!(options.jnd_at > 0.0 && options.jnd_at < 1.0) || options.jnd_at == 0.5) {
-    throw UsageError(
-        fmt::format("--jnd-at: expected a number between 0 and 1 that is not 0.5, found {}",
-                    options.jnd_at));
-  }
   if (!options.figure.empty()) analysis::require_figure_file(options.figure);
 }
 
-void print_json(const FitPsychometricOptions& options, const analysis::AnswerFile& file,
-                const std::vector<CurveFit>& fits, const std::vector<std::string>& notes,
-                const std::optional<analysis::CurveComparison>& comparison) {
+void print_json(const CurveAnalysis& curves, const std::vector<std::string>& notes) {
   using Json = nlohmann::ordered_json;
+  const CurveRequest& request = curves.request;
   Json all = Json::array();
-  for (std::size_t i = 0; i < fits.size(); ++i) {
+  for (std::size_t i = 0; i < curves.fits.size(); ++i) {
     Json json;
     json["group"] = Json::object();
-    for (const auto& [column, value] : file.groups[i].key) json["group"][column] = value;
-    json.update(analysis::to_json(fits[i]));
+    for (const auto& [column, value] : curves.file.groups[i].key) json["group"][column] = value;
+    json.update(analysis::to_json(curves.fits[i]));
     all.push_back(std::move(json));
   }
   Json document = {{"fits", std::move(all)},
-                   {"num_rows", file.num_rows},
-                   {"num_rows_elsewhere", file.num_elsewhere},
-                   {"num_rows_missing", Json(file.num_missing)},
+                   {"num_rows", curves.file.num_rows},
+                   {"num_rows_elsewhere", curves.file.num_elsewhere},
+                   {"num_rows_missing", Json(curves.file.num_missing)},
                    {"notes", notes}};
-  if (options.num_bootstrap > 0 || options.num_goodness > 0) document["seed"] = options.seed;
-  if (comparison) document["comparison"] = analysis::to_json(*comparison);
+  if (request.num_bootstrap > 0 || request.num_goodness > 0) document["seed"] = request.seed;
+  if (curves.comparison) document["comparison"] = analysis::to_json(*curves.comparison);
   fmt::print("{}\n", json_text(document));
-}
-
-std::vector<CurveFit> fits_of(const std::vector<std::vector<analysis::AnswerCount>>& groups,
-                              const analysis::CurveOptions& how) {
-  std::vector<CurveFit> fits;
-  for (const auto& rows : groups) fits.push_back(analysis::fit_curve(rows, how));
-  return fits;
 }
 
 int fit_psychometric(const FitPsychometricOptions& options) {
   require_options(options);
-  analysis::CurveOptions how = {.model = model_of(options),
-                                .at = options.at,
-                                .jnd_at = options.jnd_at,
-                                .num_bootstrap = options.num_bootstrap,
-                                .bootstrap_kind = options.bootstrap_kind == "nonparametric"
-                                                      ? analysis::BootstrapKind::kNonparametric
-                                                      : analysis::BootstrapKind::kParametric,
-                                .posterior = options.posterior,
-                                .num_goodness = options.num_goodness,
-                                .seed = options.seed};
-  analysis::AnswerFile file = read_answers(options, !how.model.is_logarithmic());
-  std::vector<std::vector<analysis::AnswerCount>> groups;
-  for (analysis::AnswerGroup& group : file.groups) {
-    groups.push_back(rows_of(group));
-    group.tallies = {};
-  }
-  std::vector<std::string> notes = notes_of(file, options);
-  how.model.falling = options.falling || (!options.rising && analysis::answers_fall(groups));
-  if (how.model.falling && !options.falling) {
+  CurveAnalysis curves = read_curves(options);
+  std::vector<std::string> notes = notes_of(curves.file, options);
+  if (curves.found_falling) {
     notes.emplace_back(
         "the answers fall as the intensity grows, so a falling curve is fitted; --rising "
         "insists on one that rises");
   }
-  if (how.model.falling && how.model.symmetric && how.model.guess_rate > 0.0) {
-    throw UsageError("--symmetric: expected without guesses for a curve that falls");
-  }
-  ask_for_task(options, groups, how.model);
-  const std::vector<CurveFit> fits = fits_of(groups, how);
-  std::optional<analysis::CurveComparison> comparison;
-  if (options.compare) {
-    std::vector<analysis::ComparedGroup> compared;
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-      compared.push_back({words_of(file.groups[i]), groups[i]});
-    }
-    comparison = analysis::compare_curves(compared, how);
-  }
-  std::vector<std::string> names;
-  for (const analysis::AnswerGroup& group : file.groups) names.push_back(words_of(group));
+  ask_for_task(curves);
+  fit_curves(curves);
+  if (options.compare) add_comparison(curves);
   if (options.json) {
-    print_json(options, file, fits, notes, comparison);
+    print_json(curves, notes);
   } else if (options.as_csv) {
-    print_curves_as_csv(file.groups, fits);
+    fmt::print("{}", curves_as_csv(curves.file.groups, curves.fits));
   } else if (!options.script.empty()) {
     fmt::print("{}", script_of_fit(
                          options.script == "r" ? ScriptLanguage::kR : ScriptLanguage::kPython,
-                         options, how, fits));
+                         options, curves.how, curves.fits));
   } else {
-    print_curves(names, fits, notes);
-    if (comparison) print_comparison(*comparison);
+    print_curves(curves.names, curves.fits, notes);
+    if (curves.comparison) print_comparison(*curves.comparison);
   }
-  if (!options.figure.empty()) {
-    analysis::write_single_figure(
-        analysis::curve_figure(names, fits, options.intensity, options.yes), options.figure);
-  }
+  if (!options.figure.empty() && !curves.fits.empty()) save_picture(curves, options.figure);
   std::size_t num_lacking = 0;
   std::string reason;
-  for (const CurveFit& fit : fits) {
+  for (const CurveFit& fit : curves.fits) {
     if (fit.status != FitStatus::kOk && num_lacking++ == 0) reason = fit.reason;
   }
-  if (file.num_rows == 0 || fits.empty()) {
+  if (curves.file.num_rows == 0 || curves.fits.empty()) {
     fmt::print(stderr, "jnd: {}: expected rows with answers, found none\n", options.csv);
     return kHasProblems;
   }
@@ -258,7 +114,7 @@ int fit_psychometric(const FitPsychometricOptions& options) {
     fmt::print(stderr,
                "jnd: {}: expected a psychometric function in every group, found none in {} of "
                "{}: {}\n",
-               options.csv, num_lacking, fits.size(), reason);
+               options.csv, num_lacking, curves.fits.size(), reason);
     return kHasProblems;
   }
   return kDone;

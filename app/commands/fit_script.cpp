@@ -77,7 +77,7 @@ std::vector<std::string> free_rates(const analysis::CurveModel& model) {
   return names;
 }
 
-std::string r_script(const AnswerOptions& options, const analysis::CurveOptions& how,
+std::string r_script(const AnswerRequest& options, const analysis::CurveOptions& how,
                      const std::vector<analysis::CurveFit>& fits) {
   const analysis::CurveModel& model = how.model;
   const FormulaInLanguage& formula = formula_of(model.family);
@@ -166,7 +166,7 @@ std::string r_script(const AnswerOptions& options, const analysis::CurveOptions&
   return text;
 }
 
-std::string python_script(const AnswerOptions& options, const analysis::CurveOptions& how,
+std::string python_script(const AnswerRequest& options, const analysis::CurveOptions& how,
                           const std::vector<analysis::CurveFit>& fits) {
   const analysis::CurveModel& model = how.model;
   const bool is_weibull = model.family == CurveFamily::kWeibull;
@@ -323,7 +323,7 @@ for name, data in counts().items():
 
 }  // namespace
 
-std::string script_of_fit(ScriptLanguage language, const AnswerOptions& options,
+std::string script_of_fit(ScriptLanguage language, const AnswerRequest& options,
                           const analysis::CurveOptions& how,
                           const std::vector<analysis::CurveFit>& fits) {
   return language == ScriptLanguage::kR ? r_script(options, how, fits)

@@ -16,7 +16,7 @@
 #include "analysis/statistics/fit_status.h"
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
-#include "app/commands/fit_words.h"
+#include "app/curves/fit_words.h"
 
 /// What `jnd fit weber` and `jnd fit power` share: a table, of which each group is fitted.
 namespace jnd::app {

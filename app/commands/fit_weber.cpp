@@ -18,7 +18,7 @@
 #include "app/command_line/option_checks.h"
 #include "app/commands/fit_figures.h"
 #include "app/commands/fit_tables.h"
-#include "app/commands/fit_words.h"
+#include "app/curves/fit_words.h"
 
 namespace jnd::app {
 namespace {

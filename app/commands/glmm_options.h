@@ -12,7 +12,7 @@
 
 namespace jnd::app {
 
-struct FitGlmmOptions : AnswerOptions {
+struct FitGlmmOptions : AnswerRequest {
   std::string fixed;
   std::vector<std::string> random;
   std::string link = "probit", contrasts = "treatment", guess = "0", lapse = "0";

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "app/commands/fit_words.h"
 #include "app/commands/glmm_options.h"
+#include "app/curves/fit_words.h"
 
 namespace jnd::app {
 namespace {

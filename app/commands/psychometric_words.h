@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/data/answer_file.h"
 #include "analysis/fits/curve_comparison.h"
 #include "analysis/fits/curve_fit.h"
 
@@ -15,9 +14,5 @@ void print_curves(const std::vector<std::string>& names,
                   const std::vector<std::string>& notes);
 
 void print_comparison(const analysis::CurveComparison& comparison);
-
-/// A header, and a row for each threshold of each group.
-void print_curves_as_csv(const std::vector<analysis::AnswerGroup>& groups,
-                         const std::vector<analysis::CurveFit>& fits);
 
 }  // namespace jnd::app

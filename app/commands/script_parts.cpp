@@ -8,15 +8,15 @@ std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-std::string yes_column(const AnswerOptions& options) {
+std::string yes_column(const AnswerRequest& options) {
   return options.yes.empty() ? "num_yes" : options.yes;
 }
-std::string trials_column(const AnswerOptions& options) {
+std::string trials_column(const AnswerRequest& options) {
   if (!options.trials.empty()) return options.trials;
   return options.yes.empty() ? "num_trials" : "";
 }
 
-std::string r_table_text(const AnswerOptions& options) {
+std::string r_table_text(const AnswerRequest& options) {
   std::string text;
   text += "file <- " + quoted(options.csv) + "\n";
   text +=
@@ -44,7 +44,7 @@ std::string r_table_text(const AnswerOptions& options) {
   return text;
 }
 
-std::string r_answers_text(const AnswerOptions& options) {
+std::string r_answers_text(const AnswerRequest& options) {
   std::string text;
   const std::string trials = trials_column(options);
   text += trials.empty() ? "n <- rep(1, nrow(data))\n"

@@ -186,6 +186,8 @@ class Ui {
   /// Several lines, wrapped; Enter writes a line end. True when the text was changed.
   bool text_area(std::string_view name, const Rect& place, std::string& value,
                  std::string_view hint = "", bool focus = false);
+  /// Puts it on the clipboard.
+  void copy_text(const std::string& words);
   /// Some text field has the keyboard.
   [[nodiscard]] bool is_editing() const noexcept;
   /// A key without a control of its own. True in the frame it is pressed in; `with_repeats`

@@ -77,6 +77,8 @@ bool Ui::is_editing() const noexcept {
   return !my_->active_before.empty() || !my_->active_field.empty();
 }
 
+void Ui::copy_text(const std::string& words) { ImGui::SetClipboardText(words.c_str()); }
+
 bool Ui::begin_field(std::string_view name, const Rect& place, const std::string& value,
                      bool focus) {
   Implementation& my = *my_;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/gui/ui.h"
 
@@ -56,6 +57,8 @@ class Window {
   /// The left button went down: called before any frame is drawn; logical pixels. The press
   /// then goes the way of all others, too.
   std::function<void(float x, float y)> on_mouse_pressed;
+  /// Files or folders were dropped on the window from elsewhere.
+  std::function<void(const std::vector<std::filesystem::path>& paths)> on_dropped;
   /// Each time the loop comes round, on the main thread.
   std::function<void()> on_iteration;
   /// The mouse moved, as often as the system says so: logical pixels.

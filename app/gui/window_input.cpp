@@ -108,6 +108,11 @@ void Window::Implementation::install_callbacks(GLFWwindow* target, bool with_mou
     self(from).queue.mouse_button(action == GLFW_PRESS);
     self(from).something_happened(true);
   });
+  glfwSetDropCallback(target, [](GLFWwindow* from, int count, const char** paths) {
+    const Self& my = self(from);
+    if (my.window.on_dropped) my.window.on_dropped({paths, paths + count});
+    self(from).something_happened(true);
+  });
   glfwSetScrollCallback(target, [](GLFWwindow* from, double, double steps) {
     self(from).queue.wheel(static_cast<float>(steps));
     self(from).something_happened(false);

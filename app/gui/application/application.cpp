@@ -28,6 +28,7 @@ Application::Application(WindowRequest request, std::function<void()> wake)
       results_(*this, study_),
       study_screen_(*this, study_),
       device_(*this, study_, request_),
+      data_(*this),
       participant_stop_(ParticipantStop::key_named(request_.participant_stop),
                         request_.participant_holds ? ParticipantStop::Way::kHold
                                                    : ParticipantStop::Way::kPress) {
@@ -93,6 +94,16 @@ void Application::keep_stopped() noexcept {
 
 void Application::mouse_pressed(float x, float y) noexcept {
   if (stop_place_.contains(x, y)) escape();
+}
+
+void Application::dropped(const fs::path& path) {
+  if (is_live()) return;
+  attempt(tr("What was dropped cannot be opened"), [&] {
+    const bool is_folder = fs::is_directory(path);
+    if (is_folder || !(is_table(path) || shows(data_))) return open(path);
+    data_.open(path);
+    show(data_);
+  });
 }
 
 void Application::end_soon() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/command_line/open_window.h"
+#include "app/gui/application/data_screen.h"
 #include "app/gui/application/device_screen.h"
 #include "app/gui/application/open_study.h"
 #include "app/gui/application/prepare_screen.h"
@@ -64,6 +65,9 @@ class Application final : private ScreenHost {
   void key_changed(Key key, bool is_down) noexcept;
   /// The mouse went down there, logical pixels: the stop does not wait for a frame either.
   void mouse_pressed(float x, float y) noexcept;
+  /// Somebody dropped a file or a folder on the window: a table of answers, or a study. Nothing
+  /// while a session or a device is live.
+  void dropped(const std::filesystem::path& path);
   /// The system asks the program to end: a session is left as it is, to be resumed.
   void end_soon();
   void beat() noexcept {
@@ -113,8 +117,9 @@ class Application final : private ScreenHost {
   ResultsScreen results_;
   StudyScreen study_screen_;
   DeviceScreen device_;
+  DataScreen data_;
   const std::vector<Screen*> screens_ = {&start_,   &prepare_,      &session_, &sessions_,
-                                         &results_, &study_screen_, &device_};
+                                         &results_, &study_screen_, &device_,  &data_};
   Screen* screen_ = &start_;  ///< That stands in the window.
 
   ParticipantStop participant_stop_;

@@ -3,8 +3,10 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/command_line/command.h"
 #include "app/command_line/stop_signals.h"
@@ -66,6 +68,9 @@ void show(gui::Window& window, const WindowRequest& request) {
   };
   window.on_mouse_pressed = [&](float x, float y) { application.mouse_pressed(x, y); };
   window.on_mouse_moved = [&](float x, float y) { application.cursor(x, y); };
+  window.on_dropped = [&](const std::vector<std::filesystem::path>& paths) {
+    if (!paths.empty()) application.dropped(paths.front());
+  };
   window.run([&](gui::Ui& ui) {
     if (window.close_requested()) application.ask_to_close();
     ui.set_view(application.view_name());

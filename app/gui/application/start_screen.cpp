@@ -37,6 +37,8 @@ void StartScreen::draw(Ui& ui) {
     });
   } else if (result.device) {
     host_.go_to(StudyTab::kDevice);
+  } else if (result.data) {
+    host_.go_to(StudyTab::kData);
   } else if (result.start_tour) {
     host_.attempt(tr("The tour cannot be started"), [this] { start_tour(); });
   }

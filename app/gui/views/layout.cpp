@@ -69,6 +69,33 @@ DialogChoice draw_dialog_buttons(Ui& ui, Rect row, std::string_view verb, bool e
   return choice;
 }
 
+bool draw_choice(Ui& ui, const std::string& name, const Rect& place, const std::string& label,
+                 const std::string& kind, Chord key, bool selected) {
+  if (selected) ui.fill(place, Colour::kBlueSoft, 8);
+  const bool chosen = ui.row(name, place, label, key);
+  Rect words = place;
+  words.take_left(12);
+  words.take_right(12);
+  if (key.key != Key::kNone) {
+    const Rect cap = words.take_right(ui.key_cap_width(key), 12);
+    ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, key);
+  }
+  const float width = ui.text_width(kind, Font::kSmall) + 2;
+  if (!kind.empty()) {
+    ui.text(words.take_right(width, 12), kind, {.font = Font::kSmall, .colour = Colour::kSoft});
+  }
+  ui.text(words, label,
+          {.font = selected ? Font::kStrong : Font::kBody,
+           .colour = selected ? Colour::kBlue : Colour::kInk});
+  return chosen;
+}
+
+Chord key_of_choice(std::size_t place) noexcept {
+  constexpr std::size_t kMostKeys = 9;
+  if (place >= kMostKeys) return {};
+  return {.key = letter(static_cast<char>('1' + place)), .control = true};
+}
+
 Colour colour_of(PreflightLine::Status status) noexcept {
   switch (status) {
     case PreflightLine::Status::kOk:

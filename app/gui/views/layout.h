@@ -48,6 +48,12 @@ struct DialogChoice {
 [[nodiscard]] DialogChoice draw_dialog_buttons(Ui& ui, Rect row, std::string_view verb,
                                                bool enabled, bool entered);
 
+/// One of several things in a list, `kind` in soft words at its end. True when it was chosen.
+bool draw_choice(Ui& ui, const std::string& name, const Rect& place, const std::string& label,
+                 const std::string& kind, Chord key, bool selected);
+/// Ctrl and a digit, of the first nine.
+[[nodiscard]] Chord key_of_choice(std::size_t place) noexcept;
+
 [[nodiscard]] Colour colour_of(PreflightLine::Status status) noexcept;
 
 /// Words in the middle of a place where there is nothing else.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-
 #include "app/gui/views/start_view.h"
 
 namespace jnd::app::gui {
@@ -13,9 +11,7 @@ void open_open_dialog(StartViewState& state);
 
 void draw_new_dialog(Ui& ui, const StartModel& model, StartViewState& state,
                      StartViewResult& result);
-void draw_open_dialog(
-    Ui& ui,
-    const std::function<std::vector<FolderEntry>(const std::filesystem::path&)>& entries_of,
-    StartViewState& state, StartViewResult& result);
+void draw_open_dialog(Ui& ui, const EntriesOf& entries_of, StartViewState& state,
+                      StartViewResult& result);
 
 }  // namespace jnd::app::gui

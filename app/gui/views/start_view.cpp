@@ -12,8 +12,10 @@ namespace {
 
 constexpr float kStudyCard = 76;
 constexpr float kBetweenCards = 12;
+bool is_small(const Ui& ui) { return ui.screen().height < 860; }
+float gap_between_groups(const Ui& ui) { return is_small(ui) ? 14 : 2 * kGap; }
 /// So many cards leave room for the studies.
-std::size_t most_resumes(const Ui& ui) { return ui.screen().height < 860 ? 1 : 2; }
+std::size_t most_resumes(const Ui& ui) { return is_small(ui) ? 1 : 2; }
 constexpr std::size_t kMostKeys = 9;
 
 struct Open {
@@ -147,15 +149,33 @@ void draw_tour(Ui& ui, Rect& column, StartViewResult& result) {
          "fraction.");
   const float width = column.width - 2 * kPadding;
   const float text = ui.text_height(width, words, soft);
-  const Rect card = column.take_top(30 + text + 16 + 50 + 2 * kPadding, 2 * kGap);
+  const float gap = is_small(ui) ? 12 : 16, button = is_small(ui) ? 46 : 50;
+  const Rect card =
+      column.take_top(30 + text + gap + button + 2 * kPadding, gap_between_groups(ui));
   ui.card(card);
   Rect inside = card.inset(kPadding);
   ui.text(inside.take_top(30), tr("A three-minute tour"), {.font = Font::kLarge});
-  ui.text(inside.take_top(text, 16), words, soft);
-  if (ui.button("start_tour", inside.take_top(50), tr("Start the tour"),
+  ui.text(inside.take_top(text, gap), words, soft);
+  if (ui.button("start_tour", inside.take_top(button), tr("Start the tour"),
                 {.tone = Tone::kPrimary, .key = {letter('T')}})) {
     result.start_tour = true;
   }
+}
+
+/// For who has answers already, wherever they are from.
+void draw_own_data(Ui& ui, Rect& column, StartViewResult& result) {
+  ui.heading(column.take_top(18, 10), tr("Your own data"));
+  const Rect card = column.take_top(is_small(ui) ? 64 : kStudyCard, gap_between_groups(ui));
+  const Chord key{letter('C')};
+  ui.card(card);
+  if (ui.row("open_data", card, tr("Open data"), key)) result.data = true;
+  Rect inside = card.inset(kPadding);
+  const Rect cap = inside.take_right(ui.key_cap_width(key), 16);
+  ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, key);
+  inside = inside.middle(inside.width, 44);
+  ui.text(inside.take_top(22), tr("Open data"), {.font = Font::kStrong});
+  ui.text(inside, tr("Psychometric functions from CSV, TSV or jsPsych"),
+          {.colour = Colour::kSoft});
 }
 
 void draw_machine(Ui& ui, Rect column, const StartModel& model, StartViewResult& result) {
@@ -166,21 +186,21 @@ void draw_machine(Ui& ui, Rect column, const StartModel& model, StartViewResult&
     result.device = true;
   }
   ui.heading(heading, tr("This machine"));
-  constexpr float kLine = 34;
+  const float line_height = is_small(ui) ? 28 : 34;
   const std::size_t count = std::max<std::size_t>(1, model.machine.size());
-  Rect card = column.take_top(static_cast<float>(count) * kLine + 2 * 10);
+  Rect card = column.take_top(static_cast<float>(count) * line_height + 2 * 10);
   ui.card(card);
   Rect inside = card;
   inside.take_left(kPadding);
   inside.take_right(kPadding);
   inside.take_top(10);
   if (model.machine.empty()) {
-    ui.text(inside.take_top(kLine), tr("Looking …"),
+    ui.text(inside.take_top(line_height), tr("Looking …"),
             {.font = Font::kSmall, .colour = Colour::kSoft});
   }
   for (std::size_t i = 0; i < model.machine.size(); ++i) {
     const PreflightLine& line = model.machine[i];
-    const Rect row = inside.take_top(kLine);
+    const Rect row = inside.take_top(line_height);
     Rect words = row;
     ui.text(words.take_left(150, 12), line.name, {.font = Font::kSmall});
     ui.text(words, line.found,
@@ -196,10 +216,8 @@ void draw_machine(Ui& ui, Rect column, const StartModel& model, StartViewResult&
 
 }  // namespace
 
-StartViewResult draw_start_view(
-    Ui& ui, const StartModel& model,
-    const std::function<std::vector<FolderEntry>(const std::filesystem::path&)>& entries_of,
-    StartViewState& state) {
+StartViewResult draw_start_view(Ui& ui, const StartModel& model, const EntriesOf& entries_of,
+                                StartViewState& state) {
   StartViewResult result;
   Rect rest = ui.screen();
   const Rect footer = rest.take_bottom(kFooterHeight);
@@ -218,6 +236,7 @@ StartViewResult draw_start_view(
   if (resumes > 0) left.take_top(resumes + kBetweenCards);
   draw_studies(ui, left, model, state, result);
   draw_tour(ui, right, result);
+  draw_own_data(ui, right, result);
   draw_machine(ui, right, model, result);
   draw_study_footer(ui, footer, tr("Version {}", model.version), "");
   if (state.dialog == StartViewState::Dialog::kNew) draw_new_dialog(ui, model, state, result);

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/gui/ui.h"
+#include "app/gui/views/file_dialog.h"
 #include "app/operator/preflight.h"
 #include "app/operator/study_folder.h"
 
@@ -26,26 +26,17 @@ struct StartModel {
   std::string version;
 };
 
-/// What the open dialog lists.
-struct FolderEntry {
-  std::filesystem::path path;
-  enum class Kind { kFolder, kStudyFolder, kBackup, kStudyFile } kind = Kind::kFolder;
-};
-
 /// What the window remembers of the start view.
 struct StartViewState {
   enum class Dialog { kNone, kNew, kOpen };
   Dialog dialog = Dialog::kNone;
   bool dialog_is_new = false;
   std::size_t chosen_shipped = 0;
-  std::string study_file;          ///< Typed instead of a shipped one; "" for none.
-  std::string new_folder;          ///< Where the new study goes.
-  std::string proposed_folder;     ///< What stood there before anybody typed.
-  std::filesystem::path browsing;  ///< Folder whose entries are shown.
-  std::filesystem::path listed;    ///< Folder that `entries` were read from.
-  std::vector<FolderEntry> entries;
-  std::string open_path;  ///< Typed.
-  std::string problem;    ///< Why the last attempt did not work, for the open dialog.
+  std::string study_file;       ///< Typed instead of a shipped one; "" for none.
+  std::string new_folder;       ///< Where the new study goes.
+  std::string proposed_folder;  ///< What stood there before anybody typed.
+  FileDialogState opening;
+  std::string problem;  ///< Why the last attempt did not work.
 };
 
 struct StartViewResult {
@@ -62,12 +53,11 @@ struct StartViewResult {
   std::optional<New> create;
   bool start_tour = false;
   bool device = false;  ///< Its view.
+  bool data = false;    ///< That of somebody's own table.
 };
 
-/// `entries_of` lists a folder, so that the view does no reading: once for each that is shown.
-[[nodiscard]] StartViewResult draw_start_view(
-    Ui& ui, const StartModel& model,
-    const std::function<std::vector<FolderEntry>(const std::filesystem::path&)>& entries_of,
-    StartViewState& state);
+[[nodiscard]] StartViewResult draw_start_view(Ui& ui, const StartModel& model,
+                                              const EntriesOf& entries_of,
+                                              StartViewState& state);
 
 }  // namespace jnd::app::gui

@@ -9,7 +9,8 @@
 
 namespace jnd::app::gui {
 
-enum class StudyTab { kNone, kStart, kSessions, kResults, kStudy, kDevice };
+/// `kData` has no tab in the headers of studies: it is of none.
+enum class StudyTab { kNone, kStart, kSessions, kResults, kStudy, kDevice, kData };
 
 struct StudyTabLook {
   StudyTab tab;

@@ -68,6 +68,54 @@ TEST_F(ApplicationTest, TheDeviceIsThereWithoutAStudy) {
   EXPECT_TRUE(application_->closed());
 }
 
+TEST_F(ApplicationTest, DataAreOpenedFromTheStartAndStayWhileOthersStandThere) {
+  const fs::path table = temporary_.path() / "a.csv";
+  write_file(table, "x,k,n\n0,10,40\n10,30,40\n");
+  open({});
+  EXPECT_EQ(after({letter('C')}), "data");
+  EXPECT_NE(ui_.drawn().find("open_path"), nullptr);
+  ui_.type(table.string());
+  EXPECT_EQ(after({Key::kEnter}), "data");
+  const auto finish = [this] {
+    do {
+      std::this_thread::yield();
+      draw();
+    } while (application_->works());
+  };
+  finish();
+  EXPECT_TRUE(ui_.drawn().shows("2 rows"));
+  // What cannot be saved is told.
+  after({letter('E'), true});
+  ui_.press({letter('A'), true});
+  ui_.type(table.string());
+  after({Key::kEnter});
+  finish();
+  EXPECT_TRUE(ui_.drawn().shows("It cannot be saved"));
+  EXPECT_TRUE(ui_.drawn().shows("there already"));
+  after({Key::kEnter});
+  EXPECT_EQ(after({letter('0'), true}), "start");
+  EXPECT_EQ(after({letter('C')}), "data");
+  EXPECT_TRUE(ui_.drawn().shows("a.csv"));
+  EXPECT_EQ(ui_.drawn().find("open_path"), nullptr);
+}
+
+TEST_F(ApplicationTest, WhatIsDroppedIsATableOrAStudy) {
+  const fs::path table = temporary_.path() / "a.json";
+  write_file(table, R"([{"x": 1, "correct": true}, {"x": 2, "correct": false}])");
+  open({});
+  application_->dropped(file_);
+  EXPECT_STREQ(application_->view_name(), "study");
+  application_->dropped(table);
+  EXPECT_STREQ(application_->view_name(), "data");
+  application_->dropped(folder_);
+  EXPECT_STREQ(application_->view_name(), "sessions");
+  fs::remove_all(folder_ / "study.sqlite");
+  application_->dropped(folder_);
+  draw();
+  EXPECT_STREQ(application_->view_name(), "sessions");
+  EXPECT_TRUE(ui_.drawn().shows("What was dropped cannot be opened"));
+}
+
 TEST_F(ApplicationTest, AStudyFileIsShownWithoutAFolder) {
   open({.study_folder = file_});
   EXPECT_STREQ(application_->view_name(), "study");

@@ -39,6 +39,7 @@ class StartViewTest : public ::testing::Test {
       if (result.open) all.open = result.open;
       if (result.create) all.create = result.create;
       all.start_tour |= result.start_tour;
+      all.data |= result.data;
     });
     return all;
   }
@@ -77,6 +78,12 @@ TEST_F(StartViewTest, EveryStudyOpensByItsNumberAndByAClick) {
 }
 
 TEST_F(StartViewTest, TheTourBeginsWithT) { EXPECT_TRUE(after_key({letter('T')}).start_tour); }
+
+TEST_F(StartViewTest, OnesOwnDataOpenWithCAndByAClick) {
+  EXPECT_TRUE(after_key({letter('C')}).data);
+  ui_.click("open_data");
+  EXPECT_TRUE(draw(ui_).data);
+}
 
 TEST_F(StartViewTest, WithoutAStudyItSaysWhatToDo) {
   model_.studies.clear();
@@ -138,7 +145,7 @@ TEST_F(StartViewTest, ADialogIsLeftByF2AndKeepsKeysFromWhatIsBelow) {
 }
 
 TEST_F(StartViewTest, OpeningGoesThroughFoldersThatAreReadOnce) {
-  state_.browsing = "/data";
+  state_.opening.browsing = "/data";
   (void)after_key({.key = letter('O'), .control = true});
   EXPECT_TRUE(ui_.drawn().shows("honey.study"));
   (void)draw(ui_);
@@ -146,11 +153,11 @@ TEST_F(StartViewTest, OpeningGoesThroughFoldersThatAreReadOnce) {
   EXPECT_EQ(num_listings_, 1);
   ui_.press({.key = letter('2'), .control = true});
   EXPECT_FALSE(draw(ui_).open.has_value());
-  EXPECT_EQ(state_.browsing, "/data/more");
+  EXPECT_EQ(state_.opening.browsing, "/data/more");
   EXPECT_TRUE(ui_.drawn().shows("There is no study and no folder here"));
   ui_.press({.key = Key::kUp, .control = true});
   (void)draw(ui_);
-  EXPECT_EQ(state_.browsing, "/data");
+  EXPECT_EQ(state_.opening.browsing, "/data");
   ui_.click("entry_x.json");
   EXPECT_EQ(draw(ui_).open, fs::path("/data/x.json"));
 }
@@ -166,7 +173,7 @@ TEST_F(StartViewTest, NothingIsCutOffInASmallWindow) {
   HeadlessUi small(1280, 720);
   (void)draw(small);
   EXPECT_TRUE(all_on_screen(small.drawn(), 1280, 720));
-  for (const char* name : {"resume_1", "new_study", "open_study", "start_tour"}) {
+  for (const char* name : {"resume_1", "new_study", "open_study", "start_tour", "open_data"}) {
     const Drawn::Widget* widget = small.drawn().find(name);
     ASSERT_NE(widget, nullptr) << name;
     EXPECT_GT(widget->place.height, 30) << name;

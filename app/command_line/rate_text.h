@@ -1,0 +1,12 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace jnd::app {
+
+/// A number from 0 to below 1, also as a fraction of whole numbers such as 1/3; nothing for
+/// another text.
+[[nodiscard]] std::optional<double> rate_of(std::string_view text) noexcept;
+
+}  // namespace jnd::app

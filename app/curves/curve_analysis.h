@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/charts/figure_table.h"
+#include "analysis/data/answer_file.h"
+#include "analysis/fits/curve_comparison.h"
+#include "analysis/fits/curve_fit.h"
+#include "app/curves/curve_request.h"
+
+namespace jnd::app {
+
+/// What a table comes to, step by step: its answers, the curves, their comparison.
+struct CurveAnalysis {
+  CurveRequest request;
+  analysis::AnswerFile file;  ///< Without its tallies, which are `groups`.
+  std::vector<std::vector<analysis::AnswerCount>> groups;
+  std::vector<std::string> names;  ///< "condition light"; "" for all rows.
+  analysis::CurveOptions how;
+  /// The answers fall as the intensity grows, and so does the curve, though nobody said so.
+  bool found_falling = false;
+  /// The answers look like right ones of a forced choice with this chance, and nobody said what
+  /// the task was. Who asked decides before there are fits.
+  std::optional<double> suspected_chance;
+  std::vector<analysis::CurveFit> fits;  ///< One a group.
+  std::optional<analysis::CurveComparison> comparison;
+};
+
+/// Reads the answers and settles how they are fitted. Throws `UsageError` as `require_request`
+/// and `options_of`, `core::Error` as `read_answer_file`. Not real time.
+[[nodiscard]] CurveAnalysis read_curves(const CurveRequest& request);
+
+/// Fits every group. `keep_going` is told how much is done, 0 to 1, before each; what it throws
+/// ends the work. Not real time.
+void fit_curves(CurveAnalysis& curves, const std::function<void(double)>& keep_going = {});
+
+/// Compares the groups. Not real time.
+void add_comparison(CurveAnalysis& curves);
+
+/// The numbers of the fits' picture: the tables `answers`, `curves` and `thresholds` of
+/// `analysis::curve_figure`. None without groups.
+[[nodiscard]] std::vector<analysis::FigureTable> picture_tables(const CurveAnalysis& curves);
+
+/// Draws the picture into a new .svg, .pdf or .png. Throws `core::Error` as
+/// `analysis::write_single_figure`. Not real time.
+void save_picture(const CurveAnalysis& curves, const std::filesystem::path& file);
+
+/// Writes the fits as `curves_as_csv` into a new file. Throws `core::Error` where there is one
+/// of that name already, and where it cannot be written.
+void save_table(const CurveAnalysis& curves, const std::filesystem::path& file);
+
+}  // namespace jnd::app

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "app/gui/application/screen.h"
+#include "app/gui/views/data_view.h"
+#include "app/operator/open_data.h"
+
+namespace jnd::app::gui {
+
+/// Somebody's own table of answers, fitted without a study. It stays as it is while other
+/// screens stand there.
+class DataScreen final : public Screen {
+ public:
+  explicit DataScreen(ScreenHost& host) : host_(host), data_(host.wake()) {}
+  [[nodiscard]] const char* name() const noexcept override { return "data"; }
+  [[nodiscard]] StudyTab tab() const noexcept override { return StudyTab::kData; }
+  /// A file to be shown next.
+  void open(const std::filesystem::path& file);
+  /// Asks for a file where none is open.
+  void show() override;
+  void update(Ui&) override;
+  void draw(Ui& ui) override;
+  [[nodiscard]] bool works() const noexcept override { return data_.works(); }
+
+ private:
+  ScreenHost& host_;
+  OpenData data_;
+  DataViewState state_;
+  bool was_saving_ = false;
+};
+
+/// What a folder has for somebody who looks for a table: tables, then other folders.
+[[nodiscard]] std::vector<FolderEntry> tables_of(const std::filesystem::path& folder);
+
+/// Whether a file is rather a table of answers than a study: by its ending, and of JSON by
+/// whether it is a list.
+[[nodiscard]] bool is_table(const std::filesystem::path& file);
+
+}  // namespace jnd::app::gui

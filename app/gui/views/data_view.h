@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/curves/curve_request.h"
+#include "app/gui/ui.h"
+#include "app/gui/views/file_dialog.h"
+#include "app/gui/views/study_tabs.h"
+#include "app/operator/open_data.h"
+
+namespace jnd::app::gui {
+
+/// What the window remembers of the view of somebody's table.
+struct DataViewState {
+  enum class Page { kTable, kCurves, kComparison, kCommand };
+  enum class Dialog {
+    kNone,
+    kFile,
+    kRole,  ///< What `column` is.
+    kIntensity,
+    kYes,
+    kYesValue,
+    kTrials,
+    kGroups,
+    kFilters,
+    kFilterCell,  ///< Which cell of `column` rows must have.
+    kFamily,
+    kTask,
+    kLapse,
+    kLevels,
+    kPicture,
+    kTable,
+  };
+  Page page = Page::kTable;
+  Dialog dialog = Dialog::kNone;
+  bool dialog_is_new = false;
+  std::string column;  ///< That a dialog is about.
+  std::string typed;   ///< In a dialog's field.
+  /// Counts the times that a dialog itself wrote there: a field that is edited keeps its own
+  /// text.
+  int num_rewrites = 0;
+  std::string problem;  ///< Of what was typed.
+  FileDialogState opening;
+  std::size_t first_column = 0;  ///< Of the table; those before have no room.
+  std::size_t group = 0;         ///< Whose numbers are shown.
+  float settings_height = 0, numbers_height = 0, comparison_height = 0;
+  bool is_copied = false;  ///< The command is on the clipboard.
+};
+
+struct DataViewResult {
+  StudyTab tab = StudyTab::kNone;
+  std::optional<std::filesystem::path> open;
+  std::optional<CurveRequest> request;
+  std::optional<std::filesystem::path> save_picture, save_table;
+  bool compare = false;
+};
+
+/// Shows the file's first rows with what its columns are, what is fitted, and what that comes
+/// to. `entries_of` lists a folder and the tables in it.
+[[nodiscard]] DataViewResult draw_data_view(Ui& ui, const DataView& data,
+                                            const EntriesOf& entries_of, DataViewState& state);
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,95 @@
+#include "app/gui/views/file_dialog.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "app/gui/views/layout.h"
+#include "app/language/words.h"
+
+namespace jnd::app::gui {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string kind_of(FolderEntry::Kind kind) {
+  switch (kind) {
+    case FolderEntry::Kind::kFolder:
+      return tr("folder");
+    case FolderEntry::Kind::kStudyFolder:
+      return tr("study");
+    case FolderEntry::Kind::kBackup:
+      return tr("backup, to be read only");
+    case FolderEntry::Kind::kStudyFile:
+      return tr("study file");
+    case FolderEntry::Kind::kTable:
+      return tr("table");
+  }
+  return "";
+}
+
+}  // namespace
+
+fs::path typed_path(const std::string& typed) {
+  const char* home = std::getenv("HOME");
+  if (home == nullptr || !(typed == "~" || typed.starts_with("~/"))) return typed;
+  return fs::path(home) / fs::path(typed.substr(std::min<std::size_t>(2, typed.size())));
+}
+
+void begin_file_dialog(FileDialogState& state, const fs::path& start) {
+  state.is_new = true;
+  state.open_path.clear();
+  state.listed.clear();
+  if (!state.browsing.empty()) return;
+  std::error_code ignored;
+  state.browsing = fs::is_directory(start, ignored) ? start : fs::current_path(ignored);
+}
+
+FileDialogResult draw_file_dialog(Ui& ui, const FileDialogWords& words,
+                                  const EntriesOf& entries_of, FileDialogState& state) {
+  FileDialogResult result;
+  Rect inside = ui.begin_dialog("open_dialog", 760, std::min(640.0f, ui.screen().height - 60));
+  ui.text(inside.take_top(34, 8), words.title, {.font = Font::kLarge});
+  const bool entered = ui.text_field("open_path", inside.take_top(46, 14), state.open_path,
+                                     words.hint, state.is_new);
+  const Rect buttons = inside.take_bottom(48, 12);
+  Rect where = inside.take_top(40, 6);
+  const ButtonStyle up{.key = {.key = Key::kUp, .control = true},
+                       .enabled = state.browsing.has_relative_path()};
+  if (ui.button("folder_up", where.take_right(ui.button_width(tr("Go up"), up), 12),
+                tr("Go up"), up)) {
+    state.browsing = state.browsing.parent_path();
+  }
+  ui.text(where, state.browsing.string(), {.font = Font::kMono, .colour = Colour::kSoft});
+  constexpr float kRow = 40;
+  if (state.listed != state.browsing) {
+    state.entries = entries_of(state.browsing);
+    state.listed = state.browsing;
+  }
+  const std::vector<FolderEntry>& entries = state.entries;
+  if (entries.empty()) draw_notice(ui, inside, words.nothing);
+  const auto content = kRow * static_cast<float>(entries.size());
+  Rect rows = ui.begin_scroll("entries", inside, content);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const FolderEntry& entry = entries[i];
+    const std::string label = entry.path.filename().string();
+    if (!draw_choice(ui, "entry_" + label, rows.take_top(kRow), label, kind_of(entry.kind),
+                     key_of_choice(i), false)) {
+      continue;
+    }
+    if (entry.kind == FolderEntry::Kind::kFolder) {
+      state.browsing = entry.path;
+    } else {
+      result.chosen = entry.path;
+    }
+  }
+  ui.end_scroll();
+  const DialogChoice choice =
+      draw_dialog_buttons(ui, buttons, tr("Open"), !state.open_path.empty(), entered);
+  ui.end_dialog();
+  state.is_new = entered && !choice.done;
+  if (choice.done) result.chosen = typed_path(state.open_path);
+  result.is_closed = result.chosen.has_value() || choice.cancelled;
+  return result;
+}
+
+}  // namespace jnd::app::gui

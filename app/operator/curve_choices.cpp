@@ -1,0 +1,133 @@
+#include "app/operator/curve_choices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "analysis/data/answer_cells.h"
+#include "analysis/fits/curve_model.h"
+#include "app/command_line/rate_text.h"
+#include "app/language/words.h"
+
+namespace jnd::app {
+namespace {
+
+CurveChoice task_choice(const char* label, const std::string& task) {
+  return {
+      .label = label,
+      .note = {},
+      .is_chosen =
+          [task](const CurveRequest& request) {
+            // Where nobody said, it is one of yes and no.
+            return request.guess.empty() &&
+                   (request.task == task || (request.task.empty() && task == "yes-no"));
+          },
+      .choose = [task](CurveRequest request) { return with_task(std::move(request), task); }};
+}
+
+CurveChoice lapse_choice(const char* label, const std::string& lapse) {
+  return {.label = label,
+          .note = {},
+          .is_chosen = [lapse](const CurveRequest& request) { return request.lapse == lapse; },
+          .choose =
+              [lapse](CurveRequest request) {
+                request.lapse = lapse;
+                return request;
+              }};
+}
+
+std::string rate_problem(const std::string& typed) {
+  return tr("expected a rate from 0 to below 1, such as 0.5 or 1/3, found {}", typed);
+}
+
+}  // namespace
+
+std::vector<CurveChoice> family_choices(const CurveRequest& request) {
+  std::vector<CurveChoice> all;
+  for (const analysis::CurveFamilyTraits& one : analysis::curve_families()) {
+    const std::string name(one.name);
+    all.push_back({.label = name,
+                   .note = analysis::formula_words(one.family, request.axis == "log"),
+                   .is_chosen = [name](const CurveRequest& now) { return now.family == name; },
+                   .choose =
+                       [name](CurveRequest now) {
+                         now.family = name;
+                         return now;
+                       }});
+  }
+  return all;
+}
+
+std::vector<CurveChoice> task_choices() {
+  std::vector<CurveChoice> all = {task_choice(tr("Answers of yes and no"), "yes-no"),
+                                  task_choice(tr("Right answers among 2"), "mafc:2"),
+                                  task_choice(tr("Right answers among 3"), "mafc:3"),
+                                  task_choice(tr("Right answers among 4"), "mafc:4")};
+  all.push_back({.label = tr("A guess rate that is fitted"),
+                 .note = {},
+                 .is_chosen = [](const CurveRequest& now) { return now.guess == "free"; },
+                 .choose =
+                     [](CurveRequest now) {
+                       now.task.clear();
+                       now.guess = "free";
+                       return now;
+                     }});
+  return all;
+}
+
+std::vector<CurveChoice> lapse_choices() {
+  return {lapse_choice("0", "0"), lapse_choice("0.01", "0.01"), lapse_choice("0.02", "0.02"),
+          lapse_choice("0.05", "0.05"), lapse_choice(tr("A rate that is fitted"), "free")};
+}
+
+CurveRequest with_task(CurveRequest request, const std::string& task) {
+  request.task = task;
+  request.guess.clear();
+  return request;
+}
+
+TypedRequest with_typed_guess(const CurveRequest& request, const std::string& typed) {
+  const std::optional<double> rate = rate_of(analysis::without_spaces(typed));
+  if (!rate) return {request, rate_problem(typed)};
+  TypedRequest done{request, ""};
+  done.request.task.clear();
+  done.request.guess = fmt::format("{}", *rate);
+  return done;
+}
+
+TypedRequest with_typed_lapse(const CurveRequest& request, const std::string& typed) {
+  const std::optional<double> rate = rate_of(analysis::without_spaces(typed));
+  if (!rate) return {request, rate_problem(typed)};
+  TypedRequest done{request, ""};
+  done.request.lapse = fmt::format("{}", *rate);
+  return done;
+}
+
+TypedRequest with_typed_levels(const CurveRequest& request, const std::string& typed) {
+  TypedRequest done{request, ""};
+  done.request.at.clear();
+  std::string words = typed;
+  std::ranges::replace_if(
+      words, [](char c) { return c == ',' || c == ';'; }, ' ');
+  std::string_view rest = words;
+  while (!(rest = analysis::without_spaces(rest)).empty()) {
+    const std::string_view word = rest.substr(0, rest.find(' '));
+    const double level = analysis::number_of(word, false);
+    if (!(level > 0.0 && level < 1.0)) {
+      return {request, tr("expected numbers between 0 and 1, such as 0.75, found {}",
+                          std::string(word))};
+    }
+    if (std::ranges::find(done.request.at, level) == done.request.at.end()) {
+      done.request.at.push_back(level);
+    }
+    rest.remove_prefix(word.size());
+  }
+  if (done.request.at.empty()) {
+    return {request, tr("expected numbers between 0 and 1, such as 0.75, found nothing")};
+  }
+  return done;
+}
+
+}  // namespace jnd::app

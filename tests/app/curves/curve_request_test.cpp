@@ -1,0 +1,77 @@
+#include "app/curves/curve_request.h"
+
+#include <gtest/gtest.h>
+
+#include "app/command_line/command.h"
+#include "app/curves/curve_analysis.h"
+#include "core/error.h"
+#include "support/files.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+namespace curve_request_test {
+
+TEST(CurveRequest, TheCommandLeavesOutWhatIsADefault) {
+  CurveRequest request;
+  request.csv = "order.csv";
+  request.yes = "k";
+  EXPECT_EQ(command_of(request), "jnd fit psychometric --csv order.csv --yes k");
+  request.intensity = "soa";
+  request.trials = "n";
+  request.group_by = {"condition", "block"};
+  request.family = "logistic";
+  request.axis = "log";
+  request.task = "mafc:2";
+  request.lapse = "free";
+  request.at = {0.5, 0.75};
+  request.compare = true;
+  EXPECT_EQ(command_of(request),
+            "jnd fit psychometric --csv order.csv --intensity soa --yes k --trials n "
+            "--group-by condition,block --family logistic --axis log --task mafc:2 --lapse "
+            "free --at 0.5,0.75 --compare");
+}
+
+TEST(CurveRequest, TheCommandHasQuotesWhereAShellNeedsThem) {
+  CurveRequest request;
+  request.csv = "/my data/it's.csv";
+  request.yes = "said yes";
+  request.where = {"block=2", "who=A & B"};
+  EXPECT_EQ(command_of(request),
+            "jnd fit psychometric --csv '/my data/it'\\''s.csv' --yes 'said yes' --where "
+            "block=2 --where 'who=A & B'");
+}
+
+TEST(CurveRequest, WhatDoesNotGoTogetherIsRefused) {
+  CurveRequest request;
+  request.at = {1.0};
+  EXPECT_THROW(require_request(request), UsageError);
+  request = {};
+  request.compare = true;
+  EXPECT_THROW(require_request(request), UsageError);
+  request = {};
+  request.task = "mafc:1";
+  EXPECT_THROW((void)options_of(request), UsageError);
+  request.task = "mafc:2";
+  EXPECT_DOUBLE_EQ(options_of(request).model.guess_rate, 0.5);
+  request.lapse = "0.5";
+  EXPECT_THROW((void)options_of(request), UsageError);
+}
+
+TEST(CurveRequest, ATableIsWrittenIntoNoFileThatIsThere) {
+  const test_support::TemporaryFolder folder;
+  test_support::write_file(folder.path() / "a.csv",
+                           "intensity,num_yes,num_trials\n0,10,40\n10,30,40\n");
+  CurveRequest request;
+  request.csv = (folder.path() / "a.csv").string();
+  CurveAnalysis curves = read_curves(request);
+  fit_curves(curves);
+  EXPECT_THROW(save_table(curves, request.csv), core::Error);
+  EXPECT_EQ(test_support::read_file(request.csv),
+            "intensity,num_yes,num_trials\n0,10,40\n10,30,40\n");
+  save_table(curves, folder.path() / "fits.csv");
+  EXPECT_TRUE(test_support::read_file(folder.path() / "fits.csv")
+                  .starts_with("status,reason,num_trials,location,"));
+}
+
+}  // namespace curve_request_test
+}  // namespace jnd::app
