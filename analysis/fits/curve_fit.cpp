@@ -215,10 +215,25 @@ void add_bootstrap(CurveFit& fit, std::vector<Told>& all, const FoundCurve& foun
   }
 }
 
+/// The medians where the prior of the rates has other weights.
+void add_prior_effects(const CurveFit& fit, std::vector<Told>& all,
+                       const PsychometricLevels& levels, const FreeParameters& free,
+                       const BetaPrior& rates) {
+  for (const double weight : kOtherPriorWeights) {
+    const PosteriorGrid grid = posterior_grid(levels, free, rates.weighed(weight));
+    for (const Told& one : all) {
+      const auto quantiles = grid.quantiles([&](const PsychometricCurve& curve) {
+        return value_of(one.quantity, fit.model, levels, curve);
+      });
+      one.value->posterior_medians_by_weight.push_back(finite_value(quantiles[0]));
+    }
+  }
+}
+
 void add_posterior(CurveFit& fit, std::vector<Told>& all, const PsychometricLevels& every_level,
-                   const FreeParameters& free) {
+                   const FreeParameters& free, const CurveOptions& options) {
   const PsychometricLevels levels = binned(every_level, 200);
-  const PosteriorGrid grid = posterior_grid(levels, free);
+  const PosteriorGrid grid = posterior_grid(levels, free, options.rate_prior);
   if (!grid.reason.empty()) {
     fit.posterior_note = "no posterior: " + grid.reason;
     return;
@@ -230,6 +245,9 @@ void add_posterior(CurveFit& fit, std::vector<Told>& all, const PsychometricLeve
     });
     one.value->posterior_median = finite_value(median);
     one.value->posterior_ci95 = {finite_value(low), finite_value(high)};
+  }
+  if (options.prior_sensitivity) {
+    add_prior_effects(fit, all, levels, free, options.rate_prior);
   }
   constexpr double kMuch = 0.025;
   for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -411,7 +429,7 @@ CurveFit fit_curve(const std::vector<AnswerCount>& rows, const CurveOptions& opt
   fit.num_levels = static_cast<int>(levels.size()) + (levels.zero_trials > 0.0 ? 1 : 0);
   fit.points = points_of(levels, options.model.falling);
   std::vector<Told> all = told_of(fit, found.free);
-  if (options.posterior) add_posterior(fit, all, levels, found.free);
+  if (options.posterior) add_posterior(fit, all, levels, found.free, options);
   if (found.found.supremum == PsychometricSupremum::kNotConverged) {
     fit.status = FitStatus::kNotConverged;
     fit.reason = "the search for the optimum did not come to rest";

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/fits/beta_prior.h"
 #include "analysis/fits/curve_model.h"
 #include "analysis/fits/psychometric_search.h"
 #include "analysis/statistics/fit_status.h"
@@ -21,6 +22,9 @@ struct CurveOptions {
   int num_bootstrap = 0;
   BootstrapKind bootstrap_kind = BootstrapKind::kParametric;
   bool posterior = false;
+  BetaPrior rate_prior = kUsualRatePrior;  ///< Of the posterior's free guess and lapse rate.
+  /// Also the posterior's medians with that prior at each of `kOtherPriorWeights`.
+  bool prior_sensitivity = false;
   int num_goodness = 0;  ///< Redraws for the p value of the deviance.
   std::uint64_t seed = 1;
 };
@@ -33,6 +37,8 @@ struct CurveValue {
   std::string bca_reason;  ///< Why there is no corrected one.
   std::optional<double> posterior_median;
   Interval posterior_ci95;
+  /// The median at each of `kOtherPriorWeights`, where that was asked for.
+  std::vector<std::optional<double>> posterior_medians_by_weight;
 };
 
 /// The intensity where S has a level.

@@ -22,6 +22,12 @@ void add_uncertainty(CurveJson& json, const std::string& name, const CurveValue&
   if (!fit.posterior_priors.empty()) {
     json[name + "_posterior"] = {{"median", number(value.posterior_median)},
                                  {"ci95", interval(value.posterior_ci95)}};
+    if (value.posterior_medians_by_weight.empty()) return;
+    CurveJson medians = CurveJson::array();
+    for (const auto& median : value.posterior_medians_by_weight) {
+      medians.push_back(number(median));
+    }
+    json[name + "_posterior"]["medians_by_prior_weight"] = std::move(medians);
   }
 }
 
@@ -99,6 +105,9 @@ CurveJson to_json(const CurveFit& fit) {
       fit.posterior_priors.empty()
           ? CurveJson(nullptr)
           : CurveJson{{"priors", fit.posterior_priors}, {"note", sentence(fit.posterior_note)}};
+  if (!fit.pse.posterior_medians_by_weight.empty()) {
+    json["posterior"]["prior_weights"] = kOtherPriorWeights;
+  }
   json["warnings"] = fit.warnings;
   return json;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/fits/likelihood_profile.h"
-#include "analysis/statistics/distributions.h"
+#include "analysis/fits/log_product.h"
 
 namespace jnd::analysis {
 namespace {
@@ -14,34 +14,6 @@ namespace {
 constexpr double kLargestCorrelation = 1.0 - 1e-6;
 /// Below these a rate is taken to be on its bound 0.
 constexpr double kFewestLapses = 1e-7, kNoCorrelation = 1e-9;
-
-/// ln of a product and its derivatives in the first factor and in the step between factors.
-struct LogProduct {
-  double value = 0.0, by_first = 0.0, by_step = 0.0;
-};
-
-/// first (first + step) ... (first + (count - 1) step), by its factors; where they are many, by
-/// gamma functions.
-LogProduct log_product(double first, double step, double count) {
-  constexpr double kMostFactors = 2000.0;
-  LogProduct product;
-  if (count <= kMostFactors || !(step > 1e-7)) {
-    for (double factor = 0.0; factor < count; factor += 1.0) {
-      const double value = first + factor * step;
-      product.value += std::log(value);
-      product.by_first += 1.0 / value;
-      product.by_step += factor / value;
-    }
-    return product;
-  }
-  // step^count Gamma(first / step + count) / Gamma(first / step)
-  const double ratio = first / step;
-  const double by_ratio = digamma(ratio + count) - digamma(ratio);
-  product.value = count * std::log(step) + std::lgamma(ratio + count) - std::lgamma(ratio);
-  product.by_first = by_ratio / step;
-  product.by_step = (count - ratio * by_ratio) / step;
-  return product;
-}
 
 /// Minus the log-likelihood of one level, with its derivatives in f and rho:
 /// f (1 - rho) + j rho over the yes, (1 - f) (1 - rho) + j rho over the no, 1 - rho + j rho

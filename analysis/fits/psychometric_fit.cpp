@@ -225,7 +225,13 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
     }
   }
   const PsychometricSearch search(levels, options.method, free_pse, options.free_lapse);
-  if (options.posterior) fit.posterior = posterior_on_grid(levels, search.free());
+  if (options.posterior) {
+    fit.posterior = posterior_on_grid(levels, search.free(), options.rate_prior);
+    if (options.prior_sensitivity && fit.posterior.status == FitStatus::kOk) {
+      fit.posterior.prior_effects =
+          posterior_prior_effects(levels, search.free(), options.rate_prior);
+    }
+  }
   const PsychometricSearchResult found = search.find(
       levels, options.solver == Solver::kCeres ? minimised_by_ceres : minimised_by_newton);
   if (found.supremum == PsychometricSupremum::kNotConverged) {

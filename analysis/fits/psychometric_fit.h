@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/fits/beta_prior.h"
 #include "analysis/fits/psychometric_family.h"
 #include "analysis/statistics/fit_status.h"
 
@@ -94,6 +95,9 @@ struct PsychometricOptions {
   /// guesses and overdispersion alone.
   int num_calibration = 0;
   bool posterior = false;  ///< Whether the Bayesian estimate is computed as well.
+  BetaPrior rate_prior = kUsualRatePrior;  ///< Of the posterior's free lapse rate.
+  /// Also what the posterior's medians would be with other weights of that prior.
+  bool prior_sensitivity = false;
   std::uint64_t seed = 1;  ///< Seed of all that is drawn: the same numbers again.
   bool intervals = true;   ///< False leaves out the profile intervals, where only w is wanted.
   Solver solver = Solver::kCeres;
@@ -140,6 +144,13 @@ struct PsychometricCalibration {
   double weber_fraction_drop = 0.0, pse_drop = 0.0;
 };
 
+/// Medians of the posterior with another weight of the prior of its rates.
+struct PosteriorPriorEffect {
+  double weight = 1.0;  ///< Power of the prior's density; 0 is none.
+  BetaPrior prior;      ///< With it.
+  std::optional<double> weber_fraction, pse, lapse_rate;
+};
+
 /// Medians and central 95 % of the posterior.
 struct PsychometricPosterior {
   FitStatus status = FitStatus::kNotRun;
@@ -148,6 +159,7 @@ struct PsychometricPosterior {
   std::optional<double> weber_fraction, pse, lapse_rate;
   Interval weber_fraction_ci95;
   std::optional<Interval> pse_ci95;
+  std::vector<PosteriorPriorEffect> prior_effects;  ///< Where they were asked for.
 };
 
 /// A fitted psychometric function, with the words of the JSON output. Where `status` is not

@@ -25,15 +25,26 @@ Json to_json(const PsychometricGoodness& goodness) {
 }
 
 Json to_json(const PsychometricPosterior& posterior) {
-  return {{"status", to_string(posterior.status)},
-          {"reason", sentence(posterior.reason)},
-          {"priors", sentence(posterior.priors)},
-          {"note", sentence(posterior.note)},
-          {"weber_fraction", number(posterior.weber_fraction)},
-          {"weber_fraction_ci95", interval(posterior.weber_fraction_ci95)},
-          {"pse", number(posterior.pse)},
-          {"pse_ci95", posterior.pse_ci95 ? interval(*posterior.pse_ci95) : Json(nullptr)},
-          {"lapse_rate", number(posterior.lapse_rate)}};
+  Json json = {{"status", to_string(posterior.status)},
+               {"reason", sentence(posterior.reason)},
+               {"priors", sentence(posterior.priors)},
+               {"note", sentence(posterior.note)},
+               {"weber_fraction", number(posterior.weber_fraction)},
+               {"weber_fraction_ci95", interval(posterior.weber_fraction_ci95)},
+               {"pse", number(posterior.pse)},
+               {"pse_ci95", posterior.pse_ci95 ? interval(*posterior.pse_ci95) : Json(nullptr)},
+               {"lapse_rate", number(posterior.lapse_rate)}};
+  if (posterior.prior_effects.empty()) return json;
+  json["prior_sensitivity"] = Json::array();
+  for (const PosteriorPriorEffect& one : posterior.prior_effects) {
+    json["prior_sensitivity"].push_back(
+        {{"weight", one.weight},
+         {"lapse_prior", Json::array({one.prior.a, one.prior.b})},
+         {"weber_fraction", number(one.weber_fraction)},
+         {"pse", number(one.pse)},
+         {"lapse_rate", number(one.lapse_rate)}});
+  }
+  return json;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,8 +15,7 @@ namespace jnd::analysis {
 namespace {
 
 using core::kInfinity;
-constexpr double kTail = 0.025;           ///< On either side of an interval.
-constexpr double kLapsePriorPower = 9.0;  ///< Beta(1, 10): (1 - lapse)^9.
+constexpr double kTail = 0.025;  ///< On either side of an interval.
 
 using Axis = PosteriorAxis;
 using Axes = PosteriorGrid::Axes;
@@ -63,7 +63,15 @@ double log_likelihood_of(const PsychometricLevels& levels, const std::vector<dou
 }
 
 /// Posterior over the grid, up to a factor: slope, place, lapse, guess, the last fastest.
-std::vector<double> density_over(const PsychometricLevels& levels, const Axes& axes) {
+/// ln density of a rate's prior; where the rate is known it has none to speak of.
+double log_prior_of(const Axis& axis, double rate, const BetaPrior& prior) {
+  const double attentive = (prior.b - 1.0) * std::log1p(-rate);
+  const bool has_more = axis.size > 1 && prior.a > 1.0;
+  return has_more ? attentive + (prior.a - 1.0) * std::log(rate) : attentive;
+}
+
+std::vector<double> density_over(const PsychometricLevels& levels, const Axes& axes,
+                                 const BetaPrior& rates) {
   std::vector<double> density;
   density.reserve(axes[0].size * axes[1].size * axes[2].size * axes[3].size);
   std::vector<double> lower(levels.size()), upper(levels.size());
@@ -82,8 +90,8 @@ std::vector<double> density_over(const PsychometricLevels& levels, const Axes& a
         for (std::size_t l = 0; l < axes[3].size; ++l) {
           const double guess = axes[3].at(l);
           density.push_back(log_likelihood_of(levels, lower, upper, lapse, guess) +
-                            kLapsePriorPower * std::log1p(-lapse) +
-                            kLapsePriorPower * std::log1p(-guess));
+                            log_prior_of(axes[2], lapse, rates) +
+                            log_prior_of(axes[3], guess, rates));
           largest = std::max(largest, density.back());
         }
       }
@@ -191,7 +199,10 @@ class LinearFraction {
   double all_ = 0.0;
 };
 
-std::string words_of_priors(const PsychometricLevels& levels, const FreeParameters& free) {
+std::string words_of_priors(const PsychometricLevels& levels, const FreeParameters& free,
+                            const BetaPrior& rates) {
+  char beta[64];
+  std::snprintf(beta, sizeof beta, "Beta(%g, %g)", rates.a, rates.b);
   const std::string of = levels.logarithmic() ? "logarithms of the levels" : "levels";
   std::string words = "ln spread of the curve uniform from a quarter of the smallest step " +
                       std::string(free[1] ? "between" : "from the reference among") + " the " +
@@ -199,10 +210,10 @@ std::string words_of_priors(const PsychometricLevels& levels, const FreeParamete
   if (free[1]) words += "; pse uniform within their range and half of it to either side";
   if (free[2]) {
     const bool halved = levels.ends.lapse_limit() < 0.5;
-    words += "; lapse rate Beta(1, 10) below " +
+    words += "; lapse rate " + std::string(beta) + " below " +
              std::string(halved ? "where the curve no longer rises" : "0.5");
   }
-  if (free[3]) words += "; guess rate Beta(1, 10) below 0.5";
+  if (free[3]) words += "; guess rate " + std::string(beta) + " below 0.5";
   return words;
 }
 
@@ -278,23 +289,24 @@ void open_ends(PsychometricPosterior& posterior, const MassBeyond& beyond) {
 
 }  // namespace
 
-PosteriorGrid posterior_grid(const PsychometricLevels& levels, const FreeParameters& free) {
+PosteriorGrid posterior_grid(const PsychometricLevels& levels, const FreeParameters& free,
+                             const BetaPrior& rates) {
   PosteriorGrid grid;
   grid.reason = why_unidentified(levels, free[1], free[2]);
   if (grid.reason.empty() && levels.zero_yes > 0.0 && !levels.ends.low_is_possible(free[2])) {
     grid.reason = kYesAtZero;
   }
   if (!grid.reason.empty()) return grid;
-  grid.priors = words_of_priors(levels, free);
+  grid.priors = words_of_priors(levels, free, rates);
   grid.prior = prior_axes(levels, free);
   grid.axes = grid.prior;
-  grid.density = density_over(levels, grid.axes);
+  grid.density = density_over(levels, grid.axes, rates);
   grid.marginals = marginals_of(grid.axes, grid.density);
   for (int narrowing = 0; narrowing < 3; ++narrowing) {
     for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
       grid.axes[axis] = narrowed(grid.axes[axis], grid.marginals[axis]);
     }
-    grid.density = density_over(levels, grid.axes);
+    grid.density = density_over(levels, grid.axes, rates);
     grid.marginals = marginals_of(grid.axes, grid.density);
   }
   return grid;
@@ -341,10 +353,10 @@ std::array<double, 3> PosteriorGrid::quantiles(
 }
 
 PsychometricPosterior posterior_on_grid(const PsychometricLevels& levels,
-                                        const FreeParameters& free) {
+                                        const FreeParameters& free, const BetaPrior& rates) {
   PsychometricPosterior posterior;
   posterior.status = FitStatus::kDegenerate;
-  const PosteriorGrid grid = posterior_grid(levels, free);
+  const PosteriorGrid grid = posterior_grid(levels, free, rates);
   posterior.reason = grid.reason;
   if (!posterior.reason.empty()) return posterior;
   const Axes& axes = grid.axes;
@@ -374,6 +386,19 @@ PsychometricPosterior posterior_on_grid(const PsychometricLevels& levels,
   open_ends(posterior,
             beyond_the_prior(levels, grid.prior, axes, density, grid.marginals, posterior));
   return posterior;
+}
+
+std::vector<PosteriorPriorEffect> posterior_prior_effects(const PsychometricLevels& levels,
+                                                          const FreeParameters& free,
+                                                          const BetaPrior& rates) {
+  std::vector<PosteriorPriorEffect> effects;
+  for (const double weight : kOtherPriorWeights) {
+    const BetaPrior prior = rates.weighed(weight);
+    const PsychometricPosterior other = posterior_on_grid(levels, free, prior);
+    if (other.status != FitStatus::kOk) continue;
+    effects.push_back({weight, prior, other.weber_fraction, other.pse, other.lapse_rate});
+  }
+  return effects;
 }
 
 }  // namespace jnd::analysis

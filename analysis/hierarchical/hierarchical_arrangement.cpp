@@ -162,11 +162,17 @@ HierarchicalStructure structure_of(const HierarchicalArrangement& all,
       ++structure.num_random_effects;
     }
   }
-  structure.has_lapses = options.lapses == HierarchicalLapses::kCommon;
+  structure.has_own_lapses = options.lapses == HierarchicalLapses::kPersonal;
+  structure.has_lapses =
+      options.lapses == HierarchicalLapses::kCommon || structure.has_own_lapses;
+  structure.lapse_prior = options.lapse_prior;
+  structure.has_scatter = options.beta_binomial;
   if (options.lapses == HierarchicalLapses::kKnown) {
     structure.known_lapse_rate = options.lapse_rate;
   }
-  structure.num_parameters = parameter + (structure.has_lapses ? 1 : 0);
+  structure.num_parameters = parameter + (structure.has_scatter ? 1 : 0) +
+                             (structure.has_own_lapses ? 1 : 0) +
+                             (structure.has_lapses ? 1 : 0);
   number_own_effects_first(structure);
   return structure;
 }
@@ -175,8 +181,11 @@ std::optional<Eigen::VectorXd> start_of(const HierarchicalArrangement& all,
                                         const HierarchicalStructure& structure,
                                         std::string& reason) {
   constexpr double kSlopeSd = 0.2, kPlaceSd = 0.1, kLapseAngle = 0.15;
+  constexpr double kLapseSpread = 0.1, kScatterAngle = 0.3;
   Eigen::VectorXd start = Eigen::VectorXd::Zero(structure.num_parameters);
   if (structure.has_lapses) start(structure.angle_at()) = kLapseAngle;
+  if (structure.has_own_lapses) start(structure.lapse_spread_at()) = kLapseSpread;
+  if (structure.has_scatter) start(structure.scatter_at()) = kScatterAngle;
   for (int condition = 0; condition < structure.num_conditions; ++condition) {
     const auto at = static_cast<std::size_t>(condition);
     const auto fit = [&](const std::vector<AnswerCount>& rows) {

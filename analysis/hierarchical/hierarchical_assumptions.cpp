@@ -17,7 +17,8 @@ struct Assumptions {
 };
 
 Assumptions assumptions_of(const HierarchicalOptions& options) {
-  return {.lapses = options.lapses != HierarchicalLapses::kCommon,
+  return {.lapses = options.lapses == HierarchicalLapses::kNone ||
+                    options.lapses == HierarchicalLapses::kKnown,
           .pse = options.pse == HierarchicalPse::kReference ||
                  options.pse == HierarchicalPse::kCommon};
 }
@@ -79,8 +80,10 @@ void tell_assumptions(HierarchicalFit& fit, const std::vector<ParticipantAnswers
                           .pse = assumed.pse && fit.conditions.size() <= kMostWithOwnPses};
   if (!freed.any()) return;
   HierarchicalOptions without_them = options;
-  without_them.lapses = HierarchicalLapses::kCommon;
+  if (freed.lapses) without_them.lapses = HierarchicalLapses::kCommon;
   without_them.lapse_profile = false;
+  without_them.prior_sensitivity = false;
+  without_them.correlation_interval = false;
   if (freed.pse) without_them.pse = HierarchicalPse::kPersonal;
   const HierarchicalFit without = fit_hierarchical(answers, without_them);
   if (without.status != FitStatus::kOk) return;

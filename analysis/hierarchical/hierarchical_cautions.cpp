@@ -31,6 +31,16 @@ std::string why_not_told(const HierarchicalCondition& condition) {
   return "";
 }
 
+/// What the condition's value would be with other models is no value either.
+void leave_out_elsewhere(HierarchicalFit& fit, std::size_t condition) {
+  const auto leave_out = [&](std::vector<std::optional<double>>& fractions) {
+    if (condition < fractions.size()) fractions[condition].reset();
+  };
+  if (fit.scatter) leave_out(fit.scatter->weber_fractions_without);
+  if (fit.own_lapses) leave_out(fit.own_lapses->weber_fractions_common);
+  for (HierarchicalPriorEffect& one : fit.prior_effects) leave_out(one.weber_fractions);
+}
+
 }  // namespace
 
 void add_note(HierarchicalFit& fit, const std::string& sentence) {
@@ -77,6 +87,7 @@ void leave_out_what_is_not_told(HierarchicalFit& fit) {
     one.weber_fraction_without_prior.reset();
     one.pse.reset();
     if (one.pse_ci95) one.pse_ci95 = Interval{};
+    leave_out_elsewhere(fit, static_cast<std::size_t>(&one - fit.conditions.data()));
     reasons += (reasons.empty() ? "" : "; ") +
                (one.condition.empty() ? "" : one.condition + ": no value, for ") + why;
     std::erase_if(fit.differences, [&](const HierarchicalDifference& difference) {

@@ -8,7 +8,8 @@
 #include "analysis/hierarchical/hierarchical_cautions.h"
 #include "analysis/hierarchical/hierarchical_lapses.h"
 #include "analysis/hierarchical/hierarchical_levels.h"
-#include "analysis/hierarchical/hierarchical_search.h"
+#include "analysis/hierarchical/hierarchical_nested.h"
+#include "analysis/hierarchical/hierarchical_robust.h"
 #include "analysis/hierarchical/hierarchical_words.h"
 #include "analysis/statistics/distributions.h"
 #include "core/error.h"
@@ -17,37 +18,13 @@
 namespace jnd::analysis {
 namespace {
 
-int usual_num_nodes(int num_random_effects) {
-  constexpr int kNodes[] = {15, 9, 5, 3, 3};
-  return kNodes[num_random_effects - 1];
-}
+/// A lapse rate below this is none: what a search leaves of 0.
+constexpr double kNoLapses = 1e-8;
 
-/// The better of two searches where there is a lapse rate. None is a maximum of its own beside
-/// one with some lapses and steeper curves, and which of them a single search comes to hangs on
-/// nothing but where it starts: the second one starts on the other side of the first one's end,
-/// from the best curves there.
-HierarchicalOptimum better_optimum(const HierarchicalLikelihood& likelihood,
-                                   const HierarchicalStructure& structure,
-                                   const Eigen::VectorXd& start) {
-  constexpr double kNoLapses = 1e-6, kSomeLapsesAngle = 0.2;  // 2 in a hundred.
-  HierarchicalOptimum first = most_likely(likelihood, start);
-  if (!structure.has_lapses) return first;
-  const bool found_some =
-      first.status == FitStatus::kOk && structure.lapse_rate(first.parameters) > kNoLapses;
-  Eigen::VectorXd other = start;
-  other(structure.angle_at()) = found_some ? 0.0 : kSomeLapsesAngle;
-  HierarchicalOptimum second =
-      most_likely(likelihood, most_likely_with(likelihood, other, structure.angle_at()));
-  const bool is_better =
-      first.status != FitStatus::kOk || second.log_likelihood > first.log_likelihood;
-  return second.status == FitStatus::kOk && is_better ? second : first;
-}
-
-std::optional<double> fraction_at(HierarchicalLink link, double slope_number) {
-  const double slope =
-      link == HierarchicalLink::kLinear ? slope_number : std::exp(slope_number);
-  const double fraction = std::expm1(1.0 / slope);
-  return slope > 0.0 && std::isfinite(fraction) ? std::optional(fraction) : std::nullopt;
+/// Own lapses count as one more: their nodes are others, and so are as many times more.
+int usual_num_nodes(const HierarchicalStructure& structure) {
+  constexpr int kNodes[] = {15, 9, 5, 3, 3, 3};
+  return kNodes[structure.num_random_effects - (structure.has_own_lapses ? 0 : 1)];
 }
 
 /// Half the 95 % interval of a number with this variance.
@@ -192,7 +169,7 @@ void fill_lapse_rate(HierarchicalFit& fit, const HierarchicalStructure& structur
                      const HierarchicalOptimum& found, HierarchicalLapses lapses) {
   if (lapses == HierarchicalLapses::kKnown) fit.lapse_rate = structure.known_lapse_rate;
   if (!structure.has_lapses) return;
-  constexpr double kManyLapses = 0.1, kNoLapses = 1e-8;
+  constexpr double kManyLapses = 0.1;
   fit.lapse_rate = structure.lapse_rate(found.parameters);
   if (*fit.lapse_rate < kNoLapses) fit.lapse_rate = 0.0;
   if (*fit.lapse_rate < kManyLapses) return;
@@ -237,6 +214,10 @@ void widen_intervals(HierarchicalFit& fit, LapseProfile& profile, HierarchicalLi
 
 /// What answers and prior leave open of the lapse rate, and what that does to the rest.
 void fill_lapse_profile(HierarchicalFit& fit, LapseProfile& profile, HierarchicalLink link) {
+  if (fit.own_lapses) {
+    fit.lapse_rate_with_prior_ci95 = profile.interval(true);
+    return widen_intervals(fit, profile, link);
+  }
   fit.lapse_rate_ci95 = profile.interval(false);
   fit.lapse_rate_with_prior_ci95 = profile.interval(true);
   fit.lapse_rate_without_prior = profile.without_prior();
@@ -246,6 +227,21 @@ void fill_lapse_profile(HierarchicalFit& fit, LapseProfile& profile, Hierarchica
         fraction_at(link, without_prior.parameters(static_cast<Eigen::Index>(condition)));
   }
   widen_intervals(fit, profile, link);
+}
+
+/// What the options of `jnd fit hierarchical` beyond the plain model ask for.
+void fill_robust(HierarchicalFit& fit, const HierarchicalArrangement& all, NestedOptima& nested,
+                 const HierarchicalLikelihood& likelihood,
+                 const HierarchicalStructure& structure, const Eigen::VectorXd& start,
+                 const HierarchicalOptimum& found, const HierarchicalOptions& options) {
+  if (structure.has_scatter) {
+    fit.scatter =
+        scatter_of(nested, likelihood, structure, start, found, options.correlation_interval);
+  }
+  if (structure.has_own_lapses) fit.own_lapses = own_lapses_of(nested, structure, found);
+  if (structure.has_lapses && options.prior_sensitivity) {
+    fit.prior_effects = prior_effects(all, structure, found, fit.num_nodes);
+  }
 }
 
 /// Cautions of levels that are too hard. `profile`: none where there are no lapses to fit.
@@ -284,8 +280,10 @@ std::string why_no_curve(const HierarchicalArrangement& all) {
   return "";
 }
 
+/// `lapse_rates`: of people's own; empty where they have none.
 void fill_people(HierarchicalFit& fit, const HierarchicalArrangement& all,
-                 const std::vector<Eigen::VectorXd>& modes, HierarchicalLink link) {
+                 const std::vector<Eigen::VectorXd>& modes,
+                 const std::vector<double>& lapse_rates, HierarchicalLink link) {
   for (std::size_t person = 0; person < all.people.size(); ++person) {
     for (const HierarchicalCell& cell : all.people[person]) {
       const auto condition = static_cast<std::size_t>(cell.condition);
@@ -293,6 +291,9 @@ void fill_people(HierarchicalFit& fit, const HierarchicalArrangement& all,
           .participant = all.participants[person],
           .condition = all.conditions[condition],
           .weber_fraction = fraction_at(link, modes[person](cell.condition))};
+      if (!lapse_rates.empty()) {
+        one.lapse_rate = lapse_rates[person] < kNoLapses ? 0.0 : lapse_rates[person];
+      }
       if (!fit.conditions[condition].weber_fraction) {
         one.weber_fraction.reset();
         one.reason = "the condition has no value";
@@ -312,6 +313,13 @@ void fill_people(HierarchicalFit& fit, const HierarchicalArrangement& all,
 
 }  // namespace
 
+std::optional<double> fraction_at(HierarchicalLink link, double slope_number) {
+  const double slope =
+      link == HierarchicalLink::kLinear ? slope_number : std::exp(slope_number);
+  const double fraction = std::expm1(1.0 / slope);
+  return slope > 0.0 && std::isfinite(fraction) ? std::optional(fraction) : std::nullopt;
+}
+
 HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
                                  const HierarchicalOptions& options) {
   core::require(options.guess_rate >= 0.0 && options.guess_rate < 1.0, "guess_rate",
@@ -319,8 +327,13 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   const double lapse_limit = options.guess_rate > 0.0 ? 1.0 - options.guess_rate : 0.5;
   core::require(options.lapse_rate >= 0.0 && options.lapse_rate < lapse_limit, "lapse_rate",
                 "a number from 0 that leaves the curve a rise", options.lapse_rate);
+  for (const double parameter : {options.lapse_prior.a, options.lapse_prior.b}) {
+    core::require(parameter >= 1.0 && parameter <= kLargestPriorParameter, "lapse_prior",
+                  "numbers from 1 to 1e6", parameter);
+  }
   const HierarchicalArrangement all = arranged(answers);
   HierarchicalFit fit;
+  fit.lapse_prior = options.lapse_prior;
   fit.guess_rate = options.guess_rate;
   fit.num_participants = static_cast<int>(all.people.size());
   const auto num_conditions = static_cast<int>(all.conditions.size());
@@ -348,14 +361,22 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   }
   fit.reason = why_no_curve(all);
   if (!fit.reason.empty()) return fit;
+  if (options.beta_binomial && are_all_single(all)) {
+    fit.reason =
+        "nobody answered any level twice, so nothing tells how answers to one level scatter";
+    return fit;
+  }
   const HierarchicalStructure structure = structure_of(all, options);
-  fit.num_nodes =
-      options.num_nodes > 0 ? options.num_nodes : usual_num_nodes(structure.num_random_effects);
+  fit.num_nodes = options.num_nodes > 0 ? options.num_nodes : usual_num_nodes(structure);
   fit.method = method_words(options, all.has_orders_in, fit.num_nodes);
   const std::optional<Eigen::VectorXd> start = start_of(all, structure, fit.reason);
   if (!start) return fit;
   const HierarchicalLikelihood likelihood(structure, all.people, fit.num_nodes);
-  const HierarchicalOptimum found = better_optimum(likelihood, structure, *start);
+  NestedOptima nested(all.people, structure, *start, fit.num_nodes);
+  const HierarchicalOptimum found =
+      structure.has_scatter || structure.has_own_lapses
+          ? nested.of(structure.has_scatter, structure.has_own_lapses)
+          : better_optimum(likelihood, structure, *start);
   fit.status = found.status;
   fit.reason = found.reason;
   fit.is_separated = found.is_separated;
@@ -371,6 +392,7 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
                               (options.pse != HierarchicalPse::kReference || has_orders);
   note_spreads_at_bounds(fit, has_own_places);
   fill_lapse_rate(fit, structure, found, options.lapses);
+  fill_robust(fit, all, nested, likelihood, structure, *start, found, options);
   std::optional<LapseProfile> profile;
   if (structure.has_lapses && options.lapse_profile) {
     profile.emplace(likelihood, structure, *start, found);
@@ -379,9 +401,14 @@ HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
   leave_out_what_is_not_told(fit);
   if (fit.status != FitStatus::kOk) return fit;
   fill_ease(fit, all, structure, found, profile ? &*profile : nullptr);
-  caution_of_misfit(fit, likelihood.misfit_p_value(found.parameters));
+  if (!structure.has_scatter) {
+    caution_of_misfit(fit, likelihood.misfit_p_value(found.parameters));
+  }
   note_alike_people(fit);
-  fill_people(fit, all, likelihood.modes(found.parameters), options.link);
+  fill_people(fit, all, likelihood.modes(found.parameters),
+              structure.has_own_lapses ? likelihood.lapse_rates(found.parameters)
+                                       : std::vector<double>{},
+              options.link);
   return fit;
 }
 

@@ -32,7 +32,10 @@ enum class HierarchicalSlopes {
 enum class HierarchicalLapses {
   kNone,    ///< Every answer is one of discrimination.
   kKnown,   ///< Half of so large a share of the answers is random as is told.
-  kCommon,  ///< A lapse rate, the same for everybody in everything; see `log_prior`.
+  kCommon,  ///< A lapse rate, the same for everybody in everything; see `kUsualLapsePrior`.
+  /// A lapse rate of each person's own, `lapse_limit` times sin^2(v + tau b), b standard normal
+  /// between people. The prior is on the mean share of random answers.
+  kPersonal,
 };
 
 struct HierarchicalOptions {
@@ -47,6 +50,14 @@ struct HierarchicalOptions {
   /// Also what the answers leave open of a lapse rate that is free, in every interval; without
   /// it they hold for the most likely one, and a fit takes a third of the time.
   bool lapse_profile = true;
+  /// Of the share of random answers, where the lapse rate is free.
+  BetaPrior lapse_prior = kUsualLapsePrior;
+  /// Also what values would be without the prior, with half and with twice its weight.
+  bool prior_sensitivity = false;
+  /// Answers of one person to one level correlate by rho, the same for everybody: a beta
+  /// distribution about the curve has drawn their probability (Williams 1975).
+  bool beta_binomial = false;
+  bool correlation_interval = true;  ///< Of rho; it takes most of the time.
   /// A dimension of how people differ; 0: 15 in one, 9 in two, 5 in three, 3 in more. 1
   /// is Laplace.
   int num_nodes = 0;
@@ -98,6 +109,33 @@ struct HierarchicalPersonEstimate {
   std::optional<double> weber_fraction;
   std::string reason;                 ///< Why there is none; "" if there is one.
   std::vector<std::string> cautions;  ///< Where it lies beyond the stimuli of the condition.
+  std::optional<double> lapse_rate;   ///< Of own lapse rates, this person's at the mode.
+};
+
+/// How answers of one person to one level scatter. Log-likelihoods are without binomial
+/// coefficients; the test is that of `boundary_test`.
+struct HierarchicalScatter {
+  double correlation = 0.0;   ///< rho, [0, 1): of two answers.
+  Interval correlation_ci95;  ///< Profile likelihood, prior included; none unless asked for.
+  // Of the same model with independent answers, where it has an optimum:
+  std::optional<double> log_likelihood_without, statistic, p_value;
+  std::vector<std::optional<double>> weber_fractions_without;  ///< Of each condition.
+};
+
+/// How people's own lapse rates differ, and the same model with one lapse rate for everybody.
+struct HierarchicalOwnLapses {
+  double angle_sd = 0.0;         ///< tau, between people, of the angle v + tau b [rad].
+  double mean_lapse_rate = 0.0;  ///< Over people, where `lapse_rate` is the median person's.
+  std::optional<double> common_lapse_rate, log_likelihood_common, statistic, p_value;
+  std::vector<std::optional<double>> weber_fractions_common;  ///< Of each condition.
+};
+
+/// What the fit would be with another weight of the lapse rate's prior.
+struct HierarchicalPriorEffect {
+  double weight = 1.0;  ///< Power of the prior's density; 0 is none.
+  BetaPrior prior;      ///< With it.
+  std::optional<double> lapse_rate;
+  std::vector<std::optional<double>> weber_fractions;  ///< Of each condition.
 };
 
 struct HierarchicalFit {
@@ -108,7 +146,8 @@ struct HierarchicalFit {
   int num_participants = 0;
   int num_nodes = 0;
   std::vector<HierarchicalCondition> conditions;
-  std::optional<double> lapse_rate;  ///< Absent unless it was free or known.
+  /// Absent unless it was free or known; of own ones the median person's.
+  std::optional<double> lapse_rate;
   // Known if the lapse rate was followed by its profile:
   Interval lapse_rate_ci95;                        ///< Profile likelihood of the answers alone.
   Interval lapse_rate_with_prior_ci95;             ///< The same interval with the prior;
@@ -122,10 +161,17 @@ struct HierarchicalFit {
   /// How far each person, a column, moves the slope numbers of the conditions and, where they
   /// are free, their place numbers: the parts of the sandwich that differences rest on.
   Eigen::MatrixXd influence;
-  std::vector<std::string> people;       ///< Of its columns.
-  std::optional<double> log_likelihood;  ///< Without binomial coefficients.
-  std::string note;                      ///< What a reader has to know; "" if nothing.
+  std::vector<std::string> people;             ///< Of its columns.
+  std::optional<double> log_likelihood;        ///< Without binomial coefficients.
+  std::string note;                            ///< What a reader has to know; "" if nothing.
+  std::optional<HierarchicalScatter> scatter;  ///< Of beta-binomial answers.
+  std::optional<HierarchicalOwnLapses> own_lapses;     ///< Of kPersonal.
+  BetaPrior lapse_prior = kUsualLapsePrior;            ///< The prior that was used.
+  std::vector<HierarchicalPriorEffect> prior_effects;  ///< Where they were asked for.
 };
+
+/// The Weber fraction of a slope number; none where the curve does not rise.
+[[nodiscard]] std::optional<double> fraction_at(HierarchicalLink link, double slope_number);
 
 /// Probit curves of everybody at once: people's slopes (and places, where personal) vary
 /// normally about the median person's, and the likelihood is integrated over that by adaptive
@@ -154,7 +200,12 @@ struct HierarchicalFit {
 /// differences that is estimated cannot be below 0. Where the scores are all alike there is no
 /// interval.
 ///
-/// `degenerate` where a condition's pooled answers are, or with fewer than two participants.
+/// With own lapse rates the lapse rate that is followed is the median person's, and the profile
+/// of the answers alone is left out. With beta-binomial answers nothing is said of answers that
+/// lie far from people's curves, for rho is there for that.
+///
+/// `degenerate` where a condition's pooled answers are, or with fewer than two participants, or
+/// where beta-binomial answers are all single ones.
 /// Throws `core::Error` for references or counts as `fit_psychometric`, references that differ
 /// within a condition, two entries of a participant in one, rates out of range, and for more
 /// conditions than the model takes: two with correlated slopes, else eight, or four with

@@ -6,6 +6,50 @@ namespace jnd::analysis {
 
 using namespace json_values;
 
+namespace {
+
+Json json_numbers(const std::vector<std::optional<double>>& values) {
+  Json all = Json::array();
+  for (const std::optional<double>& value : values) all.push_back(number(value));
+  return all;
+}
+
+/// What is told only where it was asked for.
+void add_robust(Json& json, const HierarchicalFit& fit) {
+  if (fit.scatter) {
+    const HierarchicalScatter& one = *fit.scatter;
+    json["overdispersion"] = {
+        {"rho", number(one.correlation)},
+        {"rho_ci95", interval(one.correlation_ci95)},
+        {"log_likelihood_without", number(one.log_likelihood_without)},
+        {"statistic", number(one.statistic)},
+        {"p_value", number(one.p_value)},
+        {"weber_fractions_without", json_numbers(one.weber_fractions_without)}};
+  }
+  if (fit.own_lapses) {
+    const HierarchicalOwnLapses& one = *fit.own_lapses;
+    json["lapse_angle_sd"] = number(one.angle_sd);
+    json["mean_lapse_rate"] = number(one.mean_lapse_rate);
+    json["common_lapses"] = {{"lapse_rate", number(one.common_lapse_rate)},
+                             {"log_likelihood", number(one.log_likelihood_common)},
+                             {"statistic", number(one.statistic)},
+                             {"p_value", number(one.p_value)},
+                             {"weber_fractions", json_numbers(one.weber_fractions_common)}};
+  }
+  if (fit.prior_effects.empty()) return;
+  json["lapse_prior"] = Json::array({fit.lapse_prior.a, fit.lapse_prior.b});
+  json["prior_sensitivity"] = Json::array();
+  for (const HierarchicalPriorEffect& one : fit.prior_effects) {
+    json["prior_sensitivity"].push_back(
+        {{"weight", one.weight},
+         {"lapse_prior", Json::array({one.prior.a, one.prior.b})},
+         {"lapse_rate", number(one.lapse_rate)},
+         {"weber_fractions", json_numbers(one.weber_fractions)}});
+  }
+}
+
+}  // namespace
+
 Json to_json(const HierarchicalFit& fit) {
   Json json = {{"status", to_string(fit.status)},
                {"reason", sentence(fit.reason)},
@@ -58,7 +102,9 @@ Json to_json(const HierarchicalFit& fit) {
                                     {"weber_fraction", number(one.weber_fraction)},
                                     {"reason", sentence(one.reason)},
                                     {"cautions", one.cautions}});
+    if (one.lapse_rate) json["participants"].back()["lapse_rate"] = number(one.lapse_rate);
   }
+  add_robust(json, fit);
   return json;
 }
 

@@ -18,40 +18,16 @@ LapseProfile::LapseProfile(const HierarchicalLikelihood& likelihood,
                            const HierarchicalOptimum& found)
     : likelihood_(likelihood),
       structure_(structure),
-      start_(std::move(start)),
+      search_(likelihood, structure.even_parameters(), std::move(start), structure.angle_at()),
       with_prior_(structure.lapse_rate(found.parameters)) {
   const Eigen::VectorXd& at = found.parameters;
   points_[with_prior_] = {
       .exists = true,
       .parameters = at,
       .log_likelihood = found.log_likelihood - structure.log_prior(at),
-      .rise = with_prior_ > 0.0 ? -structure.log_prior_rise(with_prior_) : 0.0};
-}
-
-/// Newton's method alone where that comes to rest. It cannot leave a spread of 0 where that is
-/// no maximum any more, as there are more lapses: then from people who differ.
-std::optional<Eigen::VectorXd> LapseProfile::sought_from(Eigen::VectorXd start) {
-  const int held = structure_.angle_at();
-  std::optional<Eigen::VectorXd> found = most_likely_near(likelihood_, start, held, inverse_);
-  if (found && is_maximum(*found)) return found;
-  for (const HierarchicalStructure::Loading& one : structure_.loadings) {
-    start(one.parameter) = start_(one.parameter);
-  }
-  inverse_.resize(0, 0);
-  found =
-      most_likely_near(likelihood_, most_likely_with(likelihood_, start, held), held, inverse_);
-  return found && is_maximum(*found) ? found : std::nullopt;
-}
-
-/// Where a spread is 0 the likelihood is level in it, by its being even.
-bool LapseProfile::is_maximum(const Eigen::VectorXd& at) const {
-  constexpr double kNone = 1e-5, kStep = 1e-3;
-  return std::ranges::none_of(structure_.loadings, [&](const auto& one) {
-    if (std::fabs(at(one.parameter)) > kNone) return false;
-    Eigen::VectorXd beside = at;
-    beside(one.parameter) = kStep;
-    return likelihood_(beside) > likelihood_(at) + 1e-9;
-  });
+      .rise = with_prior_ > 0.0
+                  ? -structure.log_prior_rise(with_prior_, structure.lapse_spread(at))
+                  : 0.0};
 }
 
 const LapseProfile::Point& LapseProfile::at(double lapse_rate) {
@@ -65,14 +41,14 @@ const LapseProfile::Point& LapseProfile::at(double lapse_rate) {
   Eigen::VectorXd start = nearest->second.parameters;
   start(angle_at) = std::asin(std::sqrt(lapse_rate / structure_.lapse_limit()));
   Point point;
-  if (const auto found = sought_from(std::move(start))) {
+  if (const auto found = search_.from(std::move(start))) {
     point.exists = true;
     point.parameters = *found;
     point.log_likelihood = likelihood_(*found) - structure_.log_prior(*found);
     if (lapse_rate > 0.0) {
       point.rise = rise_of(likelihood_, *found)(angle_at) /
                        (structure_.lapse_limit() * std::sin(2.0 * (*found)(angle_at))) -
-                   structure_.log_prior_rise(lapse_rate);
+                   structure_.log_prior_rise(lapse_rate, structure_.lapse_spread(*found));
     }
   }
   return points_[lapse_rate] = std::move(point);
@@ -158,7 +134,9 @@ std::optional<double> LapseProfile::end(double from, bool has_prior, double dire
       return std::nullopt;
     }
     if (outside && std::fabs(*outside - inside) < kNear) return next;
-    const double rise = point.rise + (has_prior ? structure_.log_prior_rise(next) : 0.0);
+    const double spread = point.exists ? structure_.lapse_spread(point.parameters) : 0.0;
+    const double rise =
+        point.rise + (has_prior ? structure_.log_prior_rise(next, spread) : 0.0);
     const double newton = next + excess / rise;
     const double farthest =
         outside ? *outside : std::min(most_lapses, from + 3.0 * (next - from));

@@ -6,8 +6,9 @@
 
 namespace jnd::analysis {
 
-/// The log-likelihood over the lapse rate, everything else most likely at each: what answers
-/// and prior know of it, and how far it moves the rest.
+/// The log-likelihood over the lapse rate, of own ones the median person's, everything else
+/// most likely at each: what answers and prior know of it, and how far it moves the rest. With
+/// own lapses the prior moves their spread as well, so that nothing of it is known without.
 class LapseProfile {
  public:
   /// Everything else at one lapse rate.
@@ -33,7 +34,7 @@ class LapseProfile {
   /// The most likely lapse rate by answers and prior.
   [[nodiscard]] double with_prior() const noexcept { return with_prior_; }
 
-  /// The most likely one by the answers alone.
+  /// The most likely one by the answers alone. Not with own lapses.
   [[nodiscard]] double without_prior();
 
   /// Where the log-likelihood, the prior's among it or not, has fallen from its largest by half
@@ -43,20 +44,17 @@ class LapseProfile {
   [[nodiscard]] Interval interval(bool has_prior);
 
  private:
-  [[nodiscard]] std::optional<Eigen::VectorXd> sought_from(Eigen::VectorXd start);
-  [[nodiscard]] bool is_maximum(const Eigen::VectorXd& at) const;
   /// Of the profile at one of its points.
   [[nodiscard]] double height(double lapse_rate, bool has_prior);
   [[nodiscard]] std::optional<double> end(double from, bool has_prior, double direction);
 
   const HierarchicalLikelihood& likelihood_;
   const HierarchicalStructure& structure_;
-  Eigen::VectorXd start_;
+  HeldSearch search_;
   double with_prior_ = 0.0;
   std::optional<double> without_prior_;
   std::map<double, Point> points_;
   std::map<double, std::optional<Eigen::MatrixXd>> covariances_;
-  Eigen::MatrixXd inverse_;  ///< As of `most_likely_near`, from point to point.
 };
 
 }  // namespace jnd::analysis

@@ -5,74 +5,40 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
-#include "analysis/fits/normal_tail.h"
+#include "analysis/hierarchical/hierarchical_level.h"
 
 namespace jnd::analysis {
 namespace {
 
-/// z at one level and its derivatives in a and p.
-struct Predictor {
-  double z, by_slope, by_place;
-};
+using Totals = std::vector<std::pair<double, double>>;
 
-Predictor predictor(HierarchicalLink link, double slope, double place, double u) noexcept {
-  if (link == HierarchicalLink::kLinear) return {slope * u + place, u, 1.0};
-  const double z = slope * (u - place);  // `slope` is e^a.
-  return {z, z, -slope};
-}
-
-double slope_of(HierarchicalLink link, double number) noexcept {
-  return link == HierarchicalLink::kLinear ? number : std::exp(number);
-}
-
-/// A level's two probabilities, f of a yes and g of a no, as the likelihood needs them.
-struct AnswerProbabilities {
-  double log_yes, log_no;                    ///< ln f, ln g
-  double by_z_yes, by_z_no;                  ///< d ln f / dz > 0, -d ln g / dz > 0
-  double by_lapse_yes = 0, by_lapse_no = 0;  ///< d ln f / d lapse, d ln g / d lapse
-};
-
-/// `has_yes`, `has_no`: whether what belongs to such an answer is wanted; else it may be 0.
-AnswerProbabilities answer_probabilities(double z, double lapse_rate, double guess_rate,
-                                         bool has_yes = true, bool has_no = true) noexcept {
-  if (lapse_rate == 0.0 && guess_rate == 0.0) {
-    const LogNormalTails tails = log_normal_tails(z);
-    return {tails.log_lower, tails.log_upper, tails.mills_lower, tails.mills_upper};
-  }
-  const NormalTails tails = normal_tails(z);
-  if (guess_rate == 0.0) {
-    const double share = 1.0 - 2.0 * lapse_rate;
-    const double yes = lapse_rate + share * tails.lower, no = lapse_rate + share * tails.upper;
-    const double by_z = share * tails.density, by_lapse = tails.upper - tails.lower;
-    // Most levels far from the reference have answers of one kind, and logarithms are dear.
-    AnswerProbabilities found{};
-    if (has_yes) {
-      found.log_yes = std::log(yes);
-      found.by_z_yes = by_z / yes;
-      found.by_lapse_yes = by_lapse / yes;
+/// How many answers each level of each person has, and how many levels have as many.
+std::vector<Totals> totals_of(const std::vector<HierarchicalPerson>& people) {
+  std::vector<Totals> totals;
+  for (const HierarchicalPerson& person : people) {
+    std::map<double, double> num_levels;
+    for (const HierarchicalCell& cell : person) {
+      for (std::size_t level = 0; level < cell.num_yes.size(); ++level) {
+        num_levels[cell.num_yes[level] + cell.num_no[level]] += 1.0;
+      }
     }
-    if (has_no) {
-      found.log_no = std::log(no);
-      found.by_z_no = by_z / no;
-      found.by_lapse_no = -by_lapse / no;
-    }
-    return found;
+    totals.emplace_back(num_levels.begin(), num_levels.end());
   }
-  const double share = 1.0 - guess_rate - lapse_rate;
-  const double right = guess_rate + share * tails.lower;
-  const double by_z = share * tails.density, by_lapse = -tails.lower;
-  if (lapse_rate == 0.0) {  // A wrong answer may be as improbable as can be.
-    const LogNormalTails logs = log_normal_tails(z);
-    return {std::log(right), std::log(share) + logs.log_upper, by_z / right, logs.mills_upper};
-  }
-  const double wrong = lapse_rate + share * tails.upper;
-  return {std::log(right), std::log(wrong),  by_z / right,
-          by_z / wrong,    by_lapse / right, -by_lapse / wrong};
+  return totals;
 }
 
-/// Of a share of attentive answers: its density is that to this.
-constexpr double kPriorPower = 19.0;
+double most_answers(const std::vector<HierarchicalPerson>& people) {
+  double most = 0.0;
+  for (const Totals& person : totals_of(people)) {
+    double num = 0.0;
+    for (const auto& [num_answers, num_levels] : person) num += num_answers * num_levels;
+    most = std::max(most, num);
+  }
+  return most;
+}
 
 /// One node of no dimension where there is none.
 GaussHermiteGrid grid_of(int num_nodes, int num_dimensions) {
@@ -82,32 +48,6 @@ GaussHermiteGrid grid_of(int num_nodes, int num_dimensions) {
 
 }  // namespace
 
-std::vector<int> HierarchicalStructure::conditions_of_effects() const {
-  constexpr int kUnknown = -2;
-  std::vector<int> conditions(static_cast<std::size_t>(num_random_effects), kUnknown);
-  for (const Loading& one : loadings) {
-    int& known = conditions[static_cast<std::size_t>(one.random_effect)];
-    const int condition = condition_of(one.number);
-    known = known == kUnknown || known == condition ? condition : kSeveral;
-  }
-  std::ranges::replace(conditions, kUnknown, kSeveral);
-  return conditions;
-}
-
-double HierarchicalStructure::lapse_rate(const Eigen::VectorXd& parameters) const noexcept {
-  if (!has_lapses) return known_lapse_rate;
-  const double sine = std::sin(parameters(angle_at()));
-  return lapse_limit() * sine * sine;
-}
-
-double HierarchicalStructure::log_prior(const Eigen::VectorXd& parameters) const noexcept {
-  return has_lapses ? kPriorPower * std::log1p(-lapse_rate(parameters) / lapse_limit()) : 0.0;
-}
-
-double HierarchicalStructure::log_prior_rise(double lapse_rate) const noexcept {
-  return has_lapses ? -kPriorPower / (lapse_limit() - lapse_rate) : 0.0;
-}
-
 HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& structure,
                                                const std::vector<HierarchicalPerson>& people,
                                                int num_nodes)
@@ -116,18 +56,23 @@ HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& stru
       people_(people),
       own_(static_cast<std::size_t>(structure.num_conditions)),
       is_laplace_(num_nodes == 1),
-      last_(people.size(), RandomEffects::Zero(structure.num_random_effects)) {
+      lapse_nodes_(structure.has_own_lapses
+                       ? lapse_nodes(most_answers(people), structure.lapse_limit())
+                       : LapseNodes{{0.0}, {1.0}}),
+      totals_(totals_of(people)),
+      last_(people.size() * lapse_nodes_.deviation.size(),
+            RandomEffects::Zero(structure.num_random_effects)) {
   const std::vector<int> conditions = structure.conditions_of_effects();
   // Numbered as they have to be, or all in one sum.
   const auto shared = std::ranges::find(conditions, HierarchicalStructure::kSeveral);
-  const bool is_ordered = std::ranges::is_sorted(conditions.begin(), shared) &&
+  const bool is_ordered = std::is_sorted(conditions.begin(), shared) &&
                           std::all_of(shared, conditions.end(), [](int condition) {
                             return condition == HierarchicalStructure::kSeveral;
                           });
   first_shared_ = is_ordered ? static_cast<int>(shared - conditions.begin()) : 0;
   for (int effect = 0; effect < first_shared_; ++effect) {
-    OwnEffects& own =
-        own_[static_cast<std::size_t>(conditions[static_cast<std::size_t>(effect)])];
+    const int condition = conditions[static_cast<std::size_t>(effect)];
+    OwnEffects& own = own_[static_cast<std::size_t>(condition)];
     if (own.num++ == 0) own.first = effect;
   }
   for (OwnEffects& own : own_) own.grid = grid_of(num_nodes, own.num);
@@ -139,7 +84,8 @@ HierarchicalLikelihood::Population HierarchicalLikelihood::population_of(
   Population population{
       .median = parameters.head(structure_.num_numbers()),
       .loadings = Loadings::Zero(structure_.num_numbers(), structure_.num_random_effects),
-      .lapse_rate = structure_.lapse_rate(parameters)};
+      .lapse_rate = structure_.lapse_rate(parameters),
+      .scatter = structure_.scatter(parameters)};
   for (const HierarchicalStructure::Loading& one : structure_.loadings) {
     population.loadings(one.number, one.random_effect) = parameters(one.parameter);
   }
@@ -148,36 +94,55 @@ HierarchicalLikelihood::Population HierarchicalLikelihood::population_of(
 
 double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
                                               const Numbers& numbers,
-                                              double lapse_rate) const noexcept {
+                                              const Population& population) const {
   double value = 0.0;
   for (const HierarchicalCell& cell : person) {
-    value += log_likelihood(cell, numbers, lapse_rate, nullptr);
+    value += log_likelihood(cell, numbers, population, nullptr);
   }
   return value;
 }
 
 double HierarchicalLikelihood::log_likelihood(const HierarchicalCell& cell,
-                                              const Numbers& numbers, double lapse_rate,
-                                              Score* score) const noexcept {
-  double value = 0.0, by_lapse = 0.0;
+                                              const Numbers& numbers,
+                                              const Population& population,
+                                              Score* score) const {
+  const double scatter = population.scatter;
   const int place_at = structure_.place_at(cell.condition);
   const int order_at = structure_.order_at(cell.condition);
   const double slope = slope_of(structure_.link, numbers(cell.condition));
   const double place = structure_.has_places ? numbers(place_at) : 0.0;
   const double by_interval = has_orders_ ? numbers(order_at) : 0.0;
+  double value = 0.0, by_lapse = 0.0, by_scatter = 0.0;
   double by_slope = 0.0, by_place = 0.0, by_order = 0.0;
   for (std::size_t level = 0; level < cell.log_ratio.size(); ++level) {
     const double order = has_orders_ ? cell.order[level] : 0.0;
     const Predictor at =
         predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level]);
     const double yes = cell.num_yes[level], no = cell.num_no[level];
-    const AnswerProbabilities answer =
-        answer_probabilities(at.z, lapse_rate, structure_.guess_rate, yes > 0.0, no > 0.0);
-    // A zero count contributes nothing, even where its logarithm is infinite.
-    if (yes > 0.0) value += yes * answer.log_yes;
-    if (no > 0.0) value += no * answer.log_no;
-    const double by_z = yes * answer.by_z_yes - no * answer.by_z_no;
-    by_lapse += yes * answer.by_lapse_yes + no * answer.by_lapse_no;
+    const AnswerProbabilities answer = answer_probabilities(
+        at.z, population.lapse_rate, structure_.guess_rate, yes > 0.0, no > 0.0);
+    if (scatter > 0.0 && score == nullptr) {
+      value += scattered_value(yes, answer.log_yes, scatter) +
+               scattered_value(no, answer.log_no, scatter);
+      continue;
+    }
+    double by_z = 0.0;
+    if (scatter > 0.0) {
+      const ScatteredSide of_yes =
+          scattered_side(yes, answer.log_yes, answer.by_z_yes, answer.by_lapse_yes, scatter);
+      const ScatteredSide of_no =
+          scattered_side(no, answer.log_no, answer.by_z_no, answer.by_lapse_no, scatter);
+      value += of_yes.value + of_no.value;
+      by_z = of_yes.by_z - of_no.by_z;
+      by_lapse += of_yes.by_lapse + of_no.by_lapse;
+      by_scatter += of_yes.by_scatter + of_no.by_scatter;
+    } else {
+      // A zero count contributes nothing, even where its logarithm is infinite.
+      if (yes > 0.0) value += yes * answer.log_yes;
+      if (no > 0.0) value += no * answer.log_no;
+      by_z = yes * answer.by_z_yes - no * answer.by_z_no;
+      by_lapse += yes * answer.by_lapse_yes + no * answer.by_lapse_no;
+    }
     by_slope += by_z * at.by_slope;
     by_place += by_z * at.by_place;
     by_order += by_z * at.by_place * order;
@@ -187,6 +152,7 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalCell& cell,
   if (structure_.has_places) score->numbers(place_at) += by_place;
   if (has_orders_) score->numbers(order_at) += by_order;
   score->lapse_rate += by_lapse;
+  score->scatter += by_scatter;
   return value;
 }
 
@@ -195,6 +161,7 @@ HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivativ
     const RandomEffects& at) const {
   const Numbers numbers = population.at(at);
   const Loadings& loadings = population.loadings;
+  const double scatter = population.scatter;
   const Curvature prior = Curvature::Identity(at.size(), at.size());
   JointDerivatives joint{-at, prior, prior};
   for (const HierarchicalCell& cell : person) {
@@ -217,14 +184,24 @@ HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivativ
       const AnswerProbabilities answer =
           answer_probabilities(here.z, population.lapse_rate, structure_.guess_rate);
       const double yes = cell.num_yes[level], no = cell.num_no[level];
-      const double by_z = yes * answer.by_z_yes - no * answer.by_z_no;
+      double by_z = yes * answer.by_z_yes - no * answer.by_z_no;
+      double expected = (yes + no) * answer.by_z_yes * answer.by_z_no;
+      double observed = yes * answer.by_z_yes * (here.z + answer.by_z_yes) +
+                        no * answer.by_z_no * (answer.by_z_no - here.z);
+      if (scatter > 0.0) {
+        const ScatteredSide of_yes =
+            scattered_side(yes, answer.log_yes, answer.by_z_yes, 0.0, scatter);
+        const ScatteredSide of_no =
+            scattered_side(no, answer.log_no, answer.by_z_no, 0.0, scatter);
+        by_z = of_yes.by_z - of_no.by_z;
+        expected /= 1.0 + (yes + no - 1.0) * scatter / (1.0 + scatter);
+        observed = of_yes.squares + of_no.squares + here.z * by_z;
+      }
       const RandomEffects by_effect = here.by_slope * slope_row + here.by_place * place_row;
       const Curvature outer = by_effect * by_effect.transpose();
       joint.gradient += by_z * by_effect;
-      joint.expected += (yes + no) * answer.by_z_yes * answer.by_z_no * outer;
-      joint.observed += (yes * answer.by_z_yes * (here.z + answer.by_z_yes) +
-                         no * answer.by_z_no * (answer.by_z_no - here.z)) *
-                        outer;
+      joint.expected += expected * outer;
+      joint.observed += observed * outer;
       if (structure_.link == HierarchicalLink::kLinear) continue;
       const Curvature mixed = slope_row * place_row.transpose();
       joint.observed -= by_z * (here.z * slope_row * slope_row.transpose() -
@@ -240,8 +217,7 @@ HierarchicalLikelihood::Mode HierarchicalLikelihood::mode_of(const HierarchicalP
   constexpr int kMaxIterations = 200, kMaxHalvings = 40;
   constexpr double kSmallStep = 1e-12;
   const auto log_density = [&](const RandomEffects& at) {
-    return log_likelihood(person, population.at(at), population.lapse_rate) -
-           0.5 * at.squaredNorm();
+    return log_likelihood(person, population.at(at), population) - 0.5 * at.squaredNorm();
   };
   Mode mode{start, {}};
   double value = log_density(mode.at);
@@ -274,23 +250,39 @@ Eigen::VectorXd HierarchicalLikelihood::of_people(const Eigen::VectorXd& paramet
   if (scores == nullptr && is_known) return last_values_;
   const Population population = population_of(parameters);
   const auto num_people = static_cast<Eigen::Index>(people_.size());
-  if (scores != nullptr) scores->setZero(structure_.num_parameters, num_people);
-  Eigen::VectorXd values(num_people), score;
+  const bool has_scores = scores != nullptr;
+  if (has_scores) scores->setZero(structure_.num_parameters, num_people);
+  Nodes nodes;
+  Eigen::VectorXd values(num_people);
   for (std::size_t person = 0; person < people_.size(); ++person) {
-    const Mode mode = mode_of(people_[person], population, last_[person]);
-    last_[person] = mode.at;
-    const Eigen::LLT<Curvature> root(mode.information);
-    const Curvature upper = root.matrixU();
     const auto column = static_cast<Eigen::Index>(person);
-    values(column) = log_integral(people_[person], population, mode, upper,
-                                  scores != nullptr ? &score : nullptr) -
-                     upper.diagonal().array().log().sum();
-    if (scores == nullptr) continue;
-    scores->col(column) = score.head(structure_.num_parameters);
-    if (structure_.has_lapses && population.lapse_rate > 0.0) {
+    Integral integral;
+    if (structure_.has_own_lapses) {
+      integral = own_lapses_integral(person, population, parameters, has_scores, nodes);
+    } else {
+      const Mode mode = mode_of(people_[person], population, last_[person]);
+      last_[person] = mode.at;
+      integral = integral_of(people_[person], population, mode, has_scores, nodes);
+    }
+    if (population.scatter > 0.0) {
+      for (const auto& [num_answers, num_levels] : totals_[person]) {
+        const ScatterTotal total = scatter_total(num_answers, population.scatter);
+        integral.value -= num_levels * total.value;
+        integral.by_scatter -= num_levels * total.by_scatter;
+      }
+    }
+    values(column) = integral.value;
+    if (!has_scores) continue;
+    scores->col(column) = integral.by_parameter;
+    if (structure_.has_lapses && !structure_.has_own_lapses && population.lapse_rate > 0.0) {
       (*scores)(structure_.angle_at(), column) =
           structure_.lapse_limit() * std::sin(2.0 * parameters(structure_.angle_at())) *
-          score(structure_.num_parameters);
+          integral.by_lapse_rate;
+    }
+    if (population.scatter > 0.0) {  // phi = tan^2 r
+      (*scores)(structure_.scatter_at(), column) =
+          integral.by_scatter * 2.0 * std::tan(parameters(structure_.scatter_at())) *
+          (1.0 + population.scatter);
     }
   }
   last_parameters_ = parameters;
@@ -304,60 +296,9 @@ double HierarchicalLikelihood::operator()(const Eigen::VectorXd& parameters,
   const double total = of_people(parameters, gradient != nullptr ? &scores : nullptr).sum();
   if (gradient != nullptr) {
     *gradient = scores.rowwise().sum();
-    if (structure_.has_lapses && structure_.lapse_rate(parameters) > 0.0) {
-      const int angle_at = structure_.angle_at();
-      (*gradient)(angle_at) -= 2.0 * kPriorPower * std::tan(parameters(angle_at));
-    }
+    structure_.add_log_prior_rise(parameters, *gradient);
   }
   return total + structure_.log_prior(parameters);
-}
-
-std::vector<Eigen::VectorXd> HierarchicalLikelihood::modes(
-    const Eigen::VectorXd& parameters) const {
-  const Population population = population_of(parameters);
-  std::vector<Eigen::VectorXd> numbers;
-  for (std::size_t person = 0; person < people_.size(); ++person) {
-    const Mode mode = mode_of(people_[person], population, last_[person]);
-    numbers.emplace_back(population.at(mode.at));
-  }
-  return numbers;
-}
-
-void HierarchicalLikelihood::add_fitted(const HierarchicalPerson& person,
-                                        const Numbers& numbers, double lapse_rate,
-                                        std::vector<FittedAnswers>& answers) const {
-  for (const HierarchicalCell& cell : person) {
-    const double slope = slope_of(structure_.link, numbers(cell.condition));
-    const double place =
-        structure_.has_places ? numbers(structure_.place_at(cell.condition)) : 0.0;
-    const double by_interval = has_orders_ ? numbers(structure_.order_at(cell.condition)) : 0.0;
-    for (std::size_t level = 0; level < cell.log_ratio.size(); ++level) {
-      const double order = has_orders_ ? cell.order[level] : 0.0;
-      const double z =
-          predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level])
-              .z;
-      const AnswerProbabilities answer =
-          answer_probabilities(z, lapse_rate, structure_.guess_rate);
-      answers.push_back({.num_yes = cell.num_yes[level],
-                         .num_trials = cell.num_yes[level] + cell.num_no[level],
-                         .probability = std::exp(answer.log_yes)});
-    }
-  }
-}
-
-std::optional<double> HierarchicalLikelihood::misfit_p_value(
-    const Eigen::VectorXd& parameters) const {
-  const Population population = population_of(parameters);
-  std::vector<FittedAnswers> answers;
-  double num_followed = 0.0;
-  for (std::size_t person = 0; person < people_.size(); ++person) {
-    const Mode mode = mode_of(people_[person], population, last_[person]);
-    const Curvature left =
-        mode.information.inverse();  // Of the prior's 1, what the answers left.
-    num_followed += static_cast<double>(left.rows()) - left.trace();
-    add_fitted(people_[person], population.at(mode.at), population.lapse_rate, answers);
-  }
-  return analysis::misfit_p_value(answers, num_followed);
 }
 
 }  // namespace jnd::analysis

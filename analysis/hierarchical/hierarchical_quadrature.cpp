@@ -1,6 +1,7 @@
 #include "analysis/hierarchical/hierarchical_quadrature.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "core/require.h"
@@ -33,6 +34,24 @@ GaussHermiteGrid gauss_hermite_grid(int num_nodes, int num_dimensions) {
     grid = std::move(wider);
   }
   return grid;
+}
+
+LapseNodes lapse_nodes(double most_answers, double lapse_limit) {
+  constexpr double kReach = 6.0, kLargestStep = 0.3, kSmallestStep = 0.05, kSpread = 0.4;
+  // Of the angle: with n answers of probability 1 but for lapses the information is 4 n limit.
+  const double angle_error = 1.0 / std::sqrt(4.0 * lapse_limit * std::max(1.0, most_answers));
+  const double step = std::clamp(1.6 * angle_error / kSpread, kSmallestStep, kLargestStep);
+  const int num_beside = static_cast<int>(std::ceil(kReach / step));
+  LapseNodes nodes;
+  double sum = 0.0;
+  for (int i = -num_beside; i <= num_beside; ++i) {
+    const double deviation = kReach * i / num_beside;
+    nodes.deviation.push_back(deviation);
+    nodes.weight.push_back(std::exp(-0.5 * deviation * deviation));
+    sum += nodes.weight.back();
+  }
+  for (double& weight : nodes.weight) weight /= sum;
+  return nodes;
 }
 
 }  // namespace jnd::analysis

@@ -21,4 +21,16 @@ struct GaussHermiteGrid {
 /// `core::Error` otherwise.
 [[nodiscard]] GaussHermiteGrid gauss_hermite_grid(int num_nodes, int num_dimensions);
 
+/// The same for one number by the trapezoidal rule: equal steps from -6 to 6, which converges
+/// faster than any power of the step for what is smooth, however many modes it has.
+struct LapseNodes {
+  std::vector<double> deviation;  ///< b, standard normal.
+  std::vector<double> weight;     ///< Of each; they sum to 1.
+};
+
+/// For people with `most_answers` at most, whose lapse angle v + tau b is sharper the more
+/// there are: a step is 1.6 of the standard deviations that all of them at easy levels would
+/// leave of b, were tau 0.4, and 0.3 or less.
+[[nodiscard]] LapseNodes lapse_nodes(double most_answers, double lapse_limit);
+
 }  // namespace jnd::analysis

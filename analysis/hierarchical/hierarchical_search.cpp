@@ -1,6 +1,7 @@
 #include "analysis/hierarchical/hierarchical_search.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -255,6 +256,50 @@ std::optional<Eigen::VectorXd> most_likely_near(const HierarchicalLikelihood& li
     last_size = size;
   }
   return std::nullopt;
+}
+
+HierarchicalOptimum better_optimum(const HierarchicalLikelihood& likelihood,
+                                   const HierarchicalStructure& structure,
+                                   const Eigen::VectorXd& start) {
+  constexpr double kNoLapses = 1e-6, kSomeLapsesAngle = 0.2;  // 2 in a hundred.
+  HierarchicalOptimum first = most_likely(likelihood, start);
+  if (!structure.has_lapses) return first;
+  const bool found_some =
+      first.status == FitStatus::kOk && structure.lapse_rate(first.parameters) > kNoLapses;
+  Eigen::VectorXd other = start;
+  other(structure.angle_at()) = found_some ? 0.0 : kSomeLapsesAngle;
+  HierarchicalOptimum second =
+      most_likely(likelihood, most_likely_with(likelihood, other, structure.angle_at()));
+  const bool is_better =
+      first.status != FitStatus::kOk || second.log_likelihood > first.log_likelihood;
+  return second.status == FitStatus::kOk && is_better ? second : first;
+}
+
+HeldSearch::HeldSearch(const HierarchicalLikelihood& likelihood, std::vector<int> even,
+                       Eigen::VectorXd start, int held)
+    : likelihood_(likelihood), even_(std::move(even)), start_(std::move(start)), held_(held) {}
+
+/// Newton's method alone where that comes to rest. It cannot leave a spread of 0 where that is
+/// no maximum any more, as there are more lapses: then from people who differ.
+std::optional<Eigen::VectorXd> HeldSearch::from(Eigen::VectorXd near) {
+  std::optional<Eigen::VectorXd> found = most_likely_near(likelihood_, near, held_, inverse_);
+  if (found && is_maximum(*found)) return found;
+  for (const int parameter : even_) near(parameter) = start_(parameter);
+  inverse_.resize(0, 0);
+  found = most_likely_near(likelihood_, most_likely_with(likelihood_, near, held_), held_,
+                           inverse_);
+  return found && is_maximum(*found) ? found : std::nullopt;
+}
+
+/// Where an even parameter is 0 the likelihood is level in it.
+bool HeldSearch::is_maximum(const Eigen::VectorXd& at) const {
+  constexpr double kNone = 1e-5, kStep = 1e-3;
+  return std::ranges::none_of(even_, [&](const int parameter) {
+    if (std::fabs(at(parameter)) > kNone) return false;
+    Eigen::VectorXd beside = at;
+    beside(parameter) = kStep;
+    return likelihood_(beside) > likelihood_(at) + 1e-9;
+  });
 }
 
 }  // namespace jnd::analysis

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "analysis/hierarchical/hierarchical_model.h"
 #include "analysis/statistics/fit_status.h"
@@ -46,5 +47,35 @@ struct HierarchicalOptimum {
 [[nodiscard]] std::optional<Eigen::VectorXd> most_likely_near(
     const HierarchicalLikelihood& likelihood, const Eigen::VectorXd& start, Eigen::Index held,
     Eigen::MatrixXd& inverse);
+
+/// The better of two searches where there is a lapse rate. None is a maximum of its own beside
+/// one with some lapses and steeper curves, and which of them a single search comes to hangs on
+/// nothing but where it starts: the second one starts on the other side of the first one's end,
+/// from the best curves there.
+[[nodiscard]] HierarchicalOptimum better_optimum(const HierarchicalLikelihood& likelihood,
+                                                 const HierarchicalStructure& structure,
+                                                 const Eigen::VectorXd& start);
+
+/// Searches with one parameter held, one after the other.
+class HeldSearch {
+ public:
+  /// `even`: other parameters in which the likelihood is even, such as spreads. Where one came
+  /// to rest at 0 and that is no maximum, the search goes on from what `start` has of all of
+  /// them. The likelihood has to outlive the search.
+  HeldSearch(const HierarchicalLikelihood& likelihood, std::vector<int> even,
+             Eigen::VectorXd start, int held);
+
+  /// The largest with the held parameter as in `near`. Absent where there is none.
+  [[nodiscard]] std::optional<Eigen::VectorXd> from(Eigen::VectorXd near);
+
+ private:
+  [[nodiscard]] bool is_maximum(const Eigen::VectorXd& at) const;
+
+  const HierarchicalLikelihood& likelihood_;
+  std::vector<int> even_;
+  Eigen::VectorXd start_;
+  int held_;
+  Eigen::MatrixXd inverse_;  ///< As of `most_likely_near`, from search to search.
+};
 
 }  // namespace jnd::analysis

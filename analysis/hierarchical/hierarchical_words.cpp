@@ -24,6 +24,9 @@ std::string guess_words(const HierarchicalOptions& options) {
 
 std::string lapse_words(const HierarchicalOptions& options) {
   if (options.lapses == HierarchicalLapses::kCommon) return ", one lapse rate for everybody";
+  if (options.lapses == HierarchicalLapses::kPersonal) {
+    return ", a lapse rate of each person's own";
+  }
   if (options.lapses == HierarchicalLapses::kNone || options.lapse_rate == 0.0) return "";
   char text[48];
   std::snprintf(text, sizeof text, ", lapse rate %.3g", options.lapse_rate);
@@ -57,6 +60,7 @@ std::string method_words(const HierarchicalOptions& options,
                          ? "probit, ln slope normal between people, "
                          : "probit, slope normal between people, ") +
          pse_words(options.pse, has_orders_in) + guess_words(options) + lapse_words(options) +
+         (options.beta_binomial ? ", beta-binomial answers" : "") +
          (num_nodes == 1 ? ", Laplace"
                          : ", adaptive Gauss-Hermite, " + std::to_string(num_nodes) +
                                " nodes a dimension");

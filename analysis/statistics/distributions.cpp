@@ -9,6 +9,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/digamma.hpp>
 #include <boost/math/special_functions/gamma.hpp>
+#include <boost/math/special_functions/trigamma.hpp>
 
 namespace jnd::analysis {
 namespace {
@@ -85,5 +86,7 @@ double fair_trials_at_least(double successes, double trials) {
 double log_gamma(double x) { return math::lgamma(x); }
 
 double digamma(double x) { return math::digamma(x); }
+
+double trigamma(double x) { return math::trigamma(x); }
 
 }  // namespace jnd::analysis

@@ -41,8 +41,9 @@ namespace jnd::analysis {
 /// P(X >= successes) in this many fair trials; `successes` is at least 1.
 [[nodiscard]] double fair_trials_at_least(double successes, double trials);
 
-/// ln Gamma(x) and its derivative, for x > 0.
+/// ln Gamma(x) and its first two derivatives, for x > 0.
 [[nodiscard]] double log_gamma(double x);
 [[nodiscard]] double digamma(double x);
+[[nodiscard]] double trigamma(double x);
 
 }  // namespace jnd::analysis

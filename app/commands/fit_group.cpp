@@ -20,6 +20,7 @@
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/commands/fit_figures.h"
+#include "app/commands/fit_group_robust.h"
 #include "app/curves/fit_words.h"
 
 namespace jnd::app {
@@ -31,6 +32,7 @@ struct FitGroupOptions {
   std::string csv, link = "log-slope", pse = "personal", slopes = "correlated";
   std::string guess = "0", lapse = "free";
   std::vector<std::string> free;
+  RobustGroupOptions robust;
   std::optional<double> reference;
   int num_nodes = 0;
   std::string figure;  ///< "" for none.
@@ -49,13 +51,14 @@ void require_reference(const FitGroupOptions& options) {
 
 /// Of which lapse rates an interval of the Weber fraction holds; "" where that is one.
 std::string interval_basis(const analysis::HierarchicalFit& fit) {
-  if (!fit.lapse_rate_without_prior) return "";
+  if (!fit.lapse_rate_without_prior && !fit.own_lapses) return "";
   return ", over lapse rates of " + range(fit.lapse_rate_with_prior_ci95, fit.lapse_rate);
 }
 
 /// With how far its prior moves the fractions.
 void print_lapses(const analysis::HierarchicalFit& fit) {
   if (!fit.lapse_rate) return;
+  if (fit.own_lapses) return print_own_lapses(fit);
   if (!fit.lapse_rate_without_prior) {
     fmt::print("  lapse rate      {:<8}  of everybody, given\n", number(fit.lapse_rate));
     return;
@@ -98,6 +101,7 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
     }
   }
   print_lapses(fit);
+  print_robust(fit);
   if (fit.correlation) fmt::print("  correlation of the slopes  {}\n", number(fit.correlation));
   for (const analysis::HierarchicalDifference& one : fit.differences) {
     fmt::print("  {} - {}: {}  95 % {}, t({:.0f}) = {}, {}\n", one.second, one.first,
@@ -175,6 +179,21 @@ int fit_hierarchical(const FitGroupOptions& options) {
   if (!options.figure.empty()) analysis::require_figure_file(options.figure);
   require_lapses(options);
   const std::optional<double> lapse = lapse_of(options);
+  analysis::HierarchicalOptions how = {
+      .link = options.link == "linear" ? analysis::HierarchicalLink::kLinear
+                                       : analysis::HierarchicalLink::kLogSlope,
+      .pse = options.pse == "reference" ? analysis::HierarchicalPse::kReference
+             : options.pse == "common"  ? analysis::HierarchicalPse::kCommon
+             : options.pse == "shared"  ? analysis::HierarchicalPse::kShared
+                                        : analysis::HierarchicalPse::kPersonal,
+      .slopes = options.slopes == "shared" ? analysis::HierarchicalSlopes::kShared
+                                           : analysis::HierarchicalSlopes::kCorrelated,
+      .lapses =
+          lapse ? analysis::HierarchicalLapses::kKnown : analysis::HierarchicalLapses::kCommon,
+      .lapse_rate = lapse.value_or(0.0),
+      .guess_rate = guess_of(options),
+      .num_nodes = options.num_nodes};
+  apply(options.robust, options.lapse, how);
   const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
   const std::vector<analysis::ParticipantAnswers> answers =
       analysis::read_participant_answers(table, options.reference);
@@ -193,20 +212,6 @@ int fit_hierarchical(const FitGroupOptions& options) {
     warnings.push_back(fmt::format(
         "the table's column reference is used, and --reference {} is not", *options.reference));
   }
-  const analysis::HierarchicalOptions how = {
-      .link = options.link == "linear" ? analysis::HierarchicalLink::kLinear
-                                       : analysis::HierarchicalLink::kLogSlope,
-      .pse = options.pse == "reference" ? analysis::HierarchicalPse::kReference
-             : options.pse == "common"  ? analysis::HierarchicalPse::kCommon
-             : options.pse == "shared"  ? analysis::HierarchicalPse::kShared
-                                        : analysis::HierarchicalPse::kPersonal,
-      .slopes = options.slopes == "shared" ? analysis::HierarchicalSlopes::kShared
-                                           : analysis::HierarchicalSlopes::kCorrelated,
-      .lapses =
-          lapse ? analysis::HierarchicalLapses::kKnown : analysis::HierarchicalLapses::kCommon,
-      .lapse_rate = lapse.value_or(0.0),
-      .guess_rate = guess_of(options),
-      .num_nodes = options.num_nodes};
   analysis::HierarchicalFit fit = analysis::fit_hierarchical(answers, how);
   analysis::tell_assumptions(fit, answers, how);
   if (options.json) {
@@ -339,6 +344,7 @@ void add_fit_group(CLI::App& fit, Invocation& invocation) {
                   "two alternatives, 1/3 of three; 0 of yes and no")
       ->transform(rate())
       ->option_text("RATE [0]");
+  add_robust_options(group, options->robust);
   group
       .add_option("--nodes", options->num_nodes,
                   "of the quadrature, a dimension; 1 is Laplace (default: by dimension)")

@@ -22,6 +22,7 @@
 #include "app/curves/curve_analysis.h"
 #include "app/curves/curve_request.h"
 #include "app/curves/curve_table.h"
+#include "app/curves/prior_options.h"
 
 namespace jnd::app {
 namespace {
@@ -189,6 +190,8 @@ void add_fit_psychometric(CLI::App& fit, Invocation& invocation) {
       ->capture_default_str();
   command.add_flag("--posterior", options->posterior,
                    "also medians and intervals of the posterior, with its priors");
+  command.add_option("--lapse-prior", options->lapse_prior, kLapsePriorHelp)
+      ->option_text("A,B [1,10]");
   command.add_option("--goodness", options->num_goodness, "redraws for the goodness of fit")
       ->check(whole_number(0, 10'000'000));
   command.add_option("--seed", options->seed, "of bootstrap and goodness of fit")

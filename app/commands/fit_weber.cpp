@@ -19,6 +19,7 @@
 #include "app/commands/fit_figures.h"
 #include "app/commands/fit_tables.h"
 #include "app/curves/fit_words.h"
+#include "app/curves/prior_options.h"
 
 namespace jnd::app {
 namespace {
@@ -33,6 +34,7 @@ struct FitWeberOptions : TableOptions {
   int num_goodness = 0;
   int num_calibration = 0;
   bool posterior = false;
+  std::optional<std::string> lapse_prior;
   double reference = 0.0;
   std::vector<std::string> free;
   int num_bootstrap = 0;
@@ -54,6 +56,11 @@ void print_posterior(const analysis::PsychometricPosterior& posterior) {
                range(*posterior.pse_ci95, posterior.pse));
   }
   fmt::print("    priors: {}\n", posterior.priors);
+  for (const analysis::PosteriorPriorEffect& one : posterior.prior_effects) {
+    fmt::print("    that of the lapse rate {}: Weber fraction {}, lapse rate {}\n",
+               prior_weight_words(one.weight), number(one.weber_fraction),
+               number(one.lapse_rate));
+  }
   if (!posterior.note.empty()) fmt::print("    note: {}\n", posterior.note);
 }
 
@@ -194,6 +201,19 @@ void require_calibration(const FitWeberOptions& options) {
       options.num_calibration));
 }
 
+/// The prior of the posterior's lapse rate.
+analysis::BetaPrior rate_prior_of(const FitWeberOptions& options) {
+  if (!options.lapse_prior) return analysis::kUsualRatePrior;
+  if (options.posterior && options.frees_lapse()) {
+    return beta_prior_of("--lapse-prior", *options.lapse_prior, kLargestGridPrior);
+  }
+  throw UsageError(
+      fmt::format("--lapse-prior {}: expected with --posterior and a lapse rate that is free, "
+                  "found without; "
+                  "add --posterior --free lapse, or leave it out",
+                  *options.lapse_prior));
+}
+
 /// What the options of guesses and lapses say together.
 void require_rates(const FitWeberOptions& options) {
   if (options.frees("lapse") && !options.lapse.empty()) {
@@ -299,6 +319,8 @@ int fit_weber(const FitWeberOptions& options) {
       .num_goodness = options.num_goodness,
       .num_calibration = options.num_calibration,
       .posterior = options.posterior,
+      .rate_prior = rate_prior_of(options),
+      .prior_sensitivity = options.lapse_prior.has_value(),
       .seed = options.seed};
   if (!options.figure.empty()) analysis::require_figure_file(options.figure);
   const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
@@ -389,6 +411,8 @@ void add_fit_weber(CLI::App& fit, Invocation& invocation) {
       ->check(whole_number(0, 10'000'000));
   weber.add_flag("--posterior", options->posterior,
                  "also the Bayesian estimate on a grid, with its priors");
+  weber.add_option("--lapse-prior", options->lapse_prior, kLapsePriorHelp)
+      ->option_text("A,B [1,10]");
   weber
       .add_option(
           "--family", options->family,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/curves/fit_words.h"
+#include "app/curves/prior_options.h"
 
 namespace jnd::app {
 namespace {
@@ -24,6 +25,11 @@ void print_value(const std::string& name, const CurveValue& value, const CurveFi
   if (value.posterior_median) {
     fmt::print("    posterior     {:<9} 95 % {}\n", number(value.posterior_median),
                whole_range(value.posterior_ci95));
+  }
+  for (std::size_t i = 0; i < value.posterior_medians_by_weight.size(); ++i) {
+    fmt::print("      {:<9} prior of the rates: {}\n",
+               number(value.posterior_medians_by_weight[i]),
+               prior_weight_words(analysis::kOtherPriorWeights[i]));
   }
 }
 

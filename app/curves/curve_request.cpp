@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/command_line/command.h"
+#include "app/curves/prior_options.h"
 
 namespace jnd::app {
 namespace {
@@ -99,9 +100,17 @@ void require_request(const CurveRequest& request) {
         fmt::format("--jnd-at: expected a number between 0 and 1 that is not 0.5, found {}",
                     request.jnd_at));
   }
+  const bool has_free_rate = request.lapse == "free" || request.guess == "free";
+  if (!request.lapse_prior.empty() && !(request.posterior && has_free_rate)) {
+    throw UsageError(fmt::format(
+        "--lapse-prior {}: expected with --posterior and a rate that is free, found without; "
+        "add --posterior --lapse free, or leave it out",
+        request.lapse_prior));
+  }
 }
 
 analysis::CurveOptions options_of(const CurveRequest& request) {
+  const bool has_prior = !request.lapse_prior.empty();
   return {.model = model_of(request),
           .at = request.at,
           .jnd_at = request.jnd_at,
@@ -110,6 +119,10 @@ analysis::CurveOptions options_of(const CurveRequest& request) {
                                 ? analysis::BootstrapKind::kNonparametric
                                 : analysis::BootstrapKind::kParametric,
           .posterior = request.posterior,
+          .rate_prior =
+              has_prior ? beta_prior_of("--lapse-prior", request.lapse_prior, kLargestGridPrior)
+                        : analysis::kUsualRatePrior,
+          .prior_sensitivity = has_prior,
           .num_goodness = request.num_goodness,
           .seed = request.seed};
 }
@@ -148,6 +161,7 @@ std::string command_of(const CurveRequest& request) {
   count("--bootstrap", request.num_bootstrap, plain.num_bootstrap);
   say("--bootstrap-kind", request.bootstrap_kind, plain.bootstrap_kind);
   flag("--posterior", request.posterior);
+  say("--lapse-prior", request.lapse_prior);
   count("--goodness", request.num_goodness, plain.num_goodness);
   count("--seed", request.seed, plain.seed);
   flag("--compare", request.compare);

@@ -19,6 +19,7 @@ struct CurveRequest : AnswerRequest {
   std::string lapse = "0";        ///< A rate, or "free".
   bool symmetric = false, falling = false, rising = false;
   bool compare = false, posterior = false;
+  std::string lapse_prior;  ///< "A,B" of the posterior's free rates; "" for the usual one.
   std::vector<double> at = {0.5};
   double jnd_at = analysis::CurveOptions{}.jnd_at;
   int num_bootstrap = 0, num_goodness = 0;

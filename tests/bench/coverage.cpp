@@ -169,7 +169,8 @@ int main(int argc, char** argv) {
       {"difference", [=] { cover_difference(few, kSeed); }},
       {"curves", [=] { cover_curves(num_sets, kSeed); }},
       {"contrasts", [=] { cover_contrasts(num_sets, kSeed); }},
-      {"sequential", [=] { cover_sequential(num_sets, kSeed); }}};
+      {"sequential", [=] { cover_sequential(num_sets, kSeed); }},
+      {"robust", [=] { cover_robust(num_sets, kSeed); }}};
   const std::string wanted = argc > 2 ? argv[2] : "";
   const bool is_known = wanted.empty() || std::ranges::any_of(sections, [&](const auto& one) {
                           return one.first == wanted;
@@ -177,8 +178,8 @@ int main(int argc, char** argv) {
   if (!is_known) {
     std::fprintf(
         stderr,
-        "coverage: expected person, own_values, groups, difference, curves, contrasts or "
-        "sequential as the section, found %s\n",
+        "coverage: expected person, own_values, groups, difference, curves, contrasts, "
+        "sequential or robust as the section, found %s\n",
         argv[2]);
     return 2;
   }

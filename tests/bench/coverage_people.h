@@ -147,5 +147,6 @@ void cover_groups(int num_sets, std::uint64_t seed);
 void cover_contrasts(int num_sets, std::uint64_t seed);
 void cover_difference(int num_sets, std::uint64_t seed);
 void cover_sequential(int num_sets, std::uint64_t seed);
+void cover_robust(int num_sets, std::uint64_t seed);
 
 }  // namespace jnd::coverage
