@@ -115,6 +115,9 @@ void count_events(const core::StudyStore& store, SessionQuality& quality) {
       num_shadowed += noticed.value("num_shadowed", std::int64_t{0});
     }
     if (event.kind == "note_added") remark("note: " + string_at(object_in(event.data), "text"));
+    if (event.kind == "pause_explained") {
+      remark("paused: " + string_at(object_in(event.data), "reason"));
+    }
     if (event.kind == "session_ended_early") {
       quality.ended_early = string_at(object_in(event.data), "reason");
       if (quality.ended_early.empty()) quality.ended_early = "no reason given";

@@ -148,7 +148,13 @@ Figure value_figure(const std::vector<ComparedValues>& groups, const std::string
       .title = "Values by condition",
       .caption = "Each value, and the mean of each condition with its 95 % interval."};
   figure.tables = {values_table(shown), means_table(shown), pairs_table(shown)};
-  const AxisRange y = axis_range(all_values(shown));
+  std::vector<double> drawn = all_values(shown);
+  for (const std::vector<FigureCell>& row : figure.tables[1].rows) {
+    for (const char* end : {"low", "high"}) {
+      drawn.push_back(*row[figure.tables[1].place_of(end)].number);
+    }
+  }
+  const AxisRange y = axis_range(drawn);
   const std::vector<std::string>& conditions = shown.front().conditions;
   const auto axes = [&](bool small) {
     std::string tics = named_tics("x", conditions, conditions.size() > 6);

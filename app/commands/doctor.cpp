@@ -5,6 +5,7 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
+#include "app/commands/doctor_fix.h"
 #include "app/session/machine_checks.h"
 
 namespace jnd::app {
@@ -36,10 +37,32 @@ int run_doctor(bool as_json) {
 void add_doctor(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("doctor", "What this machine lacks, and what mends it");
-  const auto as_json = std::make_shared<bool>(false);
-  command->add_flag("--json", *as_json, "One JSON document on stdout");
-  command->callback(
-      [&invocation, as_json] { invocation.run = [as_json] { return run_doctor(*as_json); }; });
+  const auto options = std::make_shared<DoctorFixOptions>();
+  const auto fixes = std::make_shared<bool>(false);
+  CLI::Option* fix = command->add_flag(
+      "--fix", *fixes,
+      "As root give the group jnd what it lacks (members, limits, devices, clocks of the "
+      "processors) and say everything that is changed; without root print the commands");
+  command->add_flag("--dry-run", options->dry_run, "With --fix: only say what would be done")
+      ->needs(fix);
+  command
+      ->add_option(
+          "--user", options->user,
+          "With --fix: who runs sessions and joins the group; default: whoever called, "
+          "or called sudo")
+      ->needs(fix);
+  command
+      ->add_option("--root", options->root,
+                   "With --fix: the folder of another system that is mended instead of this "
+                   "one, such as an image that is being prepared")
+      ->check(CLI::ExistingDirectory)
+      ->needs(fix);
+  command->add_flag("--json", options->json, "One JSON document on stdout");
+  command->callback([&invocation, options, fixes] {
+    invocation.run = [options, fixes] {
+      return *fixes ? run_doctor_fix(*options) : run_doctor(options->json);
+    };
+  });
 }
 
 }  // namespace jnd::app

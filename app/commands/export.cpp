@@ -1,21 +1,13 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
-#include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
-#include "analysis/data/study_data.h"
-#include "analysis/export/bids_export.h"
-#include "analysis/export/csv_export.h"
-#include "analysis/export/hdf5_export.h"
 #include "app/command_line/command.h"
-#include "app/command_line/json_text.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
-#include "app/preregistration/deviations.h"
-#include "app/preregistration/preregistration.h"
-#include "app/results/noted_export.h"
-#include "app/results/results_output.h"
+#include "app/results/study_export.h"
 #include "app/session/stored_session.h"
 #include "core/error.h"
 
@@ -28,70 +20,6 @@ struct ExportOptions {
   std::string out;
   analysis::ExportOptions data;
 };
-
-/// What `jnd results --json` says; "" if there is no session but pilots.
-std::string results_text(const core::StudyStore& store, const core::Progress& progress) {
-  const std::vector<core::SessionRow> sessions = store.sessions();
-  const bool any = std::any_of(sessions.begin(), sessions.end(),
-                               [](const core::SessionRow& row) { return !row.pilot; });
-  if (!any) return "";
-  return json_text(
-      results_json(results_of_data(analysis::load_study(store), {.on_progress = progress})));
-}
-
-/// `studies`: those that were read, by their hash; reading one for each session would take most
-/// of the time.
-std::vector<std::string> stage_names_of(const core::StudyStore& store,
-                                        const core::SessionRow& session,
-                                        std::map<std::string, experiments::Study>& studies) {
-  auto known = studies.find(session.protocol_sha256);
-  if (known == studies.end()) {
-    known =
-        studies.emplace(session.protocol_sha256, stored_study(store, session.session)).first;
-  }
-  std::vector<std::string> names;
-  for (const experiments::Stage* stage : stages_of_session(known->second, session.cells)) {
-    names.push_back(stage->name);
-  }
-  return names;
-}
-
-struct Written {
-  std::string what;  ///< What the data set consists of, for a person.
-  std::vector<std::string> problems;
-};
-
-/// What is to be said of samples.
-std::string samples_text(const analysis::ExportOutcome& outcome, bool asked) {
-  if (outcome.samples) return " with samples";
-  return asked ? "; the study has no samples to write" : "";
-}
-
-Written export_as(const ExportOptions& options, const core::StudyStore& store) {
-  const bool asked = options.data.recordings;
-  if (options.format == "bids") {
-    // The results in it take most of the time.
-    constexpr double kComputed = 0.7;
-    const core::Progress& progress = options.data.on_progress;
-    const std::string results = results_text(store, core::part_of(progress, 0.0, kComputed));
-    analysis::ExportOptions data = options.data;
-    data.on_progress = core::part_of(progress, kComputed, 1.0);
-    const analysis::ExportOutcome outcome =
-        analysis::export_bids(store, options.out, data, results);
-    if (outcome.samples) return {"a BIDS data set with motion", outcome.problems};
-    return {std::string("a BIDS data set without motion") +
-                (asked ? "; the study has no samples of its tasks" : "; --recordings adds it"),
-            outcome.problems};
-  }
-  if (options.format == "hdf5") {
-    const analysis::ExportOutcome outcome =
-        analysis::export_hdf5(store, options.out, options.data);
-    return {"study.h5" + samples_text(outcome, true), outcome.problems};
-  }
-  const analysis::ExportOutcome outcome =
-      analysis::export_csv(store, options.out, options.data);
-  return {"tables and codebook.csv" + samples_text(outcome, asked), outcome.problems};
-}
 
 /// Only where it takes a while and much of a disk.
 void tell_size(const ExportOptions& options, const core::StudyStore& store) {
@@ -113,30 +41,20 @@ int run_export(ExportOptions options) {
   stop_on_signals();
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   require_results_open(store);
-  options.data.program_version = JND_VERSION;
-  std::map<std::string, experiments::Study> studies;
-  options.data.stage_names = [&](const core::SessionRow& session) {
-    return stage_names_of(store, session, studies);
-  };
   options.data.keep_going = [&options] {
     if (!stop_requested()) return;
     throw core::Error(options.out + ": expected time to finish, found a signal to stop");
   };
-  // BIDS has them in its results.
-  if (options.format != "bids" && kept_preregistration(store)) {
-    options.data.preregistration = preregistered_study(store, analysis::load_study(store));
-  }
-  const std::string forgotten =
-      noted_export(store, options.out, options.format, options.data.pilot);
   tell_size(options, store);
-  const Written written = [&] {
+  const StudyExport written = [&] {
     ProgressBar bar("export " + options.format);
     options.data.on_progress = [&bar](double done) { bar.show(done); };
-    return export_as(options, store);
+    return write_study_export(
+        store, {.format = options.format, .out = options.out, .data = options.data});
   }();
   std::printf("%s: written to %s: %s\n", options.folder.c_str(), options.out.c_str(),
               written.what.c_str());
-  if (!forgotten.empty()) std::fprintf(stderr, "jnd: %s\n", forgotten.c_str());
+  if (!written.forgotten.empty()) std::fprintf(stderr, "jnd: %s\n", written.forgotten.c_str());
   for (const std::string& problem : written.problems) {
     std::fprintf(stderr, "jnd: %s\n", problem.c_str());
   }
@@ -153,7 +71,8 @@ void add_export(CLI::App& program, Invocation& invocation) {
       ->add_option("FORMAT", options->format,
                    "csv: tables; bids: BIDS 1.9.0; hdf5: recordings, tables beside them")
       ->required()
-      ->check(CLI::IsMember({"csv", "bids", "hdf5"}));
+      ->check(CLI::IsMember(
+          std::vector<std::string>(kExportFormats.begin(), kExportFormats.end())));
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);

@@ -5,6 +5,7 @@
 #include <GL/glext.h>
 #include <mujoco/mujoco.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -25,7 +26,7 @@ bool renders_in_software() {
          renderer.find("Software") != std::string_view::npos;
 }
 
-/// Leaves OpenGL as it was found, with the window as the target.
+/// Leaves OpenGL as it was found.
 class GlStateGuard {
  public:
   GlStateGuard() {
@@ -62,31 +63,41 @@ struct ScenePainter::Renderer {
           tr("3D view: expected OpenGL with framebuffer objects, found none; "
              "install libgl1-mesa-dri or a graphics driver"));
     }
-    glGenTextures(1, &texture);
-    glGenFramebuffers(1, &target);
+    for (Target& one : targets) {
+      glGenTextures(1, &one.texture);
+      glGenFramebuffers(1, &one.framebuffer);
+    }
   }
   ~Renderer() {
-    glDeleteFramebuffers(1, &target);
-    glDeleteTextures(1, &texture);
+    for (const Target& one : targets) {
+      glDeleteFramebuffers(1, &one.framebuffer);
+      glDeleteTextures(1, &one.texture);
+    }
     mjr_freeContext(&context);
   }
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Opaque: without an alpha of its own that the window would blend by.
-  void make_texture(int new_width, int new_height) {
-    if (new_width == width && new_height == height) return;
+  /// The picture that the window has shown longest ago is drawn over. Opaque: without an alpha
+  /// of its own that the window would blend by.
+  void take_target(int new_width, int new_height) {
+    current = (current + 1) % targets.size();
     width = new_width;
     height = new_height;
-    glBindTexture(GL_TEXTURE_2D, texture);
+    Target& target = targets[current];
+    if (target.width == width && target.height == height) return;
+    target.width = width;
+    target.height = height;
+    glBindTexture(GL_TEXTURE_2D, target.texture);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE,
                  nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glBindFramebuffer(GL_FRAMEBUFFER, target);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture,
+                           0);
   }
 
   void copy(unsigned int from, unsigned int to) const {
@@ -111,9 +122,17 @@ struct ScenePainter::Renderer {
     mjr_uploadTexture(&model, &context, id);
   }
 
+  /// A picture, and what draws into it.
+  struct Target {
+    unsigned int texture = 0, framebuffer = 0;
+    int width = 0, height = 0;
+  };
+
   const bool is_software;
   mjrContext context;
-  unsigned int texture = 0, target = 0;
+  // One that the window shows, one that it may still be drawing, one to draw into.
+  std::array<Target, 3> targets;
+  std::size_t current = 0;
   int width = 0, height = 0;
   ScenePace pace;
   std::optional<SceneColour> background;
@@ -126,7 +145,7 @@ ScenePainter::~ScenePainter() = default;
 std::uintptr_t ScenePainter::paint(const SceneRequest& request, double now_s) {
   Renderer& my = *renderer_;
   const SceneLook look = look_of(request, my.is_software);
-  if (!my.pace.takes(look, now_s)) return my.texture;
+  if (!my.pace.takes(look, now_s)) return my.targets[my.current].texture;
 
   const GlStateGuard guard;
   if (my.background != look.colours.ground) {
@@ -134,16 +153,18 @@ std::uintptr_t ScenePainter::paint(const SceneRequest& request, double now_s) {
     my.background = look.colours.ground;
   }
   scene_.show(request.sample, request.surroundings, request.colours, request.camera);
-  my.make_texture(look.width_px, look.height_px);
+  my.take_target(look.width_px, look.height_px);
+  const Renderer::Target& target = my.targets[my.current];
   mjr_setBuffer(mjFB_OFFSCREEN, &my.context);
   mjr_render({0, 0, my.width, my.height}, &scene_.scene(), &my.context);
   if (my.context.offSamples > 0) {
     my.copy(my.context.offFBO, my.context.offFBO_r);
-    my.copy(my.context.offFBO_r, my.target);
+    my.copy(my.context.offFBO_r, target.framebuffer);
   } else {
-    my.copy(my.context.offFBO, my.target);
+    my.copy(my.context.offFBO, target.framebuffer);
   }
-  return my.texture;
+  glFinish();  // The window's context shows it as soon as it knows of it.
+  return target.texture;
 }
 
 }  // namespace jnd::app::gui

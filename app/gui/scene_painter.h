@@ -7,10 +7,10 @@
 
 namespace jnd::app::gui {
 
-/// Draws the apparatus into a picture of its own, which the window then shows like any other:
+/// Draws the apparatus into pictures of its own, which the window then shows like any other:
 /// never into the window itself, never more than ten times a second, and with half the pixels
-/// where the processor draws. Only on the thread of the window, whose OpenGL context is current
-/// from the first to the last moment of it.
+/// where the processor draws. On one thread whose OpenGL context is current from the first to
+/// the last moment of it and shares its textures with the window's: see `SceneThread`.
 class ScenePainter {
  public:
   /// Throws `core::Error`: no model, or no room for pictures in OpenGL.
@@ -20,7 +20,8 @@ class ScenePainter {
   ScenePainter& operator=(const ScenePainter&) = delete;
 
   /// An OpenGL texture, its first row the lowest one; the last picture's while that is new
-  /// enough or nothing has changed. `now_s`: any clock that goes forward.
+  /// enough or nothing has changed. The picture in it is complete and stays for the next two.
+  /// `now_s`: any clock that goes forward.
   [[nodiscard]] std::uintptr_t paint(const SceneRequest& request, double now_s);
 
  private:

@@ -1,7 +1,10 @@
 #include "app/gui/text_layout.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
+
+#include "app/language/words.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -105,9 +108,39 @@ std::string shorten(std::string_view text, float width, const Measure& measure) 
   return std::string(text.substr(0, fits)) + std::string(kEllipsis);
 }
 
+/// The unit that stands at this place and is whole; "" for none.
+static std::string_view unit_at(std::string_view text, std::size_t at) {
+  // The longer before those that they begin with.
+  constexpr std::string_view kUnits[] = {
+      as_is("Pa s"), "N s/m",     "N/mm", "N/m", as_is("N mm"), "N m", "cm/s", "mm/s",
+      "m/s",         "m/s²",      "mm",   "cm",  "µm",          "ms",  "µs",   "min",
+      "kg",          as_is("Hz"), "rad",  "m",   "s",           "g",   "h"};
+  // Nothing else is called that.
+  constexpr std::string_view kAnywhere = as_is("Pa s");
+  const auto is_letter = [&](std::size_t place) {
+    if (place >= text.size()) return false;
+    const auto byte = static_cast<unsigned char>(text[place]);
+    return byte >= 0x80 || std::isalnum(byte) != 0;
+  };
+  if (at > 0 && is_letter(at - 1)) return "";
+  const bool is_behind_number = at > 1 && text[at - 1] == ' ' &&
+                                std::isdigit(static_cast<unsigned char>(text[at - 2])) != 0;
+  const bool is_in_brackets = at > 0 && (text[at - 1] == '[' || text[at - 1] == '/');
+  for (const std::string_view unit : kUnits) {
+    if (!text.substr(at).starts_with(unit) || is_letter(at + unit.size())) continue;
+    if (is_behind_number || is_in_brackets || unit == kAnywhere || text == unit) return unit;
+  }
+  return "";
+}
+
 std::string in_capitals(std::string_view text) {
   std::string capitals;
   for (std::size_t i = 0; i < text.size();) {
+    if (const std::string_view unit = unit_at(text, i); !unit.empty()) {
+      capitals += unit;
+      i += unit.size();
+      continue;
+    }
     const std::size_t next = next_character(text, i);
     const auto first = static_cast<unsigned char>(text[i]);
     if (next - i == 1) {

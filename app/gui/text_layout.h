@@ -19,7 +19,9 @@ using Measure = std::function<float(std::string_view)>;
 /// `text`, or as much of its beginning as fits with an ellipsis.
 [[nodiscard]] std::string shorten(std::string_view text, float width, const Measure& measure);
 
-/// Capital letters, for headings; Latin alone, so that a unit's Greek stays what it is.
+/// Capital letters, for headings; Latin alone, so that a unit's Greek stays what it is. A unit
+/// behind a number, in brackets or by itself is no word and stays as well: "5 mm", "[N/m]", "Pa
+/// s".
 [[nodiscard]] std::string in_capitals(std::string_view text);
 
 /// Where the code point after the one at `position` begins.

@@ -67,6 +67,11 @@ void Ui::begin_frame(InputQueue& queue) {
   my.feed(ImGui::GetIO());
 
   my.keys = my.input.keys;
+  for (const KeyEvent& event : my.keys) {
+    if (event.action == KeyEvent::Action::kRelease) {
+      my.released_s[event.chord.key] = ImGui::GetTime();
+    }
+  }
   std::erase_if(my.keys, [](const KeyEvent& event) {
     return event.action == KeyEvent::Action::kRelease;
   });
@@ -142,6 +147,8 @@ bool Ui::wants_another_frame() const noexcept {
   return (has_input && !my_->is_held) || my_->was_used || my_->is_waiting_for_focus() ||
          my_->is_repeating || my_->dialog_is_new;
 }
+
+double Ui::time_s() const { return ImGui::GetTime(); }
 
 void Ui::hold_input() noexcept { my_->is_held = true; }
 

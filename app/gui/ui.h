@@ -63,6 +63,9 @@ struct ButtonStyle {
   bool large = false;     ///< The answers: larger letters.
   bool at_once = false;   ///< Answers when the mouse goes down: the emergency stop.
   bool selected = false;  ///< One of several, and the one that holds: tabs, steps of a scale.
+  /// Its key counts once it has been let go for a moment: a key that is held is one press, also
+  /// where the system tells it as many.
+  bool fresh = false;
 };
 
 /// What was drawn in one frame, so that a test can read the screen and click on it.
@@ -117,6 +120,9 @@ class Ui {
   /// What is typed and clicked waits for a frame after one in which this was not called: what
   /// it is meant for is on its way.
   void hold_input() noexcept;
+
+  /// Of the frames' own clock; goes forward with each of them.
+  [[nodiscard]] double time_s() const;
 
   /// Names what is on screen, for tests.
   void set_view(std::string_view name);

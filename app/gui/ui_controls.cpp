@@ -57,7 +57,10 @@ Ui::Press Ui::press_on(const Rect& place, const ButtonStyle& style) {
     my.was_used |= press.answered;
   }
   my.note_asked_for(style.key);
-  if (!press.answered && my.take_key(style.key, style.repeats)) press.answered = true;
+  const bool may_take = !style.fresh || my.is_fresh(style.key.key);
+  if (!press.answered && may_take && my.take_key(style.key, style.repeats)) {
+    press.answered = true;
+  }
   return press;
 }
 

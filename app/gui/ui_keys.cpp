@@ -94,6 +94,12 @@ void Ui::Implementation::note_asked_for(const Chord& chord) {
   }
 }
 
+bool Ui::Implementation::is_fresh(Key key) const {
+  constexpr double kLetGo_s = 0.12;
+  const auto released = released_s.find(key);
+  return released == released_s.end() || ImGui::GetTime() - released->second >= kLetGo_s;
+}
+
 bool Ui::Implementation::take_key(const Chord& chord, bool with_repeats) {
   if (is_blocked()) return false;
   const auto found = std::ranges::find_if(keys, [&](const KeyEvent& event) {

@@ -26,6 +26,7 @@ struct Ui::Implementation {
   bool was_used = false;               ///< A control answered in this frame.
   bool is_held = false;                ///< What was used has not come to anything yet.
   bool has_more = false;               ///< The queue is not empty.
+  std::map<Key, double> released_s;    ///< When each key was let go last.
 
   // The mouse, logical pixels.
   MouseState mouse;
@@ -80,6 +81,8 @@ struct Ui::Implementation {
   [[nodiscard]] bool press_was_on(const Rect& place) const noexcept {
     return press_dialog == dialog && visible(place).contains(press_x, press_y);
   }
+  /// It has been let go for longer than a system does that repeats a key by releasing it.
+  [[nodiscard]] bool is_fresh(Key key) const;
   /// The first press of this chord becomes the caller's.
   bool take_key(const Chord& chord, bool with_repeats);
   void note_asked_for(const Chord& chord);

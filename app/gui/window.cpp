@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "app/gui/picture.h"
 #include "app/gui/window_state.h"
 #include "core/error.h"
 
@@ -23,23 +22,6 @@ constexpr double kIterationIntervalS = 0.05;
 constexpr double kIdleIntervalS = 1.0;
 // A hover, a closed dialog, a field that gets the keyboard: things that show one frame later.
 constexpr int kFramesAfterEvent = 3;
-
-Picture read_back_buffer(int width, int height) {
-  Picture picture = {.width = width, .height = height};
-  const std::size_t row = static_cast<std::size_t>(width) * 4;
-  const auto num_rows = static_cast<std::size_t>(height);
-  std::vector<std::uint8_t> from_below(row * num_rows);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, from_below.data());
-  picture.rgba.resize(from_below.size());
-  for (std::size_t y = 0; y < num_rows; ++y) {
-    std::copy_n(from_below.data() + (num_rows - 1 - y) * row, row,
-                picture.rgba.data() + y * row);
-  }
-  // The frame may be transparent to OpenGL; a picture of it is not.
-  for (std::size_t i = 3; i < picture.rgba.size(); i += 4) picture.rgba[i] = 255;
-  return picture;
-}
 
 }  // namespace
 
@@ -103,7 +85,6 @@ void Window::Implementation::draw(const Frame& frame) {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (frame_times.wanted()) glFinish();
   frame_times.end(FrameTimes::Part::kRender);
-  if (!wanted_pictures.empty()) save_wanted_pictures(width, height);
   glfwSwapBuffers(main);
   frame_times.end(FrameTimes::Part::kShow);
   frame_times.end_frame(drawn.view);
@@ -132,28 +113,6 @@ void Window::Implementation::show_cursor() {
   glfwSetCursor(main, wanted == ImGuiMouseCursor_TextInput ? text_cursor
                       : wanted == ImGuiMouseCursor_Hand    ? hand_cursor
                                                            : nullptr);
-}
-
-void Window::Implementation::save_wanted_pictures(int width, int height) {
-  const Picture whole = read_back_buffer(width, height);
-  for (const WantedPicture& wanted : std::exchange(wanted_pictures, {})) {
-    std::string problem;
-    try {
-      if (wanted.part.has_value()) {
-        const auto pixel = [&](float logical) {
-          return static_cast<int>(std::lround(logical * theme.scale()));
-        };
-        const Rect& part = *wanted.part;
-        write_png(wanted.file, cut_out(whole, pixel(part.x), pixel(part.y), pixel(part.width),
-                                       pixel(part.height)));
-      } else {
-        write_png(wanted.file, whole);
-      }
-    } catch (const core::Error& error) {
-      problem = error.what();
-    }
-    if (wanted.done) wanted.done(problem);
-  }
 }
 
 void Window::Implementation::something_happened(bool urgent) {
@@ -232,11 +191,5 @@ void Window::set_zoom(float zoom) {
 bool Window::second_is_open() const noexcept { return my_->second != nullptr; }
 
 void Window::close_second() { my_->second_is_unwanted = my_->second != nullptr; }
-
-void Window::save_picture(const std::filesystem::path& file, std::optional<Rect> part,
-                          std::function<void(std::string problem)> done) {
-  my_->wanted_pictures.push_back({file, part, std::move(done)});
-  my_->something_happened(true);
-}
 
 }  // namespace jnd::app::gui

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +15,15 @@ struct WindowSettings {
   float height = 1000;
   bool dark = false;
   float zoom = 1.0f;  ///< What the person chose, on top of the monitor's scale.
+};
+
+/// An OpenGL context beside the window's, whose textures are the window's too: for one other
+/// thread, which makes it current and lets go of it. Made and destroyed on the main thread.
+class SharedContext {
+ public:
+  virtual ~SharedContext() = default;
+  virtual void make_current() = 0;
+  virtual void let_go() = 0;
 };
 
 /// The window on the screen: GLFW, OpenGL and ImGui's renderer, of which nothing else knows. It
@@ -76,10 +83,8 @@ class Window {
   void close_second();
   [[nodiscard]] bool second_is_open() const noexcept;
 
-  /// Saves what the next frame shows, or a part of it (logical pixels), as PNG; `done` then
-  /// gets a sentence of what went wrong, "" if nothing.
-  void save_picture(const std::filesystem::path& file, std::optional<Rect> part,
-                    std::function<void(std::string problem)> done);
+  /// Throws `core::Error` where there cannot be one. It has to be gone before the window is.
+  [[nodiscard]] std::unique_ptr<SharedContext> make_shared_context();
 
  private:
   struct Implementation;

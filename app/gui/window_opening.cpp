@@ -42,6 +42,20 @@ void end_at_once_while_open() {
   std::_Exit(kEnvironmentLacks);
 }
 
+/// A window that nobody sees.
+class HiddenWindow final : public SharedContext {
+ public:
+  explicit HiddenWindow(GLFWwindow* window) : window_(window) {}
+  ~HiddenWindow() override { glfwDestroyWindow(window_); }
+  HiddenWindow(const HiddenWindow&) = delete;
+  HiddenWindow& operator=(const HiddenWindow&) = delete;
+  void make_current() override { glfwMakeContextCurrent(window_); }
+  void let_go() override { glfwMakeContextCurrent(nullptr); }
+
+ private:
+  GLFWwindow* window_;
+};
+
 int pixels(float logical, float scale) {
   return static_cast<int>(std::lround(logical * scale));
 }
@@ -185,6 +199,17 @@ void Window::open_second(const std::string& title, Frame frame) {
   ImGui::SetCurrentContext(my.context);
   my.install_callbacks(my.second, false);
   glfwShowWindow(my.second);
+}
+
+std::unique_ptr<SharedContext> Window::make_shared_context() {
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE);
+  GLFWwindow* hidden = glfwCreateWindow(16, 16, "jnd: pictures", nullptr, my_->main);
+  glfwDefaultWindowHints();
+  if (hidden == nullptr) {
+    throw core::Error("3D view: expected a second OpenGL context, found " + last_glfw_error());
+  }
+  return std::make_unique<HiddenWindow>(hidden);
 }
 
 void Window::Implementation::draw_second() {

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,7 +69,6 @@ struct Window::Implementation {
   void clear() const;
   void close_second();
   void show_cursor();
-  void save_wanted_pictures(int width, int height);
   [[nodiscard]] double next_frame_s(double now_s) const;
   void wait(double now_s) const;
 
@@ -105,13 +103,6 @@ struct Window::Implementation {
   int frames_left = 1;
   bool is_urgent = true;
   double last_frame_s = 0.0;
-
-  struct WantedPicture {
-    std::filesystem::path file;
-    std::optional<Rect> part;
-    std::function<void(std::string)> done;
-  };
-  std::vector<WantedPicture> wanted_pictures;
 };
 
 }  // namespace jnd::app::gui

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <libintl.h>
 
+#include <algorithm>
 #include <clocale>
 #include <cstdlib>
+#include <iterator>
 
 namespace jnd::app {
 namespace {
@@ -46,6 +48,27 @@ bool begin_language(const std::filesystem::path& folder) {
   // The system's own sentences then stay English, too.
   if (!is_spoken) std::setlocale(LC_MESSAGES, "C");
   return is_spoken;
+}
+
+bool writes_decimal_comma(std::string_view locale) noexcept {
+  // Of the languages of Europe and Latin America that write one. Switzerland and Mexico do not.
+  constexpr std::string_view kLanguages[] = {
+      "af", "bg", "ca", "cs", "da", "de", "el", "es", "et", "eu", "fi", "fr",
+      "gl", "hr", "hu", "id", "is", "it", "lt", "lv", "nb", "nl", "nn", "no",
+      "pl", "pt", "ro", "ru", "sk", "sl", "sr", "sv", "tr", "uk", "vi"};
+  const std::string_view language = locale.substr(0, locale.find_first_of("_.@"));
+  const std::string_view whole = locale.substr(0, locale.find_first_of(".@"));
+  if (whole.ends_with("_CH") || whole.ends_with("_MX")) return false;
+  return std::ranges::find(kLanguages, language) != std::end(kLanguages);
+}
+
+bool writes_decimal_comma() noexcept {
+  for (const char* name : {"LC_ALL", "LC_NUMERIC", "LANG"}) {
+    const char* value = std::getenv(name);
+    if (value != nullptr && *value != '\0')
+      return writes_decimal_comma(std::string_view(value));
+  }
+  return false;
 }
 
 const char* tr(const char* english) noexcept {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace jnd::app {
 
@@ -59,5 +60,12 @@ template <typename... Rest>
 /// set. Returns whether there are words of another language than English. Before there is a
 /// second thread.
 bool begin_language(const std::filesystem::path& folder);
+
+/// Who writes numbers by this locale ("de_DE.UTF-8") writes half as "0,5". Needs no locale of
+/// that name to be installed.
+[[nodiscard]] bool writes_decimal_comma(std::string_view locale) noexcept;
+/// The same by LC_ALL, LC_NUMERIC or LANG, the first of them that says anything: how numbers
+/// that are typed are read.
+[[nodiscard]] bool writes_decimal_comma() noexcept;
 
 }  // namespace jnd::app

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "analysis/export/csv_export.h"
 #include "app/language/words.h"
-#include "app/results/noted_export.h"
+#include "app/results/study_export.h"
 #include "app/results/study_report.h"
 #include "app/session/reopened_session.h"
 #include "app/session/replay_check.h"
@@ -56,22 +56,40 @@ ActionOutcome outcome_of(const core::Integrity& integrity, const std::string& wh
 
 }  // namespace
 
-ActionOutcome export_tables(const fs::path& folder, const fs::path& target,
-                            WorkControl& control) {
+ActionOutcome export_study(const fs::path& folder, const fs::path& target,
+                           const ExportChoice& choice, WorkControl& control) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
-  require_results_open(store);
-  control.progress(0.1);
+  StudyExportRequest request{.format = choice.format, .out = target};
+  request.data.recordings = choice.recordings;
+  request.data.on_progress = [&control](double done) { control.progress(done); };
+  request.data.keep_going = [&control] { control.stop_if_cancelled(); };
   control.stop_if_cancelled();
-  const std::string forgotten = noted_export(store, target, "csv", /*pilot=*/false);
-  analysis::export_csv(store, target,
-                       {.keep_going = [&control] { control.stop_if_cancelled(); }});
+  StudyExport written = write_study_export(store, request);
   std::int64_t answers = 0;
   for (const core::SessionOverview& one : store.overview()) answers += one.num_answers;
   control.progress(1.0);
-  return {.sentence = tr("{} of {} are written to {}, with a codebook", answers_words(answers),
-                         sessions_words(std::ssize(store.sessions())), target.string()),
-          .problems = forgotten.empty() ? std::vector<std::string>()
-                                        : std::vector<std::string>{forgotten}};
+  if (!written.forgotten.empty()) written.problems.push_back(written.forgotten);
+  const std::string what = choice.format == "bids"   ? tr("a BIDS data set")
+                           : choice.format == "hdf5" ? tr("tables and an HDF5 file")
+                                                     : tr("tables with a codebook");
+  return {.sentence = tr("{} of {} are written to {}: {}", answers_words(answers),
+                         sessions_words(std::ssize(store.sessions())), target.string(), what),
+          .problems = std::move(written.problems),
+          .opens = target};
+}
+
+ActionOutcome save_figures(StudyFiguresRequest request, WorkControl& control) {
+  request.on_progress = [&control](double done) {
+    control.stop_if_cancelled();
+    control.progress(done);
+  };
+  StudyFigures written = write_study_figures(request);
+  return {.ok = written.num_drawn > 0,
+          .sentence =
+              trn("{} figure is in {}, as SVG and PDF", "{} figures are in {}, as SVG and PDF",
+                  written.num_drawn, request.out.string()),
+          .problems = std::move(written.problems),
+          .opens = request.out};
 }
 
 ActionOutcome verify_study(const fs::path& folder, WorkControl& control) {
@@ -124,7 +142,8 @@ ActionOutcome write_report(const fs::path& folder, const fs::path& target,
                           : trn("report.html and report.pdf with {} figure are in {}",
                                 "report.html and report.pdf with {} figures are in {}",
                                 std::ssize(outcome.figures), target.string()),
-          .problems = outcome.problems};
+          .problems = outcome.problems,
+          .opens = outcome.html};
 }
 
 ActionOutcome unblind_study(const fs::path& folder, const std::string& reason) {

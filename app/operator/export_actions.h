@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/operator/background_task.h"
+#include "app/results/study_figures.h"
 
 namespace jnd::app {
 
@@ -14,16 +15,24 @@ struct ActionOutcome {
   bool caution = false;  ///< It is done, but the sentence says what is not as it should be.
   std::string sentence;  ///< "13 sessions and 1040 answers are in ..."
   std::vector<std::string> problems;  ///< Of a verification, a sentence each.
+  std::filesystem::path opens{};      ///< What it wrote, a file or a folder; "" for nothing.
 };
 
 // Each is for a `BackgroundTask`. All throw `core::Error` where it cannot be done, and leave
 // the study as it is. Not real time.
 
-/// Tables with a codebook. `target` must not exist or be empty. Refused for a double-blind
-/// study that nobody has unblinded.
-[[nodiscard]] ActionOutcome export_tables(const std::filesystem::path& folder,
-                                          const std::filesystem::path& target,
-                                          WorkControl& control);
+struct ExportChoice {
+  std::string format;       ///< "csv", "bids", "hdf5"
+  bool recordings = false;  ///< Every sample as well; hdf5 always has them.
+};
+/// A data set as `jnd export` writes it. `target` must not exist or be empty. Refused for a
+/// double-blind study that nobody has unblinded.
+[[nodiscard]] ActionOutcome export_study(const std::filesystem::path& folder,
+                                         const std::filesystem::path& target,
+                                         const ExportChoice& choice, WorkControl& control);
+
+/// Charts or boxes as SVG and PDF, by the code of `jnd report`. Refused like `export_study`.
+[[nodiscard]] ActionOutcome save_figures(StudyFiguresRequest request, WorkControl& control);
 
 /// Reads everything back and compares it with what should be there.
 [[nodiscard]] ActionOutcome verify_study(const std::filesystem::path& folder,
@@ -35,7 +44,7 @@ struct ActionOutcome {
                                           WorkControl& control);
 
 /// The report of `jnd report`: HTML, PDF where a browser is installed, figures with their data.
-/// `target` must not exist or be empty. Refused like `export_tables`.
+/// `target` must not exist or be empty. Refused like `export_study`.
 [[nodiscard]] ActionOutcome write_report(const std::filesystem::path& folder,
                                          const std::filesystem::path& target,
                                          WorkControl& control);

@@ -174,6 +174,7 @@ void OperatedSession::abandon_presentation() {
   running_.apparatus().render(core::free_space());
   running_.apparatus().go_home();
   feeling_.reset();
+  doubted_.reset();
   presenter_.abandon();
   if (begun_ && !state().ended && failure_.empty()) presenter_.tell_exposure();
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/operator/answer_doubts.h"
 #include "app/operator/operator_request.h"
 #include "app/operator/session_view.h"
 #include "app/session/attachment_watch.h"
@@ -49,6 +50,8 @@ class OperatedSession {
     std::vector<device::ScheduledFault> injected_faults;  ///< For tests and rehearsals.
     /// Gets every sample as `trace` does, from the thread that stores it; may be empty.
     std::function<void(const core::Sample&)> on_sample;
+    /// Asks about an unlikely answer before it is stored; see answer_doubts.h.
+    bool asks_about_answers = true;
   };
 
   /// Starts the device; throws `Error` if it cannot be.
@@ -72,6 +75,14 @@ class OperatedSession {
     experiments::MediumSetting setting;
   };
 
+  /// An answer that was given and is not stored before somebody has confirmed it.
+  struct Doubted {
+    operate::Answer answer;
+    std::int64_t attempt = 0;
+    double response_time_s = 0.0;  ///< Until it was given, not until it was confirmed.
+    std::vector<AnswerDoubt> doubts;
+  };
+
   void carry_out_requests();
   void carry_out(const OperatorRequest& request);
   [[nodiscard]] bool must_wait(const OperatorRequest& request) const;
@@ -87,6 +98,18 @@ class OperatedSession {
   void rest_before_trial();
   void abandon_presentation();
   void end_feeling(bool counts);
+  [[nodiscard]] std::optional<double> magnitude_before(
+      const experiments::TrialState& trial) const;
+  [[nodiscard]] std::map<std::string, std::int64_t> strokes_in(
+      const experiments::TrialState& trial) const;
+  [[nodiscard]] GivenAnswer given_answer(const experiments::TrialState& trial,
+                                         experiments::AnswerKind kind,
+                                         const std::optional<double>& value) const;
+  /// What was asked about still waits for what becomes of it.
+  [[nodiscard]] bool doubt_stands() const;
+  [[nodiscard]] std::string doubted_words() const;
+  [[nodiscard]] std::optional<DoubtView> doubt_view() const;
+  [[nodiscard]] std::string note_of_doubt(const char* outcome) const;
   void give_up(const std::string& why);
   void remember_stop() const;
   void forget_stop() const;
@@ -103,6 +126,8 @@ class OperatedSession {
 
   [[nodiscard]] bool is_alone() const { return row_.device == "mouse"; }
   [[nodiscard]] double now_s() const;
+  /// Since this visit began.
+  [[nodiscard]] double visit_s() const { return begun_ ? now_s() - begun_s_ : 0.0; }
   [[nodiscard]] const experiments::SessionState& state() const;
   [[nodiscard]] const experiments::Stage* stage() const;
   [[nodiscard]] const experiments::Block* block() const;
@@ -129,9 +154,11 @@ class OperatedSession {
   [[nodiscard]] std::vector<AnswerLine> answer_lines() const;
   [[nodiscard]] std::pair<std::string, std::string> labels_of(
       const experiments::Block& block) const;
+  /// As it was given: percent, 1 and 0, the interval chosen; none is "cannot tell".
   [[nodiscard]] std::string answer_in_words(const experiments::Block& block,
                                             experiments::AnswerKind kind,
-                                            const experiments::TrialState& trial) const;
+                                            const std::optional<double>& answer) const;
+  [[nodiscard]] AnswerForm form_of(const experiments::Block& block) const;
   [[nodiscard]] std::string level_of(const experiments::TrialState& trial) const;
   void describe_loop(SessionView& view) const;
   void describe_progress(SessionView& view) const;
@@ -164,6 +191,10 @@ class OperatedSession {
   std::int64_t resting_for_trial_ = 0;
   double break_until_s_ = 0.0;
   std::optional<double> first_felt_s_;  ///< The trial's reference, or first interval.
+  std::optional<Doubted> doubted_;      ///< See `doubt_stands`.
 };
+
+/// An answer that did not count, for the reason that is stored.
+[[nodiscard]] std::string given_words(const operate::Answer& answer);
 
 }  // namespace jnd::app

@@ -25,10 +25,9 @@ constexpr int kMostFaults = 3;         ///< In one sitting; after them somebody 
 
 [[noreturn]] void refuse(const std::string& sentence) { throw core::Error(sentence); }
 
-/// An answer that did not count, for the reason that is stored.
-std::string given_words(const operate::Answer& answer) {
-  if (!answer.value) return as_is("; the answer was \"cannot tell\"");
-  return fmt::format(fmt::runtime(as_is("; the answer was {:g}")), *answer.value);
+/// Nothing that anybody could read.
+bool is_blank(const std::string& words) {
+  return words.find_first_not_of(" \t\n") == std::string::npos;
 }
 
 /// Where the trial's intervals have an order of their own, what cannot be asked for by name.
@@ -74,7 +73,7 @@ struct OperatedSession::Act {
   void operator()(const operate::AnswerItem& given) const {
     require_running();
     if (given.stage != my.state().stage) refuse(tr("that question's stage is over"));
-    if (given.answer.empty()) refuse(tr("expected an answer, found none"));
+    if (is_blank(given.answer)) refuse(tr("expected an answer, found none"));
     const Step step = my.step();
     if (step != Step::kItem && step != Step::kFeeling && step != Step::kStageDone &&
         step != Step::kMedium) {
@@ -116,7 +115,7 @@ struct OperatedSession::Act {
     const Step step = my.step();
     if (step == Step::kBreak) {
       if (my.now_s() < my.break_until_s_) {
-        if (finish.reason.empty())
+        if (is_blank(finish.reason))
           refuse(tr("the rest is not over; going on early needs a reason"));
         my.session_.note(as_is("went on before the end of the rest: ") + finish.reason);
       }
@@ -134,6 +133,7 @@ struct OperatedSession::Act {
     my.session_.require_interval(present.interval);
     require_felt();
     require_in_time();
+    my.doubted_.reset();
     begin_feeling();
     if (!trial.under_way) {
       my.first_felt_s_.reset();
@@ -157,18 +157,33 @@ struct OperatedSession::Act {
     }
     my.session_.require_answer(answer.value);
     require_felt();
+    if (my.doubt_stands()) refuse(tr("the answer before waits to be confirmed"));
     require_in_time(given_words(answer));
+    double response_time_s = my.presenter_.felt_s();
     if (is_over) {
       const std::int64_t now_tick = my.running_.apparatus().next_tick() - 1;
       const auto since = static_cast<double>(now_tick - trial.presentations.back().first_tick);
-      return my.session_.answer(
-          answer.value, {.response_time_s = since / my.parameters_.study.device.rate_hz},
-          now_tick);
+      response_time_s = since / my.parameters_.study.device.rate_hz;
     }
-    const double response_time_s = my.presenter_.felt_s();
-    const Presenter::Felt felt = my.presenter_.end(Presenter::Afterwards::kFreeSpace);
-    require_ticks(felt, given_words(answer));
-    my.session_.answer(answer.value, {.response_time_s = response_time_s}, felt.last_tick);
+    std::vector<AnswerDoubt> doubts =
+        my.parameters_.asks_about_answers
+            ? doubts_about(my.given_answer(trial, form.answer, answer.value))
+            : std::vector<AnswerDoubt>();
+    if (doubts.empty()) return store(answer, response_time_s);
+    my.doubted_ = Doubted{answer, trial.attempt, response_time_s, std::move(doubts)};
+  }
+
+  void operator()(const operate::StoreDoubted& confirmed) const {
+    require_doubt(confirmed.trial);
+    my.session_.note(my.note_of_doubt(as_is("stored")));
+    const Doubted doubted = *std::exchange(my.doubted_, std::nullopt);
+    store(doubted.answer, doubted.response_time_s);
+  }
+
+  void operator()(const operate::GoBack& back) const {
+    require_doubt(back.trial);
+    my.session_.note(my.note_of_doubt(as_is("not stored, the trial went on")));
+    my.doubted_.reset();
   }
 
   void operator()(const operate::Adjust& adjust) const {
@@ -184,6 +199,7 @@ struct OperatedSession::Act {
     }
     require_felt();
     require_in_time();
+    my.doubted_.reset();
     end_presentation();
     my.session_.adjust(adjust.direction, adjust.size);
     my.presenter_.begin(*my.block(), "test");
@@ -198,33 +214,49 @@ struct OperatedSession::Act {
     my.resting_for_trial_ = 0;
   }
 
+  void operator()(const operate::RunAgain& again) const {
+    require_running();
+    require_reason(again.reason);
+    my.session_.require_run_again(again.trial);
+    my.abandon_presentation();
+    my.session_.run_again(again.trial, again.reason);
+    my.resting_for_trial_ = 0;
+  }
+
   void operator()(const operate::Correct& correct) const {
     require_reason(correct.reason);
     my.session_.correct(correct.trial, correct.value, correct.reason);
   }
 
   void operator()(const operate::AddNote& note) const {
-    const bool has_words = note.text.find_first_not_of(" \t\n") != std::string::npos;
-    if (!my.begun_ || !has_words) refuse(tr("expected a note, found no words"));
+    if (!my.begun_ || is_blank(note.text)) refuse(tr("expected a note, found no words"));
     my.session_.note(note.text);
   }
 
   /// At any time, before the first stimulus and after the last.
   void operator()(const operate::ReportAdverseEvent& report) const {
-    if (report.text.find_first_not_of(" \t\n") == std::string::npos) {
-      refuse(tr("expected what happened, found no words"));
-    }
+    if (is_blank(report.text)) refuse(tr("expected what happened, found no words"));
     my.parameters_.store.add_adverse_event(my.row_.session, core::SystemClock().now_ns(),
                                            report.text);
   }
 
   void operator()(const operate::Pause& pause) const {
     require_running();
+    const std::string given = my.doubted_words();
     my.abandon_presentation();
     if (my.state().current_trial() && my.state().trial(*my.state().current_trial()).under_way) {
-      my.session_.discard_attempt("paused");
+      my.session_.discard_attempt("paused" + given);
     }
     my.session_.pause(pause.reason);
+  }
+
+  /// Also after a fault has come in between.
+  void operator()(const operate::ExplainPause& why) const {
+    require_reason(why.reason);
+    if (my.state().unexplained_pause == 0 || my.state().ended) {
+      refuse(tr("no pause waits for its reason"));
+    }
+    my.session_.explain_pause(why.reason);
   }
 
   void operator()(const operate::GoOn&) const {
@@ -302,6 +334,22 @@ struct OperatedSession::Act {
   void end_stimulus() const { end_presentation(Presenter::Afterwards::kFreeSpace); }
 
  private:
+  void require_doubt(std::int64_t trial) const {
+    (void)require_trial(trial);
+    if (!my.doubt_stands()) refuse(tr("no answer waits to be confirmed"));
+  }
+
+  /// With what was felt up to now; the time is until it was given.
+  void store(const operate::Answer& answer, double response_time_s) const {
+    if (!my.presenter_.under_way()) {
+      return my.session_.answer(answer.value, {.response_time_s = response_time_s},
+                                my.running_.apparatus().next_tick() - 1);
+    }
+    const Presenter::Felt felt = my.presenter_.end(Presenter::Afterwards::kFreeSpace);
+    require_ticks(felt, given_words(answer));
+    my.session_.answer(answer.value, {.response_time_s = response_time_s}, felt.last_tick);
+  }
+
   /// Nobody goes on from a stimulus that was not felt for as long as the study asks.
   void require_felt() const {
     if (const double left_s = my.least_left_s(); left_s > 0.0) {
@@ -355,7 +403,7 @@ struct OperatedSession::Act {
   }
 
   static void require_reason(const std::string& reason) {
-    if (reason.empty()) refuse(tr("expected a reason, found none"));
+    if (is_blank(reason)) refuse(tr("expected a reason, found none"));
   }
 
   /// The trial that the operator saw must still be the one that waits: a key pressed twice
@@ -405,7 +453,8 @@ void OperatedSession::carry_out(const OperatorRequest& request) {
 /// What a stimulus' longest time and the deadline of an answer end, without anybody's asking.
 void OperatedSession::watch_times() {
   if (!failure_.empty() || left_ || !begun_ || state().paused || block() == nullptr) return;
-  const bool is_late = deadline_left_s().value_or(1.0) <= 0.0;
+  // An answer that is asked about came in time.
+  const bool is_late = !doubt_stands() && deadline_left_s().value_or(1.0) <= 0.0;
   const std::optional<double>& longest_s = block()->max_stimulus_s;
   const bool is_long = longest_s && presenter_.under_way() && feels_stimulus() &&
                        presenter_.felt_s() >= *longest_s;

@@ -6,10 +6,12 @@
 #include "analysis/results/block_words.h"
 #include "app/language/words.h"
 #include "app/operator/operated_session.h"
+#include "app/operator/session_count.h"
 #include "experiments/order/block_turns.h"
 #include "experiments/procedures/expected_session.h"
 #include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/procedures/task.h"
 
 // What a view of a session counts and lists. The blocks of a group are one here: whose turn it
 // is would tell which stimulus comes.
@@ -135,19 +137,27 @@ std::vector<AnswerLine> OperatedSession::answer_lines() const {
     const int number = ++in_block[first_together(its_stage)];
     if (!trial.is_answered) continue;
     const Block& its_block = std::get<Block>(session_.stages().at(its_stage)->content);
-    const AnswerKind kind = procedure_named(its_block.procedure).form(its_block).answer;
     AnswerLine line{.trial = static_cast<std::int64_t>(i) + 1,
                     .in_block = number,
                     .block = title_of(its_stage),
-                    .kind = kind,
-                    .takes_cannot_tell = its_block.cannot_tell,
+                    .form = form_of(its_block),
                     .response_time_s = trial.measures.response_time_s.value_or(0.0)};
-    line.answer = answer_in_words(its_block, kind, trial);
+    const AnswerKind kind = line.form.kind;
+    std::optional<double> given;
+    if (trial.response) {
+      given = answer_of(kind, trial.planned, *trial.response, trial.measures.chosen_interval);
+    }
+    line.answer = answer_in_words(its_block, kind, given);
     line.can_undo = last == line.trial && state().is_under_way(trial.stage) && !state().ended;
+    line.can_run_again = session_.can_run_again(line.trial) && !state().ended;
     lines.push_back(std::move(line));
   }
   std::reverse(lines.begin(), lines.end());
   if (lines.size() > kMostAnswersShown) lines.resize(kMostAnswersShown);
+  for (AnswerLine& line : lines) {
+    const TrialState& trial = state().trial(line.trial);
+    line.hint = shown_doubts(doubts_about(given_answer(trial, line.form.kind, trial.response)));
+  }
   return lines;
 }
 
@@ -177,7 +187,13 @@ void OperatedSession::describe_progress(SessionView& view) const {
     }
     view.stages.push_back(std::move(line));
   }
-  view.elapsed_s = begun_ ? now_s() - begun_s_ : 0.0;
+  view.elapsed_s =
+      1e-9 * static_cast<double>(begun_ ? state().earlier_visits_ns : state().visited_ns()) +
+      visit_s();
+  const SessionCount count = count_of_session(state(), stages);
+  view.trials_on_disk = count.num_answers;
+  view.num_trials = count.num_trials;
+  view.num_trials_is_expected = count.is_expected;
   view.left_s = std::max(0.0, whole_s - done_s);
   view.done_ratio = state().completed ? 1.0 : whole_s > 0.0 ? done_s / whole_s : 0.0;
 }

@@ -281,63 +281,6 @@ MediumView OperatedSession::medium_view(const Exploration& medium) const {
   return view;
 }
 
-std::pair<std::string, std::string> OperatedSession::labels_of(const Block& block) const {
-  const auto label = [&](const Text& text, const char* otherwise) {
-    return text.empty() ? otherwise : words(text);
-  };
-  switch (task_of(block)) {
-    case Task::kTwoInterval:
-      return {label(block.first_label, tr("First")), label(block.second_label, tr("Second"))};
-    case Task::kSameDifferent:
-      return {label(block.yes_label, tr("Different")), label(block.no_label, tr("Same"))};
-    case Task::kReminder:
-    case Task::kYesNo:
-    case Task::kThreeInterval:
-    case Task::kOddity:
-    case Task::kAbx:
-    case Task::kMatchToSample:
-      break;
-  }
-  return {label(block.yes_label, tr("Yes")), label(block.no_label, tr("No"))};
-}
-
-std::vector<TrialView::Choice> OperatedSession::choices_of(const Block& block,
-                                                           const TrialForm& form) const {
-  const std::pair<const Text&, const char*> kNames[] = {{block.first_label, tr("First")},
-                                                        {block.second_label, tr("Second")},
-                                                        {block.third_label, tr("Third")}};
-  std::vector<TrialView::Choice> choices;
-  for (int i = form.first_choice; i < form.first_choice + form.num_choices; ++i) {
-    const auto& [written, otherwise] = kNames[i - 1];
-    choices.push_back({i, written.empty() ? std::string(otherwise) : words(written)});
-  }
-  return choices;
-}
-
-/// As it was given: a chosen interval does not tell which held the test.
-std::string OperatedSession::answer_in_words(const Block& block, AnswerKind kind,
-                                             const TrialState& trial) const {
-  if (!trial.response) return tr("cannot tell");
-  const double answer =
-      answer_of(kind, trial.planned, *trial.response, trial.measures.chosen_interval);
-  if (kind == AnswerKind::kInterval) {
-    for (const TrialView::Choice& choice :
-         choices_of(block, procedure_named(block.procedure).form(block))) {
-      if (answer == choice.interval) return choice.label;
-    }
-  }
-  const bool hidden = (hides_levels_ || is_alone()) && kind == AnswerKind::kMatch;
-  if (hidden) return tr("set");
-  if (kind == AnswerKind::kMatch) return level_words(block.quantity, answer);
-  if (kind != AnswerKind::kYesNo && kind != AnswerKind::kInterval) {
-    return answer_words(kind, answer);
-  }
-  const bool has_own_words = kind == AnswerKind::kInterval ||
-                             task_of(block) == Task::kSameDifferent || !block.yes_label.empty();
-  const auto [yes, no] = labels_of(block);
-  return has_own_words ? (answer == 1.0 ? yes : no) : answer_words(kind, answer);
-}
-
 void OperatedSession::describe_loop(SessionView& view) const {
   const Apparatus& apparatus = running_.apparatus();
   view.telemetry = apparatus.telemetry();
@@ -414,10 +357,8 @@ SessionView OperatedSession::view() const {
     }
     if (!hides_levels_ && !view.trial) view.caution = cautions();
   }
+  view.doubt = doubt_view();
   view.answers = answer_lines();
-  view.trials_on_disk = static_cast<std::int64_t>(
-      std::count_if(state().trials.begin(), state().trials.end(),
-                    [](const TrialState& trial) { return trial.is_answered; }));
   view.notes = state().notes;
   describe_loop(view);
   describe_progress(view);
@@ -432,14 +373,14 @@ SessionView OperatedSession::view() const {
   view.loose_bits = loose_bits();
   view.loose_points = words_of_points(view.loose_bits);
   view.came_off_points = words_of_points(paused_for_bits_);
+  view.asks_why_paused = state().unexplained_pause != 0 && !state().ended;
   const core::Telemetry& now = running_.apparatus().telemetry();
   if (now.num_ticks > 0) view.absent_points = words_of_points(attachment_.absent_bits(now));
   view.refusal = refusal_;
   view.num_refusals = num_refusals_;
   view.remark = remark_;
-  view.advice =
-      limit_advice(parameters_.study.session_limits,
-                   num_answers_since_break(session_.stages(), state()), view.elapsed_s);
+  view.advice = limit_advice(parameters_.study.session_limits,
+                             num_answers_since_break(session_.stages(), state()), visit_s());
   if (const std::string over =
           exposure_words(parameters_.study.session_limits, state().exposure);
       !over.empty()) {

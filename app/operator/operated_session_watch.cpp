@@ -33,6 +33,7 @@ void OperatedSession::watch_for_faults() {
     was_paused_before_fault_ = state().paused;
     if (says_something_is_wrong(now.fault)) ++num_own_faults_;
   }
+  const std::string given = doubted_words();
   known_fault_ = now.fault;
   rearming_ = false;
   abandon_presentation();
@@ -40,7 +41,8 @@ void OperatedSession::watch_for_faults() {
   if (!begun_ || state().ended || !core::is_failure(now.fault)) return;
   running_.keep_fault();
   if (const auto trial = state().current_trial(); trial && state().trial(*trial).under_way) {
-    session_.put_off_attempt(std::string(as_is("fault: ")) + std::string(name(now.fault)));
+    session_.put_off_attempt(std::string(as_is("fault: ")) + std::string(name(now.fault)) +
+                             given);
   }
   running_.keep_timing();
 }
@@ -66,10 +68,11 @@ void OperatedSession::watch_for_loose_points() {
   if (!presenter_.under_way() && !feeling_) return;
   const std::uint8_t came_off = attachment_.came_off_bits(running_.apparatus().telemetry());
   if (came_off == 0) return;
+  const std::string given = doubted_words();
   abandon_presentation();
   const std::string reason = came_off_reason(came_off);
   if (const auto trial = state().current_trial(); trial && state().trial(*trial).under_way) {
-    session_.put_off_attempt(reason);
+    session_.put_off_attempt(reason + given);
   }
   session_.pause(reason);
   paused_for_bits_ = came_off;

@@ -51,6 +51,16 @@ struct Answer {
   std::optional<double> value = 0.0;
 };
 
+/// Of an answer that was asked about (`SessionView::doubt`): it is stored as it was given, with
+/// the time that it took.
+struct StoreDoubted {
+  std::int64_t trial = 0;
+};
+/// It was none: the trial goes on.
+struct GoBack {
+  std::int64_t trial = 0;
+};
+
 struct Adjust {
   std::int64_t trial = 0;
   experiments::Direction direction = experiments::Direction::kRaise;
@@ -60,6 +70,12 @@ struct Adjust {
 
 /// Takes the last answer of the block back; its trial is run again.
 struct Undo {
+  std::string reason;
+};
+/// The same for any answer of the block under way whose loss decides nothing about the others,
+/// and for the last one.
+struct RunAgain {
+  std::int64_t trial = 0;
   std::string reason;
 };
 /// Sets an answer of any block right, its presentations untouched.
@@ -75,7 +91,11 @@ struct AddNote {
 struct ReportAdverseEvent {
   std::string text;
 };
+/// Holds at once; why may be said afterwards.
 struct Pause {
+  std::string reason;
+};
+struct ExplainPause {
   std::string reason;
 };
 struct GoOn {};
@@ -106,9 +126,10 @@ struct Leave {
 using OperatorRequest =
     std::variant<operate::Begin, operate::AnswerItem, operate::FeelMedium,
                  operate::FinishMedium, operate::FinishStage, operate::Present, operate::Answer,
-                 operate::Adjust, operate::Undo, operate::Correct, operate::AddNote,
-                 operate::ReportAdverseEvent, operate::Pause, operate::GoOn,
-                 operate::GoOnWithout, operate::ReleaseStop, operate::Rearm, operate::EndEarly,
-                 operate::Leave>;
+                 operate::StoreDoubted, operate::GoBack, operate::Adjust, operate::Undo,
+                 operate::RunAgain, operate::Correct, operate::AddNote,
+                 operate::ReportAdverseEvent, operate::Pause, operate::ExplainPause,
+                 operate::GoOn, operate::GoOnWithout, operate::ReleaseStop, operate::Rearm,
+                 operate::EndEarly, operate::Leave>;
 
 }  // namespace jnd::app

@@ -298,6 +298,62 @@ std::map<std::string, std::string> titles_of(const experiments::Study& study,
   return titles;
 }
 
+/// What the program calls something, "stroke_width_m", in words; blocks have their titles.
+std::string told_in_words(const ResultsSource& source, const std::string& told) {
+  const std::string sentence = source.in_titles(told);
+  const auto is_of_a_name = [](char letter) {
+    return letter == '_' || std::isalnum(static_cast<unsigned char>(letter)) != 0;
+  };
+  std::string words;
+  for (std::size_t at = 0; at < sentence.size();) {
+    std::size_t end = at;
+    while (end < sentence.size() && is_of_a_name(sentence[end])) ++end;
+    if (end == at) {
+      words += sentence[at++];
+      continue;
+    }
+    const std::string name = sentence.substr(at, end - at);
+    // Of a file or a path it is the name.
+    const bool is_of_a_file =
+        (at > 0 && sentence[at - 1] == '/') ||
+        (end + 1 < sentence.size() && sentence[end] == '.' && is_of_a_name(sentence[end + 1]));
+    words += is_of_a_file || name.find('_') == std::string::npos
+                 ? name
+                 : name_words(name, /*as_title=*/false);
+    at = end;
+  }
+  return words;
+}
+
+/// Everything that is read, so that no name of the program is.
+void tell_in_words(const ResultsSource& source, ResultsModel& model) {
+  const auto tell = [&source](std::string& told) { told = told_in_words(source, told); };
+  const auto tell_chart = [&tell](analysis::Chart& chart) {
+    tell(chart.detail);
+    tell(chart.reason);
+    tell(chart.caution);
+    for (analysis::ChartSeries& series : chart.series) tell(series.legend);
+  };
+  for (analysis::ChartSet& set : model.charts) {
+    tell(set.heading);
+    if (set.everybody) tell_chart(*set.everybody);
+    for (analysis::Chart& chart : set.participants) tell_chart(chart);
+  }
+  for (ComparisonLine& line : model.comparisons) {
+    tell(line.name);
+    tell(line.detail);
+  }
+  for (NumberLine& line : model.numbers) {
+    tell(line.section);
+    tell(line.label);
+    tell(line.meaning);
+    tell(line.caution);
+    tell(line.published);
+  }
+  for (QualityChip& chip : model.quality) tell(chip.text);
+  for (TableRow& row : model.rows) tell(row.note);
+}
+
 }  // namespace
 
 std::string ResultsSource::title(const std::string& block) const {
@@ -367,6 +423,7 @@ ResultsModel results_model(const std::filesystem::path& folder, WorkControl& con
   control.progress(0.9);
   control.stop_if_cancelled();
   Quality(store, study).describe(source, model.quality);
+  tell_in_words(source, model);
   control.progress(1.0);
   return model;
 }

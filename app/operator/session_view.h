@@ -132,16 +132,35 @@ struct MediumView {
   int index = 1, count = 1;
 };
 
+/// What an answer can be: the buttons or the field that its trial has.
+struct AnswerForm {
+  experiments::AnswerKind kind = experiments::AnswerKind::kYesNo;
+  std::string yes_label, no_label;
+  std::vector<TrialView::Choice> choices;  ///< Where an interval is chosen.
+  int num_steps = 0;                       ///< Of a rating: its last step.
+  std::string low_label, high_label;       ///< Of a rating: what stands at its ends.
+  std::string unit;                        ///< Of an intensity; may be empty.
+  bool takes_cannot_tell = false;
+  bool is_hidden = false;  ///< An intensity that nobody may know, and so nobody can type.
+};
+
 /// An answer as it stands in the list of the last ones.
 struct AnswerLine {
   std::int64_t trial = 0;
   int in_block = 1;
   std::string block;   ///< Title, or "Block 1".
   std::string answer;  ///< "yes", "120 %", "2.4" ("set" where it is hidden).
-  experiments::AnswerKind kind = experiments::AnswerKind::kYesNo;
-  bool takes_cannot_tell = false;
+  AnswerForm form;
   double response_time_s = 0.0;
+  std::string hint;       ///< What speaks against it: "no stroke in the test"; "" for nothing.
   bool can_undo = false;  ///< The last one of the block under way.
+  bool can_run_again = false;  ///< As `RunAgain`.
+};
+
+/// An answer that is asked about before it is stored.
+struct DoubtView {
+  std::int64_t trial = 0;
+  std::string sentence;  ///< "The answer is 99999 %: 700 times the last answer."
 };
 
 struct LoopView {
@@ -179,6 +198,7 @@ struct SessionView {
   std::optional<TrialView> trial;  ///< In a block, once it is drawn.
   std::optional<MediumView> medium;
   double break_left_s = 0.0, break_s = 0.0;
+  std::optional<DoubtView> doubt;      ///< Waits for `StoreDoubted` or `GoBack`.
   std::optional<bool> feedback_right;  ///< To be told of the last answer.
   bool missed_deadline = false;        ///< To be told: the last answer did.
   std::string practice;                ///< What a practice has come to, once it is over.
@@ -188,7 +208,7 @@ struct SessionView {
   std::vector<AnswerLine> answers;  ///< The newest first; at most fifty.
   std::vector<std::string> notes;
 
-  double elapsed_s = 0.0;   ///< Since this visit began.
+  double elapsed_s = 0.0;   ///< In all visits, without what lay between them.
   double left_s = 0.0;      ///< Expected.
   double done_ratio = 0.0;  ///< Share of the session that is done.
 
@@ -198,13 +218,17 @@ struct SessionView {
   SurroundingsView surroundings;
   LoopView loop;
   std::int64_t trials_on_disk = 0;  ///< Answers, that is.
-  std::int64_t last_sequence = 0;   ///< Of the last event on disk.
-  std::string fault;                ///< One sentence; "" for none.
-  std::string fault_name;           ///< "emergency_stop"
-  std::string loose_points;         ///< "the index finger": it came off; "" for none.
-  std::uint8_t loose_bits = 0;      ///< These points as bits, as `GoOnWithout` takes them.
-  std::string came_off_points;      ///< Why the session is paused; "" for another reason.
-  std::string absent_points;        ///< That do not hold the hand and never did; "" for none.
+  /// That the whole session will have, in every block.
+  std::int64_t num_trials = 0;
+  bool num_trials_is_expected = false;  ///< The answers decide how many.
+  std::int64_t last_sequence = 0;       ///< Of the last event on disk.
+  std::string fault;                    ///< One sentence; "" for none.
+  std::string fault_name;               ///< "emergency_stop"
+  std::string loose_points;             ///< "the index finger": it came off; "" for none.
+  std::uint8_t loose_bits = 0;          ///< These points as bits, as `GoOnWithout` takes them.
+  std::string came_off_points;          ///< Why the session is paused; "" for another reason.
+  bool asks_why_paused = false;         ///< The last pause holds, and nobody has said why.
+  std::string absent_points;  ///< That do not hold the hand and never did; "" for none.
   bool stop_pressed = false;
   std::uint64_t num_stop_presses = 0;  ///< As in `ReleaseStop`.
   bool is_disarmed = false;            ///< Nobody has armed the device yet: no fault.

@@ -11,6 +11,7 @@
 
 #include "analysis/results/block_words.h"
 #include "app/language/words.h"
+#include "app/operator/session_count.h"
 #include "app/operator/study_words.h"
 #include "app/preregistration/preregistration.h"
 #include "app/session/stored_session.h"
@@ -62,11 +63,19 @@ class Interruption {
                bool hides_levels)
       : store_(store), study_(study), hides_levels_(hides_levels) {}
 
+  /// All that a session will have, whether it is drawn yet or not.
+  /// Those drawn so far where its log cannot be read or its orders are of another study.
+  void try_to_count(const core::SessionRow& row, SessionLine& line) const try {
+    const SessionCount count =
+        count_of_session(state_of(row), stages_of_session(study_, row.cells));
+    line.num_trials = count.num_trials;
+    line.num_is_expected = count.is_expected;
+  } catch (const core::Error&) {
+    return;
+  }
+
   void describe(const core::SessionRow& row, InterruptedSession& session) const {
-    experiments::SessionState state;
-    for (const core::EventRow& event : store_.events(row.session)) {
-      experiments::apply(state, experiments::event_from_row(event));
-    }
+    const experiments::SessionState state = state_of(row);
     const std::vector<std::string> titles = shown_titles(
         stages_of_session(study_, row.cells), study_.languages.front(), hides_levels_);
     const auto stage = static_cast<std::size_t>(state.stage);
@@ -88,6 +97,13 @@ class Interruption {
   }
 
  private:
+  [[nodiscard]] experiments::SessionState state_of(const core::SessionRow& row) const {
+    experiments::SessionState state;
+    for (const core::EventRow& event : store_.events(row.session)) {
+      experiments::apply(state, experiments::event_from_row(event));
+    }
+    return state;
+  }
   /// Those of a block that is under way. Where answers decide, those drawn so far are not all
   /// there will be.
   static void add_trials(const experiments::SessionState& state, std::int64_t index,
@@ -207,6 +223,8 @@ StudyFolder open_study_folder(const fs::path& folder, std::int64_t now_ns) {
     const core::SessionOverview& overview = overviews[row.session];
     SessionLine line = line_of(row, overview, now_ns);
     if (!opened.hides_levels) line.cells = cells_in_words(study, row.cells);
+    // One that came to its end has drawn them all.
+    if (line.status != SessionStatus::kCompleted) interruption.try_to_count(row, line);
     count(line, done, opened);
     last_ns = std::max(last_ns, overview.last_time_ns.value_or(row.started_time_ns));
     // What was interrupted goes on in the study itself.

@@ -42,8 +42,9 @@ struct SessionLine {
   std::string device;
   std::string cells;  ///< The order assigned, in words; "" for one cell, or where it is hidden.
   std::int64_t num_answers = 0;
-  std::int64_t num_trials = 0;  ///< Drawn so far.
-  std::string when;             ///< As in `InterruptedSession`.
+  std::int64_t num_trials = 0;   ///< Of the whole session, whether drawn yet or not.
+  bool num_is_expected = false;  ///< The answers decide how many they are.
+  std::string when;              ///< As in `InterruptedSession`.
 };
 
 /// A study folder for a card, and its sessions for a table. Plain data.

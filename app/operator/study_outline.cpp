@@ -119,8 +119,9 @@ class Outliner {
     for (const auto& [counterbalance, arm] : stage.only_for) {
       const std::string where = name_words(counterbalance, false);
       const std::string is = name_words(arm, false);
-      conditions += conditions.empty() ? tr("only where {} is {}", where, is)
-                                       : tr(" and {} is {}", where, is);
+      if (!conditions.empty()) conditions += "; ";
+      conditions += where == is ? tr("only in the arm “{}”", is)
+                                : tr("only in the arm “{}” of “{}”", is, where);
     }
     return hides_ && !conditions.empty() ? tr("only for some participants") : conditions;
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include "app/language/words.h"
 #include "app/operator/session_words.h"
@@ -26,6 +28,13 @@ const Stage* block_named(const Study& study, const std::string& name) {
 std::string name_words(std::string name, bool as_title) {
   if (name.starts_with("num_")) name = tr("number of {}", name.substr(4));
   std::replace(name.begin(), name.end(), '_', ' ');
+  // Not "Pse" and "Jnd".
+  for (const auto& [small, capitals] : {std::pair{"pse", "PSE"}, {"jnd", "JND"}}) {
+    const std::string_view word = small;
+    const bool is_first =
+        name.starts_with(word) && (name.size() == word.size() || name[word.size()] == ' ');
+    if (as_title && is_first) return capitals + name.substr(word.size());
+  }
   if (as_title && name.size() > 1 && name[0] >= 'a' && name[0] <= 'z') {
     name[0] = static_cast<char>(name[0] - 'a' + 'A');
   }

@@ -6,16 +6,12 @@ namespace jnd::app {
 
 using namespace experiments;
 
-namespace {
-
 /// "test" and "reference" are "first" and "second", or "third", where the order is drawn.
-std::string name_of(const PresentationState& presented, const PlannedTrial& trial) {
+std::string shown_name(const PresentationState& presented, const PlannedTrial& trial) {
   if (presented.place > 0) return interval_name(static_cast<int>(presented.place));
   if (!trial.test_interval || presented.interval == "free_space") return presented.interval;
   return interval_name((presented.interval == "test") == (*trial.test_interval == 1) ? 1 : 2);
 }
-
-}  // namespace
 
 const char* interval_name(int place) noexcept {
   return place == 1 ? "first" : place == 2 ? "second" : "third";
@@ -40,12 +36,12 @@ std::string last_interval(const TrialForm& form) {
 std::string shown_interval(const TrialForm& form, const TrialState& trial) {
   if (trial.presentations.empty()) return "";
   const PresentationState& last = trial.presentations.back();
-  return form.order_is_drawn ? name_of(last, trial.planned) : last.interval;
+  return form.order_is_drawn ? shown_name(last, trial.planned) : last.interval;
 }
 
 bool felt(const TrialState& trial, const std::string& interval) {
   return std::ranges::any_of(trial.presentations, [&](const PresentationState& presented) {
-    return presented.interval == interval || name_of(presented, trial.planned) == interval;
+    return presented.interval == interval || shown_name(presented, trial.planned) == interval;
   });
 }
 

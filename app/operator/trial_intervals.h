@@ -10,6 +10,9 @@ namespace jnd::app {
 // What the stimuli of a trial are called for those who run it. Where the order is drawn they
 // are "first", "second" and, of three, "third", and nobody is told which of them is the test.
 
+/// Of a presentation of this trial.
+[[nodiscard]] std::string shown_name(const experiments::PresentationState& presented,
+                                     const experiments::PlannedTrial& trial);
 /// Of an interval, from 1.
 [[nodiscard]] const char* interval_name(int place) noexcept;
 /// Of those whose order is drawn, the first that was not felt in this attempt; "" for none.

@@ -22,11 +22,11 @@
 namespace jnd::app {
 namespace {
 
-constexpr const char* kLimits = "/etc/security/limits.d/realtime.conf";
+constexpr const char* kLimits = "/etc/security/limits.d/jnd.conf";
 
-std::string join_realtime(const char* limit) {
-  return std::string("add \"@realtime - ") + limit + "\" to " + kLimits +
-         ", join the group realtime and log in again";
+std::string join_group(const char* limit) {
+  return std::string("run `sudo jnd doctor --fix` and log in again: it puts \"@jnd - ") +
+         limit + "\" into " + kLimits + " and has you join the group jnd";
 }
 
 std::string words_of_limit(int resource, std::int64_t unit) {
@@ -91,7 +91,7 @@ MachineCheck cpu_governor() {
   }
   const bool ok = governors.empty() || governors == std::set<std::string>{"performance"};
   return {"cpu governor", ok, found.empty() ? "none that can be read" : found,
-          ok ? "" : "run: cpupower frequency-set -g performance"};
+          ok ? "" : "run `sudo jnd doctor --fix`, or: cpupower frequency-set -g performance"};
 }
 
 /// The device file is only opened: what is asked for lasts as long as it is open.
@@ -102,9 +102,8 @@ MachineCheck idle_states() {
   return {"idle states", ok,
           ok ? "can be kept away while the loop runs" : "cannot be kept away",
           ok ? ""
-             : "let the group realtime write to /dev/cpu_dma_latency: put "
-               "KERNEL==\"cpu_dma_latency\", GROUP=\"realtime\", MODE=\"0660\" into "
-               "/etc/udev/rules.d/99-realtime.rules"};
+             : "run `sudo jnd doctor --fix` and log in again: it lets the group jnd write to "
+               "/dev/cpu_dma_latency"};
 }
 
 MachineCheck processors() {
@@ -148,7 +147,7 @@ MachineCheck check_realtime_priority() {
   return {"real-time priority", ok,
           std::string(ok ? "SCHED_FIFO 80" : "SCHED_FIFO 80 refused") + "; limit rtprio " +
               words_of_limit(RLIMIT_RTPRIO, 1),
-          ok ? "" : join_realtime("rtprio 95")};
+          ok ? "" : join_group("rtprio 95")};
 }
 
 MachineCheck check_memory_lock() {
@@ -157,7 +156,7 @@ MachineCheck check_memory_lock() {
   return {"memory lock", ok,
           std::string(ok ? "mlockall works" : "mlockall refused") + "; limit memlock " +
               words_of_limit(RLIMIT_MEMLOCK, 1024) + " kB",
-          ok ? "" : join_realtime("memlock unlimited")};
+          ok ? "" : join_group("memlock unlimited")};
 }
 
 MachineCheck check_sleep() {

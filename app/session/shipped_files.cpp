@@ -24,8 +24,9 @@ fs::path shipped_folder() {
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
   fs::path installed = program.parent_path().parent_path() / "share" / "jnd";
-  if (is_share(installed)) return installed;
-  return JND_SOURCE_SHARE;
+  // A program that was built to be installed knows no source tree.
+  const fs::path source = JND_SOURCE_SHARE;
+  return is_share(installed) || source.empty() ? installed : source;
 }
 
 fs::path languages_folder() {

@@ -24,7 +24,7 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "loop_started",       "loop_measured",        "unblinded",
     "arming_changed",     "exposure_told",        "guard_noticed",
     "fitting_kept",       "question_answered",    "turn_taken",
-    "session_completed",  "session_ended_early"};
+    "pause_explained",    "session_completed",    "session_ended_early"};
 
 json exposure_json(const core::Exposure& exposure) {
   return {{"force_time_n_s", exposure.force_time_n_s},
@@ -188,6 +188,9 @@ struct Writer {
   }
   void operator()(const NoteAdded& e) const { data = {{"text", e.text}}; }
   void operator()(const Paused& e) const { data = {{"reason", e.reason}}; }
+  void operator()(const PauseExplained& e) const {
+    data = {{"pause_sequence", e.pause_sequence}, {"reason", e.reason}};
+  }
   void operator()(const Continued&) const {}
   void operator()(const FaultRaised& e) const { data = {{"fault", e.fault}}; }
   void operator()(const SessionResumed& e) const {
@@ -341,6 +344,10 @@ struct Reader {
   }
   void operator()(NoteAdded& e) const { data.at("text").get_to(e.text); }
   void operator()(Paused& e) const { data.at("reason").get_to(e.reason); }
+  void operator()(PauseExplained& e) const {
+    e.pause_sequence = whole_number(data.at("pause_sequence"), "pause_sequence");
+    data.at("reason").get_to(e.reason);
+  }
   void operator()(Continued&) const {}
   void operator()(FaultRaised& e) const { data.at("fault").get_to(e.fault); }
   void operator()(SessionResumed& e) const {

@@ -153,6 +153,11 @@ struct NoteAdded {
 struct Paused {
   std::string reason;
 };
+/// Why a session was paused, said after the pause was stored.
+struct PauseExplained {
+  std::int64_t pause_sequence = 0;  ///< Of the event `Paused` that holds no reason.
+  std::string reason;
+};
 struct Continued {};
 
 /// The loop latched a fault.
@@ -243,7 +248,7 @@ using EventData =
                  AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
                  FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
                  ArmingChanged, ExposureTold, GuardNoticed, FittingKept, QuestionAnswered,
-                 TurnTaken, SessionCompleted, SessionEndedEarly>;
+                 TurnTaken, PauseExplained, SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

@@ -433,12 +433,32 @@ void Session::require_undo() const {
 
 void Session::undo(const std::string& reason) {
   require_undo();
-  const std::int64_t last = *state_.last_answered_trial();
+  run_again(*state_.last_answered_trial(), reason);
+}
+
+bool Session::can_run_again(std::int64_t number) const {
+  if (number < 1 || number > std::ssize(state_.trials)) return false;
+  const TrialState& trial = state_.trial(number);
+  if (!trial.is_answered || !state_.is_under_way(trial.stage)) return false;
+  if (state_.last_answered_trial() == number) return true;
+  const Stage& stage = *parameters_.stages.at(static_cast<std::size_t>(trial.stage));
+  const Block& block = std::get<Block>(stage.content);
+  return !block.practice && !procedure_named(block.procedure).adapts();
+}
+
+void Session::require_run_again(std::int64_t number) const {
+  if (can_run_again(number)) return;
+  cannot("run a trial again",
+         "an answer of this block that decided nothing (correct it instead)");
+}
+
+void Session::run_again(std::int64_t number, const std::string& reason) {
+  require_run_again(number);
   if (const auto open = state_.current_trial(); open && state_.trial(*open).under_way) {
     discard_attempt("undo of the answer before");
   }
-  const TrialState& trial = state_.trial(last);
-  commit(AnswerUndone{last, trial.attempt, trial.answer_sequence, reason});
+  const TrialState& trial = state_.trial(number);
+  commit(AnswerUndone{number, trial.attempt, trial.answer_sequence, reason});
 }
 
 void Session::correct(std::int64_t number, const std::optional<double>& value,
@@ -497,6 +517,11 @@ void Session::include(std::int64_t trial, const std::string& reason) {
 void Session::note(const std::string& text) { commit(NoteAdded{text}); }
 
 void Session::pause(const std::string& reason) { commit(Paused{reason}); }
+
+void Session::explain_pause(const std::string& reason) {
+  if (state_.unexplained_pause == 0) cannot("explain a pause", "one without a reason");
+  commit(PauseExplained{state_.unexplained_pause, reason});
+}
 
 void Session::go_on() {
   if (!state_.paused) cannot("go on", "a pause");

@@ -131,6 +131,12 @@ class Session {
   /// Takes the last answer of the current block back, of interleaved blocks the last one of
   /// all; its trial is run again.
   void undo(const std::string& reason);
+  /// The same for any answer of the block under way that nothing has been drawn for since: of
+  /// procedures whose answers decide what comes next, and of practice, the last one alone.
+  [[nodiscard]] bool can_run_again(std::int64_t number) const;
+  /// Throws as `run_again` would.
+  void require_run_again(std::int64_t number) const;
+  void run_again(std::int64_t number, const std::string& reason);
   /// Sets an earlier answer right, its presentations untouched; `value` as in `answer`, in
   /// production the intensity.
   void correct(std::int64_t number, const std::optional<double>& value,
@@ -142,7 +148,10 @@ class Session {
   void include(std::int64_t trial, const std::string& reason);
 
   void note(const std::string& text);
+  /// `reason`: "" where it is still to come, see `explain_pause`.
   void pause(const std::string& reason);
+  /// Says why the last pause was, which was stored without a reason and stays as it is.
+  void explain_pause(const std::string& reason);
   void go_on();
   void fault(const std::string& words);
   void resume(const std::string& choice, std::int64_t lost_first_tick,

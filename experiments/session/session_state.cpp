@@ -13,6 +13,7 @@ struct Fold {
 
   void operator()(const SessionStarted& e) const {
     state.started = true;
+    state.visit_began_ns = event.time_ns;
     state.language = e.language;
   }
   void operator()(const StageEntered& e) const {
@@ -78,6 +79,7 @@ struct Fold {
     trial.presentations.back().last_tick = e.last_tick;
     trial.presentations.back().delivered_damping_n_s_per_m =
         e.summary.measures.delivered_damping_n_s_per_m;
+    trial.presentations.back().num_strokes = e.summary.measures.num_strokes;
     trial.last_tick = e.last_tick;
     if (e.summary.exposure) state.exposure += *e.summary.exposure;
     saw_tick(e.last_tick);
@@ -143,11 +145,23 @@ struct Fold {
   void operator()(const TrialExcluded& e) const { of(e.trial).excluded = true; }
   void operator()(const TrialIncluded& e) const { of(e.trial).excluded = false; }
   void operator()(const NoteAdded& e) const { state.notes.push_back(e.text); }
-  void operator()(const Paused&) const { state.paused = true; }
+  void operator()(const Paused& e) const {
+    state.paused = true;
+    state.unexplained_pause = e.reason.empty() ? event.sequence : 0;
+  }
+  void operator()(const PauseExplained& e) const {
+    if (e.pause_sequence < 1 || e.pause_sequence != state.unexplained_pause) {
+      damaged("a pause without a reason");
+    }
+    state.unexplained_pause = 0;
+  }
   void operator()(const Continued&) const { state.paused = false; }
   void operator()(const FaultRaised&) const { state.paused = true; }
   void operator()(const SessionResumed& e) const {
     state.paused = false;
+    state.earlier_visits_ns = state.visited_ns();
+    state.visit_began_ns = event.time_ns;
+    state.unexplained_pause = 0;  // Whoever could have said why is gone.
     saw_tick(e.lost_last_tick);
   }
   void operator()(const LoopStarted&) const {}
@@ -262,6 +276,10 @@ void apply(SessionState& state, const Event& event) {
   std::visit(Fold{state, event}, event.data);
   state.last_sequence = event.sequence;
   state.last_time_ns = event.time_ns;
+  const bool is_afterwards = std::holds_alternative<TrialExcluded>(event.data) ||
+                             std::holds_alternative<TrialIncluded>(event.data) ||
+                             std::holds_alternative<Unblinded>(event.data);
+  if (!is_afterwards) state.visit_last_ns = event.time_ns;
 }
 
 }  // namespace jnd::experiments

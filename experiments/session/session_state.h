@@ -18,7 +18,8 @@ struct PresentationState {
   std::int64_t started_time_ns = 0;
   std::optional<std::int64_t> last_tick;                ///< Unset while it is being felt.
   std::optional<double> delivered_damping_n_s_per_m{};  ///< As `core::PresentationMeasures`.
-  std::int64_t place = 0;  ///< Of three intervals which one, from 1; 0: of none.
+  std::int64_t place = 0;        ///< Of three intervals which one, from 1; 0: of none.
+  std::int64_t num_strokes = 0;  ///< Of one that has ended.
 };
 
 struct TrialState {
@@ -55,6 +56,7 @@ struct SessionState {
   bool ended = false;
   bool completed = false;
   bool paused = false;
+  std::int64_t unexplained_pause = 0;  ///< Event of a pause that nobody has explained; 0: none.
   /// The stage under way, or the next one; of interleaved blocks the one whose turn it is.
   std::int64_t stage = 0;
   bool stage_open = false;          ///< Entered and not finished.
@@ -74,6 +76,16 @@ struct SessionState {
   std::int64_t last_sequence = 0;
   std::int64_t last_time_ns = 0;
   std::int64_t last_tick = -1;  ///< The last tick that any event speaks of.
+  /// Of the visits before this one, and when this one began and was heard of last. What is done
+  /// to a session long after it belongs to none.
+  std::int64_t earlier_visits_ns = 0;
+  std::int64_t visit_began_ns = 0, visit_last_ns = 0;
+
+  /// All visits up to the last event, without what lay between them.
+  [[nodiscard]] std::int64_t visited_ns() const {
+    return earlier_visits_ns +
+           (visit_last_ns > visit_began_ns ? visit_last_ns - visit_began_ns : 0);
+  }
 
   /// One of the stages that were entered and not finished.
   [[nodiscard]] bool is_under_way(std::int64_t of_stage) const {

@@ -32,6 +32,7 @@ class Walk {
 
   void to(const std::string& view) {
     if (view == "session") return to_session("lumped");
+    if (view == "session_exoskeleton") return to_session("exoskeleton");
     if (view == "apparatus") {
       to_session("exoskeleton");
       person_.use("apparatus");
@@ -106,6 +107,31 @@ void window_frame(benchmark::State& state, const std::string& view) {
   });
 }
 
+/// The apparatus is looked at for the first time: the longest frame from then on, for which the
+/// heartbeat waits, and how long it takes until its picture is there. `stopped` is 1 where the
+/// force was cut for it.
+void window_first_3d(benchmark::State& state) {
+  measure(state, [&] {
+    MeasuredWindow window(true);
+    Walk(window).to("session_exoskeleton");
+    const std::size_t before = window.frames().size();
+    const auto began = std::chrono::steady_clock::now();
+    window.person().use("apparatus");
+    window.person().wait_for_text("picture of the apparatus");
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - began;
+    sleep_s(1.0);
+    std::vector<double> all;
+    const std::vector<MeasuredWindow::Frame> frames = window.frames();
+    for (std::size_t i = before; i < frames.size(); ++i) all.push_back(frames[i].ms());
+    state.SetIterationTime(waited.count());
+    state.counters["longest_frame_ms"] = percentile(all, 1.0);
+    state.counters["frames"] = static_cast<double>(all.size());
+    state.counters["stopped"] =
+        window.person().every_text().find("window stopped answering") == std::string::npos ? 0
+                                                                                           : 1;
+  });
+}
+
 /// A view that nobody touches: percent of one core, and frames that were drawn for nothing.
 void window_idle(benchmark::State& state, const std::string& view) {
   constexpr double kSeconds = 8.0;
@@ -122,6 +148,10 @@ void window_idle(benchmark::State& state, const std::string& view) {
 }
 
 int register_views() {
+  benchmark::RegisterBenchmark("window_first_3d", window_first_3d)
+      ->Iterations(1)
+      ->UseManualTime()
+      ->Unit(benchmark::kSecond);
   for (const std::string view :
        {"start", "prepare", "session", "apparatus", "sessions", "results", "study"}) {
     benchmark::RegisterBenchmark(("window_frame/" + view).c_str(), window_frame, view)

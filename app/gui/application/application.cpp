@@ -61,16 +61,6 @@ bool Application::works() const noexcept {
          std::ranges::any_of(screens_, [](const Screen* screen) { return screen->works(); });
 }
 
-std::optional<fs::path> Application::take_picture_request() {
-  return std::exchange(picture_, std::nullopt);
-}
-
-void Application::picture_saved(const fs::path& file, const std::string& problem) {
-  study_.set_outcome(
-      {.ok = problem.empty(),
-       .sentence = problem.empty() ? tr("The picture is in {}", file.string()) : problem});
-}
-
 void Application::escape() noexcept {
   if (session_.is_live()) {
     session_.press_stop();

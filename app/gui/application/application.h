@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,10 +53,6 @@ class Application final : private ScreenHost {
   [[nodiscard]] bool closed() const noexcept { return closed_; }
   /// What the person chose on top of the monitor's scale.
   [[nodiscard]] float zoom() const noexcept { return zoom_; }
-  /// Where the next frame shall be saved as a picture; once.
-  [[nodiscard]] std::optional<std::filesystem::path> take_picture_request();
-  /// What came of it; `problem` is "" if nothing went wrong.
-  void picture_saved(const std::filesystem::path& file, const std::string& problem);
 
   /// The emergency stop; past everything else.
   void escape() noexcept;
@@ -92,7 +87,6 @@ class Application final : private ScreenHost {
   void resume_session(const std::filesystem::path& folder, std::int64_t session) override;
   bool attempt(const char* title, const std::function<void()>& work) override;
   void tell(const std::string& title, const std::string& sentence) override;
-  void save_picture(const std::filesystem::path& file) override { picture_ = file; }
   void close() override { closed_ = true; }
   [[nodiscard]] std::function<void()> wake() const override { return wake_; }
 
@@ -129,7 +123,6 @@ class Application final : private ScreenHost {
   bool shows_keys_ = false;
   float zoom_ = 1.0f;
   std::string message_title_, message_;
-  std::optional<std::filesystem::path> picture_;
   std::vector<Drawn::Widget> last_widgets_;
 };
 

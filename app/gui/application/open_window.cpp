@@ -12,6 +12,7 @@
 #include "app/command_line/stop_signals.h"
 #include "app/gui/application/application.h"
 #include "app/gui/scene_painter.h"
+#include "app/gui/scene_thread.h"
 #include "app/gui/window.h"
 #include "app/language/words.h"
 #include "app/session/shipped_files.h"
@@ -41,15 +42,53 @@ void show_participant(gui::Window& window, gui::Application& application, bool& 
   was_open = window.second_is_open();
 }
 
+/// The apparatus, drawn on a thread that has the context for as long as this is there.
+class DrawnScene {
+ public:
+  explicit DrawnScene(gui::SharedContext& context) : current_(context) {}
+  std::uintptr_t paint(const gui::SceneRequest& request, double now_s) {
+    return painter_.paint(request, now_s);
+  }
+
+ private:
+  struct Current {
+    explicit Current(gui::SharedContext& its_context) : context(its_context) {
+      context.make_current();
+    }
+    ~Current() { context.let_go(); }
+    Current(const Current&) = delete;
+    Current& operator=(const Current&) = delete;
+    gui::SharedContext& context;
+  };
+  Current current_;
+  gui::ScenePainter painter_;
+};
+
+std::unique_ptr<gui::SceneThread> begin_scene(gui::SharedContext& context,
+                                              gui::Window& window) {
+  return std::make_unique<gui::SceneThread>(
+      [&context]() -> gui::SceneThread::Paint {
+        return [scene = std::make_shared<DrawnScene>(context)](const gui::SceneRequest& request,
+                                                               double now_s) {
+          return scene->paint(request, now_s);
+        };
+      },
+      [&window] { window.wake(); });
+}
+
 /// Lets the window and the application know of each other.
 void show(gui::Window& window, const WindowRequest& request) {
   // Made when the apparatus is first looked at; gone before OpenGL is.
-  std::unique_ptr<gui::ScenePainter> painter;
+  std::unique_ptr<gui::SharedContext> scene_context;
+  std::unique_ptr<gui::SceneThread> scene;
   gui::Application application(request, [&window] { window.wake(); });
-  application.set_scene_painter([&painter](const gui::SceneRequest& scene) {
-    if (painter == nullptr) painter = std::make_unique<gui::ScenePainter>();
+  application.set_scene_painter([&](const gui::SceneRequest& request) {
+    if (scene == nullptr) {
+      scene_context = window.make_shared_context();
+      scene = begin_scene(*scene_context, window);
+    }
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
-    return painter->paint(scene, std::chrono::duration<double>(now).count());
+    return scene->paint(request, std::chrono::duration<double>(now).count());
   });
   bool second_was_open = false;
   window.on_escape = [&] { application.escape(); };
@@ -76,11 +115,6 @@ void show(gui::Window& window, const WindowRequest& request) {
     ui.set_view(application.view_name());
     application.draw(ui);
     show_participant(window, application, second_was_open);
-    if (const auto file = application.take_picture_request()) {
-      window.save_picture(*file, std::nullopt, [&, file](const std::string& problem) {
-        application.picture_saved(*file, problem);
-      });
-    }
     if (application.zoom() != window.zoom()) window.set_zoom(application.zoom());
     if (application.closed()) window.close();
   });

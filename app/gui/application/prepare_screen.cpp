@@ -46,12 +46,13 @@ void PrepareScreen::show() {
   assign(store);
   state_.participant = request_.participant.empty() ? next_participants(store, 1).front()
                                                     : std::exchange(request_.participant, "");
-  state_.pilot = request_.pilot;
+  state_.pilot = state_.kind_is_chosen = request_.pilot;
   if (state_.device.empty()) {
     state_.device =
         request_.device.empty() ? std::string(device::devices().front().name) : request_.device;
   }
   devices_ = devices_to_choose(state_.device, study_.study().device.rate_hz);
+  choose_kind(model(), state_);
   state_.language = request_.language.empty() ? study_.study().languages.front()
                                               : std::exchange(request_.language, "");
   look_before();
@@ -84,18 +85,23 @@ void PrepareScreen::press_stop() noexcept {
   if (preflight_ != nullptr) preflight_->press_emergency_stop();
 }
 
+PrepareModel PrepareScreen::model() const {
+  PrepareModel model{.study = study_.folder(),
+                     .devices = devices_,
+                     .languages = study_.study().languages,
+                     .fields = study_.study().participant_fields,
+                     .taken = taken_,
+                     .assigned = assigned_,
+                     .seed = seed_};
+  if (preflight_ == nullptr) return model;
+  model.lines = preflight_->lines();
+  model.looking = preflight_->running();
+  model.progress = preflight_->progress();
+  return model;
+}
+
 void PrepareScreen::draw(Ui& ui) {
-  const PrepareModel model{.study = study_.folder(),
-                           .devices = devices_,
-                           .languages = study_.study().languages,
-                           .fields = study_.study().participant_fields,
-                           .taken = taken_,
-                           .assigned = assigned_,
-                           .seed = seed_,
-                           .lines = preflight_->lines(),
-                           .looking = preflight_->running(),
-                           .progress = preflight_->progress()};
-  const PrepareViewResult result = draw_prepare_view(ui, model, state_);
+  const PrepareViewResult result = draw_prepare_view(ui, model(), state_);
   if (result.look_again) {
     look_before();
   } else if (result.fields_changed) {

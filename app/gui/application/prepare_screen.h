@@ -32,6 +32,7 @@ class PrepareScreen final : public Screen {
  private:
   void assign(const core::StudyStore& store);
   void look_before();
+  [[nodiscard]] PrepareModel model() const;
 
   ScreenHost& host_;
   OpenStudy& study_;

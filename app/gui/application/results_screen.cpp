@@ -1,23 +1,17 @@
 #include "app/gui/application/results_screen.h"
 
 #include <string>
+#include <utility>
 
+#include "app/gui/views/results_parts.h"
 #include "app/language/words.h"
 #include "app/operator/export_actions.h"
+#include "app/operator/open_outside.h"
 #include "app/operator/results_model.h"
 
 namespace jnd::app::gui {
 
 namespace fs = std::filesystem;
-
-/// "NAME-results-1.png" beside the study, or whichever does not exist yet.
-static fs::path free_picture_beside(const fs::path& study_folder) {
-  for (int number = 1;; ++number) {
-    fs::path file = study_folder.parent_path() / (study_folder.stem().string() + "-results-" +
-                                                  std::to_string(number) + ".png");
-    if (!fs::exists(file)) return file;
-  }
-}
 
 void ResultsScreen::show() {
   study_.reload();
@@ -43,16 +37,29 @@ void ResultsScreen::draw(Ui& ui) {
   const ResultsViewResult result = draw_results_view(ui, model, state_);
   const fs::path folder = study_.folder().folder;
   if (result.cancel) study_.cancel_work();
-  if (result.export_tables) {
-    study_.begin_work(tr("Exporting"), [folder](WorkControl& control) {
-      return export_tables(folder, free_folder_beside(folder, "csv"), control);
+  if (result.export_as) {
+    study_.begin_work(tr("Exporting"), [folder,
+                                        choice = *result.export_as](WorkControl& control) {
+      return export_study(folder, free_folder_beside(folder, choice.format), choice, control);
     });
   } else if (result.write_report) {
     study_.begin_work(tr("Writing the report"), [folder](WorkControl& control) {
       return write_report(folder, free_folder_beside(folder, "report"), control);
     });
   } else if (result.save_picture) {
-    host_.save_picture(free_picture_beside(folder));
+    StudyFiguresRequest request{.folder = folder,
+                                .out = free_folder_beside(folder, "figures"),
+                                .what = *result.save_picture,
+                                .charts = model.results->charts,
+                                .who = shown_participant(*model.results, state_),
+                                .simulated = model.results->simulated};
+    study_.begin_work(tr("Drawing the figures"),
+                      [request = std::move(request)](WorkControl& control) {
+                        return save_figures(request, control);
+                      });
+  } else if (result.open) {
+    const std::string problem = open_outside(study_.work().outcome.opens);
+    if (!problem.empty()) host_.tell(tr("It cannot be opened"), problem);
   } else if (result.unblind) {
     const bool is_unblinded = host_.attempt(tr("The study cannot be unblinded"), [&] {
       study_.set_outcome(unblind_study(folder, state_.reason));

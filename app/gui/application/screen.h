@@ -61,8 +61,6 @@ class ScreenHost {
   /// Runs `work`, and tells what goes wrong; false then.
   virtual bool attempt(const char* title, const std::function<void()>& work) = 0;
   virtual void tell(const std::string& title, const std::string& sentence) = 0;
-  /// Saves the next frame as a picture; what came of it is an outcome of the study's work.
-  virtual void save_picture(const std::filesystem::path& file) = 0;
   virtual void close() = 0;
   /// Draws another frame; called from any thread.
   [[nodiscard]] virtual std::function<void()> wake() const = 0;

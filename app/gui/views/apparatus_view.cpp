@@ -131,6 +131,7 @@ void draw_scene(Ui& ui, const Rect& place, const SessionView& view,
                      .colours = scene_colours(ui.theme()),
                      .width_px = static_cast<int>(ui.px(inside.width)),
                      .height_px = static_cast<int>(ui.px(inside.height))});
+  if (texture == 0) return draw_notice(ui, place, tr("Loading the 3D view …"));
   ui.image(inside, texture, as_is("picture of the apparatus"));
 }
 
@@ -201,11 +202,14 @@ RunViewResult draw_apparatus_view(Ui& ui, const SessionView& view,
   } else {
     has_joints = draw_what_moves(ui, rest, view, sources, state);
   }
-  draw_run_header(ui, header, view, run);
+  draw_run_header(ui, header, view, run, result);
   draw_run_footer(ui, footer, view);
   if (view.pilot) ui.outline(ui.screen().inset(2), Colour::kPilot, 0, 4);
+  ask_why_paused(view, run);
   if (run.dialog != RunViewState::Dialog::kNone) {
     draw_run_dialog(ui, view, run, result);
+  } else if (view.doubt) {
+    draw_doubt_dialog(ui, *view.doubt, result);
   } else {
     draw_channel_chooser(ui, has_joints, state.scopes);
   }

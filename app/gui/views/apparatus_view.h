@@ -17,7 +17,8 @@ namespace jnd::app::gui {
 struct ApparatusSources {
   /// The last seconds of these channels; empty where there are none.
   std::function<ScopePicture(const std::vector<std::string>&)> scopes;
-  /// A texture that shows it; empty where no picture can be drawn.
+  /// A texture that shows it, 0 while that is still loaded; empty where no picture can be
+  /// drawn.
   std::function<std::uintptr_t(const SceneRequest&)> paint;
   std::string paint_problem;  ///< Why not; "" for no reason known.
 };

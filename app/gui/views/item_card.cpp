@@ -32,19 +32,30 @@ std::string range_words(const ItemView& item) {
   return words.empty() ? tr("in {}", item.unit) : words + " " + item.unit;
 }
 
+/// One of the words between the commas is none.
+bool has_blank_word(std::string_view typed) {
+  while (true) {
+    const std::size_t comma = typed.find(',');
+    if (is_blank(typed.substr(0, comma))) return true;
+    if (comma == std::string_view::npos) return false;
+    typed.remove_prefix(comma + 1);
+  }
+}
+
 /// Why what is typed is no answer; "" if it is one.
 std::string problem_with(const ItemView& item, const std::string& typed) {
-  if (typed.empty()) return tr("type an answer first");
+  if (is_blank(typed)) return tr("type an answer first");
   if (item.kind == Kind::kWords) {
     const auto commas = std::count(typed.begin(), typed.end(), ',');
-    if (commas + 1 != item.num_words) {
+    if (commas + 1 != item.num_words || has_blank_word(typed)) {
       return tr("expected {} words, separated by commas", item.num_words);
     }
   }
   if (item.kind != Kind::kNumber) return "";
   const std::optional<double> value = typed_number(typed);
   if (!value) {
-    return tr("expected a number, with a point for decimals");
+    return writes_decimal_comma() ? tr("expected a number, as 0,5 or 0.5")
+                                  : tr("expected a number, with a point for decimals");
   }
   if ((item.minimum && !(*value >= *item.minimum)) ||
       (item.maximum && !(*value <= *item.maximum))) {
@@ -64,14 +75,13 @@ class ItemCard {
     state.says_yes = false;
     state.item_is_new = true;
     state.item_problem.clear();
+    state.item_since_s = ui.time_s();
   }
 
   void add_controls(Stack& stack, float width) {
     switch (item_.kind) {
       case Kind::kTick:
-        stack.add(72, 0, [this](const Rect& strip) {
-          draw_single(strip, "item_done", tr("Done"), Key::kSpace, "done");
-        });
+        stack.add(72, 0, [this](const Rect& strip) { draw_tick(strip); });
         break;
       case Kind::kConsent:
         stack.add(72, 0, [this](const Rect& strip) { draw_consent(strip); });
@@ -115,13 +125,19 @@ class ItemCard {
     state_.item.clear();
   }
 
-  void draw_single(const Rect& strip, const char* name, const char* label, Key key,
-                   const char* answer) {
+  /// Nobody reads an item in less time; a key that is held or hammered on ticks none unread.
+  void draw_tick(const Rect& strip) {
+    constexpr double kLeastReading_s = 0.4;
+    const bool is_read = ui_.time_s() - state_.item_since_s >= kLeastReading_s;
     draw_button_row(ui_, strip,
-                    {{name,
-                      label,
-                      {.tone = Tone::kPrimary, .key = {key}, .large = true},
-                      [this, answer] { give(answer); }}},
+                    {{"item_done",
+                      tr("Done"),
+                      {.tone = Tone::kPrimary,
+                       .key = {Key::kSpace},
+                       .enabled = is_read,
+                       .large = true,
+                       .fresh = true},
+                      [this] { give("done"); }}},
                     260);
   }
 
@@ -173,7 +189,9 @@ class ItemCard {
         state_.item_is_new = true;  // The field keeps the keyboard.
         return;
       }
-      give(item_.kind == Kind::kYesNoWhich ? as_is("yes: ") + state_.typed : state_.typed);
+      give(item_.kind == Kind::kYesNoWhich ? as_is("yes: ") + state_.typed
+           : item_.kind == Kind::kNumber   ? with_point(state_.typed)
+                                           : state_.typed);
     });
     const std::string below =
         state_.item_problem.empty() ? range_words(item_) : state_.item_problem;

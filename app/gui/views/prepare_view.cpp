@@ -78,24 +78,36 @@ void draw_participant(Ui& ui, Rect& inside, const PrepareModel& model, PrepareVi
           {.font = Font::kSmall, .colour = colour, .wrap = true});
 }
 
-void draw_kind(Ui& ui, Rect& inside, PrepareViewState& state) {
+bool is_simulated(const PrepareModel& model, const PrepareViewState& state) {
+  const auto device =
+      std::ranges::find(model.devices, state.device, &PrepareModel::Device::name);
+  return device != model.devices.end() && device->simulated;
+}
+
+void draw_kind(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state) {
   ui.heading(inside.take_top(18, 6), tr("Kind of session"));
   Rect line = inside.take_top(46, 6);
   const float half = std::min(220.0f, (line.width - 12) / 2);
   if (ui.button("real_session", line.take_left(half, 12), tr("Real"),
                 {.key = {letter('R')}, .selected = !state.pilot})) {
     state.pilot = false;
+    state.kind_is_chosen = true;
   }
   if (ui.button("pilot_session", line.take_left(half), tr("Pilot"),
                 {.key = {letter('P')}, .selected = state.pilot})) {
     state.pilot = true;
+    state.kind_is_chosen = true;
   }
-  ui.text(
-      inside.take_top(38, 6),
-      state.pilot ? tr("Marked for good, left out of results.") : tr("Its answers are data."),
-      {.font = Font::kSmall,
-       .colour = state.pilot ? Colour::kPilot : Colour::kSoft,
-       .wrap = true});
+  const bool is_odd = !state.pilot && is_simulated(model, state);
+  ui.text(inside.take_top(38, 6),
+          state.pilot ? tr("Marked for good, left out of results.")
+          : is_odd    ? tr("Its answers are data, though the device is simulated.")
+                      : tr("Its answers are data."),
+          {.font = Font::kSmall,
+           .colour = state.pilot ? Colour::kPilot
+                     : is_odd    ? Colour::kAmber
+                                 : Colour::kSoft,
+           .wrap = true});
 }
 
 void draw_devices(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state,
@@ -111,6 +123,7 @@ void draw_devices(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewSt
     ui.outline(row, selected ? Colour::kBlue : Colour::kLine, 8);
     if (ui.row("device_" + device.name, row, device.name, key) && !selected) {
       state.device = device.name;
+      choose_kind(model, state);
       result.look_again = true;
     }
     Rect words = row.inset(6);
@@ -253,6 +266,10 @@ void draw_lines(Ui& ui, const Rect& place, const PrepareModel& model, PrepareVie
 
 }  // namespace
 
+void choose_kind(const PrepareModel& model, PrepareViewState& state) {
+  if (!state.kind_is_chosen) state.pilot = is_simulated(model, state);
+}
+
 PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
                                     PrepareViewState& state) {
   PrepareViewResult result;
@@ -271,7 +288,7 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
   Rect pair = inside.take_top(116);
   Rect who = pair.take_left((pair.width - 24) * 0.44f, 24);
   draw_participant(ui, who, model, state, entered);
-  draw_kind(ui, pair, state);
+  draw_kind(ui, pair, model, state);
   Rect both = inside.take_top(70, 12);
   draw_seed(ui, both.take_right(std::min(300.0f, both.width / 2), 16), model);
   draw_languages(ui, both, model, state);

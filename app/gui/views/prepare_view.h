@@ -37,6 +37,7 @@ struct PrepareModel {
 struct PrepareViewState {
   std::string participant;  ///< Proposed by the application: the next free pseudonym.
   bool pilot = false;
+  bool kind_is_chosen = false;  ///< By a person; else a simulated device means a pilot.
   std::string device;
   std::string language;
   std::map<std::string, std::string> fields;  ///< Chosen so far: name to value.
@@ -50,6 +51,10 @@ struct PrepareViewResult {
   bool look_again = false;  ///< Also after the device was changed.
   bool fields_changed = false;
 };
+
+/// A session on a simulated device is a pilot, one on a real device is not, unless a person has
+/// chosen otherwise.
+void choose_kind(const PrepareModel& model, PrepareViewState& state);
 
 [[nodiscard]] PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
                                                   PrepareViewState& state);

@@ -20,7 +20,7 @@ float own_width(const Ui& ui) {
 }
 
 void draw_own_buttons(Ui& ui, Rect strip, const ResultsViewModel& model,
-                      ResultsViewResult& result) {
+                      ResultsViewState& state, ResultsViewResult& result) {
   ButtonStyle report = kReport;
   ButtonStyle exporting = kExport;
   report.enabled = exporting.enabled = model.results != nullptr && model.work.running.empty();
@@ -28,14 +28,23 @@ void draw_own_buttons(Ui& ui, Rect strip, const ResultsViewModel& model,
   result.write_report =
       ui.button("write_report", place.middle(place.width, 38), tr("Write report"), report);
   place = strip.take_right(ui.button_width(tr("Export"), exporting));
-  result.export_tables =
-      ui.button("export", place.middle(place.width, 38), tr("Export"), exporting);
+  if (ui.button("export", place.middle(place.width, 38), tr("Export"), exporting)) {
+    state.asks_for_format = true;
+  }
+}
+
+/// What the page's figures are among those of the report; none where it has no figures.
+std::optional<StudyFiguresRequest::What> figures_of_page(ResultsPage page) {
+  if (page == ResultsPage::kCharts) return StudyFiguresRequest::What::kCharts;
+  if (page == ResultsPage::kBoxes) return StudyFiguresRequest::What::kBoxes;
+  return std::nullopt;
 }
 
 /// Pages at the left, whom it shows at the right.
 void draw_strip(Ui& ui, Rect strip, const std::vector<ResultsPageLook>& pages,
-                const ResultsModel& results, ResultsViewState& state,
+                const ResultsViewModel& model, ResultsViewState& state,
                 ResultsViewResult& result) {
+  const ResultsModel& results = *model.results;
   const auto style_of = [&state](std::size_t i) {
     return ButtonStyle{.key = {letter(static_cast<char>('1' + i))},
                        .selected = i == state.page};
@@ -44,11 +53,13 @@ void draw_strip(Ui& ui, Rect strip, const std::vector<ResultsPageLook>& pages,
   for (std::size_t i = 0; i < pages.size(); ++i) {
     wanted += ui.button_width(pages[i].label, style_of(i)) + 8;
   }
-  const ButtonStyle save{.key = {letter('S'), true}};
+  const auto figures = figures_of_page(pages[state.page].page);
+  const ButtonStyle save{.key = {letter('S'), true},
+                         .enabled = figures.has_value() && model.work.running.empty()};
   const bool has_room = wanted + ui.button_width(tr("Save picture"), save) <= strip.width;
   const char* label = has_room ? tr("Save picture") : tr("Save");
   const Rect at_right = strip.take_right(ui.button_width(label, save), 8);
-  result.save_picture = ui.button("save_picture", at_right, label, save);
+  if (ui.button("save_picture", at_right, label, save)) result.save_picture = figures;
   const float shrink = std::min(1.0f, strip.width / wanted);
   for (std::size_t i = 0; i < pages.size(); ++i) {
     const ButtonStyle style = style_of(i);
@@ -110,10 +121,74 @@ void draw_unblind_dialog(Ui& ui, ResultsViewState& state, ResultsViewResult& res
   if (choice.done || choice.cancelled) state.asks_to_unblind = false;
 }
 
+/// As many as the command has, a key each.
+void draw_export_dialog(Ui& ui, ResultsViewState& state, ResultsViewResult& result) {
+  struct Format {
+    const char *name, *label, *words;
+  };
+  constexpr Format kFormats[] = {
+      {"csv", tr_later("CSV"), tr_later("tables with a codebook, for R, Python, spreadsheets")},
+      {"bids", tr_later("BIDS"), tr_later("a data set in the layout of neuroimaging")},
+      {"hdf5", tr_later("HDF5"), tr_later("tables, and one file with every sample")}};
+  constexpr float kRow = 54;
+  Rect inside = ui.begin_dialog("export_dialog", 640, 56 + 46 + 3 * (kRow + 8) + 50 + 62);
+  ui.text(inside.take_top(34, 12), tr("Export the study as …"), {.font = Font::kLarge});
+  for (std::size_t i = 0; i < std::size(kFormats); ++i) {
+    const Format& format = kFormats[i];
+    const Chord key = {letter(static_cast<char>('1' + i))};
+    const Rect row = inside.take_top(kRow, 8);
+    ui.outline(row, Colour::kLine, 8);
+    if (ui.row(std::string("export_") + format.name, row, tr(format.label), key)) {
+      result.export_as = ExportChoice{format.name, state.with_recordings};
+    }
+    Rect words = row.inset(6);
+    words.take_left(10);
+    const Rect cap = words.take_right(ui.key_cap_width(key), 12);
+    ui.key_cap(cap.x, cap.y + (cap.height - Ui::kKeyCapHeight) / 2, key);
+    ui.text(words.take_left(84), tr(format.label), {.font = Font::kStrong});
+    ui.text(words, tr(format.words), {.colour = Colour::kSoft});
+  }
+  const ButtonStyle samples{.key = {letter('R')}, .selected = state.with_recordings};
+  const char* label = state.with_recordings ? tr("With every sample of CSV and BIDS")
+                                            : tr("Without samples in CSV and BIDS");
+  Rect line = inside.take_top(42);
+  if (ui.button("export_recordings", line.take_left(ui.button_width(label, samples)), label,
+                samples)) {
+    state.with_recordings = !state.with_recordings;
+  }
+  Rect row = inside.take_bottom(46);
+  const ButtonStyle cancel{.key = {Key::kF2}};
+  const bool cancelled =
+      ui.button("export_cancel", row.take_right(ui.button_width(tr("Cancel"), cancel)),
+                tr("Cancel"), cancel);
+  ui.end_dialog();
+  if (cancelled || result.export_as) state.asks_for_format = false;
+}
+
+/// What came of the last work, and a way to it.
+void draw_written_card(Ui& ui, Rect& rest, const StudyWork& work, ResultsViewResult& result) {
+  const Rect card = rest.take_bottom(42 + 2 * 12, kGap);
+  ui.card(card);
+  Rect inside = card.inset(12);
+  inside.x += 6;
+  const ButtonStyle open{.tone = Tone::kPrimary, .key = {letter('O'), true}};
+  const Rect button = inside.take_right(ui.button_width(tr("Open"), open), 16);
+  result.open = ui.button("open_written", button, tr("Open"), open);
+  const std::size_t num_problems = work.outcome.problems.size();
+  const std::string first = num_problems == 0 ? "" : " · " + work.outcome.problems.front();
+  ui.text(inside, work.outcome.sentence + first,
+          {.colour = work.outcome.ok && num_problems == 0 ? Colour::kInk : Colour::kAmber});
+}
+
 /// What goes on, or what came of it, above the footer.
 void draw_work_card(Ui& ui, Rect& rest, const ResultsViewModel& model,
                     ResultsViewResult& result) {
-  if (model.work.running.empty()) return;
+  if (model.work.running.empty()) {
+    if (!model.work.outcome.opens.empty()) {
+      draw_written_card(ui, rest, model.work, result);
+    }
+    return;
+  }
   const Rect card = rest.take_bottom(42 + 2 * 12, kGap);
   ui.card(card);
   Rect inside = card;
@@ -131,7 +206,7 @@ ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
   const StudyHeader header = draw_study_header(ui, rest.take_top(kHeaderHeight), model.study,
                                                StudyTab::kResults, own_width(ui));
   result.tab = header.chosen;
-  draw_own_buttons(ui, header.own_buttons, model, result);
+  draw_own_buttons(ui, header.own_buttons, model, state, result);
   const Rect footer = rest.take_bottom(kFooterHeight);
   rest = rest.inset(kGap);
   draw_work_card(ui, rest, model, result);
@@ -148,10 +223,12 @@ ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
                                    340.0f, rest.width * 0.36f);
     draw_participants(ui, rest.take_right(table, kGap), results,
                       results.simulated && !header.shows_marks, state);
-    draw_strip(ui, rest.take_top(40, kGap), pages, results, state, result);
+    draw_strip(ui, rest.take_top(40, kGap), pages, model, state, result);
     draw_results_page(ui, rest, results, pages[state.page].page, state);
   }
-  draw_study_footer(ui, footer, model.work.outcome.sentence, "");
+  const bool is_on_card = !model.work.outcome.opens.empty();
+  draw_study_footer(ui, footer, is_on_card ? "" : model.work.outcome.sentence, "");
+  if (state.asks_for_format) draw_export_dialog(ui, state, result);
   if (state.asks_to_unblind) draw_unblind_dialog(ui, state, result);
   return result;
 }

@@ -27,15 +27,18 @@ struct ResultsViewState {
   std::size_t page = 0;
   float summary_height = 0, page_height = 0;
   bool asks_to_unblind = false;
+  bool asks_for_format = false;  ///< Of an export.
+  bool with_recordings = false;  ///< Chosen for it.
   bool dialog_is_new = false;
   std::string reason;
 };
 
 struct ResultsViewResult {
   StudyTab tab = StudyTab::kNone;
-  bool export_tables = false;
+  std::optional<ExportChoice> export_as;
   bool write_report = false;
-  bool save_picture = false;
+  std::optional<StudyFiguresRequest::What> save_picture;  ///< Of the page that is shown.
+  bool open = false;                                      ///< What the last work wrote.
   bool cancel = false;
   bool unblind = false;  ///< For the state's reason.
 };

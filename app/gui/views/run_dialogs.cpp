@@ -1,8 +1,6 @@
 // What is asked before something is undone, noted or left. Escape stays the emergency stop.
 
-#include <cmath>
-#include <cstdlib>
-#include <optional>
+#include <span>
 #include <utility>
 
 #include "app/gui/views/run_parts.h"
@@ -13,7 +11,6 @@ namespace jnd::app::gui {
 namespace {
 
 using Dialog = RunViewState::Dialog;
-using experiments::AnswerKind;
 
 struct DialogWords {
   const char* title;
@@ -29,20 +26,18 @@ DialogWords words_of(Dialog dialog) {
       return {tr("Undo the last answer"),
               tr("The answer stays in the log as undone, and its trial is run again."),
               tr("reason"), tr("Undo"), true};
-    case Dialog::kCorrect:
-      return {tr("Set an answer right"),
-              tr("The old answer stays in the log; what was felt is not touched."),
-              tr("reason"), tr("Correct"), true};
     case Dialog::kNote:
       return {
           tr("Write a note"),
           tr("It is stored with the time, now. An adverse event, such as pain or a fright, is "
              "kept for good, also if the person withdraws."),
           tr("note"), tr("Store"), true};
-    case Dialog::kPause:
-      return {tr("Pause the session"),
-              tr("The hand goes to free space; a trial under way is run again afterwards."),
-              tr("reason (may be left out)"), tr("Pause"), false};
+    case Dialog::kWhyPaused:
+      return {
+          tr("Paused. Why?"),
+          tr("The hand is in free space, and the pause is on disk. A trial under way is run "
+             "again afterwards."),
+          tr("reason"), tr("Store the reason"), true};
     case Dialog::kEndEarly:
       return {tr("End the session for good"),
               tr("What was answered is kept; the session cannot be resumed."), tr("reason"),
@@ -59,43 +54,51 @@ DialogWords words_of(Dialog dialog) {
               tr("Nobody waits for it any more until it holds again; the reason is stored as a "
                  "note."),
               tr("reason"), tr("Go on without it"), true};
+    case Dialog::kCorrect:
     case Dialog::kNone:
       break;
   }
   return {"", "", "", "", false};
 }
 
-/// An answer in English, or in the language of the window.
-bool is_typed(const RunViewState& state, std::string_view english, std::string_view spoken) {
-  return state.correct_value == english || state.correct_value == spoken;
+// Reasons that a key gives at once. A study keeps them as they stand here, whatever language
+// the window speaks.
+constexpr const char* kPauseReasons[] = {
+    tr_later("the participant needs a rest"), tr_later("the participant has a question"),
+    tr_later("the device is looked after"), tr_later("an interruption from outside")};
+constexpr const char* kUndoReasons[] = {
+    tr_later("the participant corrects the answer"), tr_later("the wrong key was pressed"),
+    tr_later("the answer was misheard"), tr_later("the stimulus was not felt properly")};
+
+std::span<const char* const> reasons_of(Dialog dialog) {
+  if (dialog == Dialog::kWhyPaused) return kPauseReasons;
+  if (dialog == Dialog::kUndo) return kUndoReasons;
+  return {};
 }
 
-/// An answer is set right to "cannot tell", where it can be that.
-bool is_cannot_tell(const RunViewState& state) {
-  return state.correct_takes_cannot_tell &&
-         is_typed(state, as_is("cannot tell"), tr("cannot tell"));
-}
+constexpr float kReasonRow = 42;
+constexpr float kReasonGap = 8;
 
-/// The new value of an answer that is set right; NaN while there is none.
-double corrected_value(const RunViewState& state) {
-  if (state.correct_value.empty()) return std::nan("");
-  if (state.correct_kind == AnswerKind::kYesNo) {
-    if (is_typed(state, "yes", tr("yes"))) return 1.0;
-    return is_typed(state, "no", tr("no")) ? 0.0 : std::nan("");
+/// One under the other, with their number keys; the last one is for words of one's own. True
+/// when one was chosen.
+bool draw_reasons(Ui& ui, Rect& inside, RunViewState& state) {
+  const std::span<const char* const> reasons = reasons_of(state.dialog);
+  bool is_chosen = false;
+  for (std::size_t i = 0; i <= reasons.size(); ++i) {
+    const bool is_own = i == reasons.size();
+    const std::string number = std::to_string(i + 1);
+    const Rect row = inside.take_top(kReasonRow, kReasonGap);
+    const ButtonStyle style{.key = {letter(static_cast<char>('1' + i))}};
+    const char* label = is_own ? tr("another reason …") : tr(reasons[i]);
+    if (!ui.button("reason_" + number, row, label, style)) continue;
+    if (is_own) {
+      state.writes_reason = state.dialog_is_new = true;
+    } else {
+      state.reason = reasons[i];
+      is_chosen = true;
+    }
   }
-  if (state.correct_kind == AnswerKind::kInterval) {
-    if (state.correct_value == "1" || is_typed(state, "first", tr("first"))) return 1.0;
-    if (state.correct_value == "2" || is_typed(state, "second", tr("second"))) return 2.0;
-    const bool is_third = state.correct_value == "3" || is_typed(state, "third", tr("third"));
-    return is_third ? 3.0 : std::nan("");
-  }
-  const std::optional<double> value = typed_number(state.correct_value);
-  if (state.correct_kind == AnswerKind::kStep) {
-    return value && *value >= 1.0 && *value == std::floor(*value) ? *value : std::nan("");
-  }
-  const bool is_answer =
-      value && (state.correct_kind == AnswerKind::kNumber ? *value > 0.0 : *value >= 0.0);
-  return is_answer ? *value : std::nan("");
+  return is_chosen;
 }
 
 void request(const SessionView& view, const RunViewState& state, RunViewResult& result) {
@@ -103,18 +106,11 @@ void request(const SessionView& view, const RunViewState& state, RunViewResult& 
     case Dialog::kUndo:
       result.requests.emplace_back(operate::Undo{state.reason});
       break;
-    case Dialog::kCorrect: {
-      operate::Correct correct{.trial = state.correct_trial, .reason = state.reason};
-      correct.value =
-          is_cannot_tell(state) ? std::nullopt : std::optional(corrected_value(state));
-      result.requests.emplace_back(std::move(correct));
-      break;
-    }
     case Dialog::kNote:
       result.requests.emplace_back(operate::AddNote{state.reason});
       break;
-    case Dialog::kPause:
-      result.requests.emplace_back(operate::Pause{state.reason});
+    case Dialog::kWhyPaused:
+      result.requests.emplace_back(operate::ExplainPause{state.reason});
       break;
     case Dialog::kEndEarly:
       result.requests.emplace_back(operate::EndEarly{state.reason});
@@ -129,6 +125,7 @@ void request(const SessionView& view, const RunViewState& state, RunViewResult& 
     case Dialog::kGoOnWithout:
       result.requests.emplace_back(operate::GoOnWithout{state.given_up_bits, state.reason});
       break;
+    case Dialog::kCorrect:
     case Dialog::kNone:
       break;
   }
@@ -138,42 +135,36 @@ void request(const SessionView& view, const RunViewState& state, RunViewResult& 
 
 void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
                      RunViewResult& result) {
+  if (state.dialog == Dialog::kCorrect) return draw_correct_dialog(ui, state, result);
   const DialogWords words = words_of(state.dialog);
-  const bool corrects = state.dialog == Dialog::kCorrect;
-  Rect inside = ui.begin_dialog("dialog", 560, corrects ? 320 : 260);
+  const bool has_reasons = !reasons_of(state.dialog).empty() && !state.writes_reason;
+  const float rows = static_cast<float>(reasons_of(state.dialog).size() + 1);
+  const float height = has_reasons ? 214 + rows * (kReasonRow + kReasonGap) : 260;
+  Rect inside = ui.begin_dialog("dialog", 560, height);
   ui.text(inside.take_top(34, 4), words.title, {.font = Font::kLarge});
   const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
   ui.text(inside.take_top(ui.text_height(inside.width, words.explanation, soft), 16),
           words.explanation, soft);
   bool entered = false;
-  if (corrects) {
-    const bool opens = state.correct_takes_cannot_tell;
-    const char* hint =
-        state.correct_kind == AnswerKind::kYesNo
-            ? (opens ? tr("yes, no or cannot tell") : tr("yes or no"))
-        : state.correct_kind == AnswerKind::kInterval
-            ? (opens ? tr("first, second or cannot tell") : tr("first or second"))
-        : state.correct_kind == AnswerKind::kPercent ? tr("percent")
-        : state.correct_kind == AnswerKind::kNumber  ? tr("number")
-        : state.correct_kind == AnswerKind::kStep    ? tr("step")
-                                                     : tr("intensity");
-    entered |= ui.text_field("correct_value", inside.take_top(46, 10), state.correct_value,
-                             hint, state.dialog_is_new);
-    entered |= ui.text_field("reason", inside.take_top(46, 18), state.reason, words.hint);
+  bool is_chosen = false;
+  if (has_reasons) {
+    is_chosen = draw_reasons(ui, inside, state);
   } else {
     entered = ui.text_field("reason", inside.take_top(46, 18), state.reason, words.hint,
                             state.dialog_is_new);
   }
-  const bool ready =
-      (!words.needs_text || !state.reason.empty()) &&
-      (!corrects || is_cannot_tell(state) || !std::isnan(corrected_value(state)));
+  const bool ready = !words.needs_text || !is_blank(state.reason);
   Rect row = inside.take_bottom(48);
   const ButtonStyle verb{.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = ready};
   const ButtonStyle cancel{.key = {Key::kF2}};
-  const Rect verb_place = row.take_right(ui.button_width(words.verb, verb), 12);
-  const Rect cancel_place = row.take_right(ui.button_width(tr("Cancel"), cancel), 12);
-  const bool done = ui.button("dialog_do", verb_place, words.verb, verb) || (entered && ready);
-  const bool cancelled = ui.button("dialog_cancel", cancel_place, tr("Cancel"), cancel);
+  bool done = is_chosen;
+  if (!has_reasons) {
+    const Rect place = row.take_right(ui.button_width(words.verb, verb), 12);
+    done = ui.button("dialog_do", place, words.verb, verb) || (entered && ready);
+  }
+  const char* leave = state.dialog == Dialog::kWhyPaused ? tr("Give no reason") : tr("Cancel");
+  const Rect cancel_place = row.take_right(ui.button_width(leave, cancel), 12);
+  const bool cancelled = ui.button("dialog_cancel", cancel_place, leave, cancel);
   bool adverse = false;
   if (state.dialog == Dialog::kNote) {
     const char* words_of_adverse = tr("Store as adverse event");
@@ -185,7 +176,8 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
   ui.end_dialog();
   if (adverse) result.requests.emplace_back(operate::ReportAdverseEvent{state.reason});
   // Enter without what is needed: the field keeps the keyboard.
-  state.dialog_is_new = entered && !done;
+  const bool opens_field = has_reasons && state.writes_reason;
+  state.dialog_is_new = (entered && !done) || opens_field;
   if (done) request(view, state, result);
   if (done || adverse || cancelled) state.dialog = Dialog::kNone;
 }

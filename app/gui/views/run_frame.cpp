@@ -97,7 +97,8 @@ bool draw_emergency_stop(Ui& ui) {
   return ui.button("emergency_stop", place.middle(place.width, 38), tr(kStopLabel), kStop);
 }
 
-void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state) {
+void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state,
+                     RunViewResult& result) {
   ui.fill(place, Colour::kCard);
   ui.line(place.x, place.bottom(), place.right(), place.bottom(), Colour::kLine);
   Rect strip = place.inset(0);
@@ -120,7 +121,7 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
        tr("Pause"),
        {letter('P')},
        begun && view.step != Step::kPaused && view.step != Step::kFault,
-       Dialog::kPause},
+       Dialog::kWhyPaused},
       {"note", tr("Note"), {letter('N'), true}, begun, Dialog::kNote},
       {"undo",
        tr("Undo"),
@@ -132,7 +133,12 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
     const ButtonStyle style{
         .tone = Tone::kQuiet, .key = command.key, .enabled = command.enabled};
     const Rect its = strip.take_right(ui.button_width(command.label, style), 4);
-    if (ui.button(command.name, its.middle(its.width, 36), command.label, style)) {
+    if (!ui.button(command.name, its.middle(its.width, 36), command.label, style)) continue;
+    if (command.dialog == Dialog::kWhyPaused) {
+      // The hand is let go first; why is asked once the pause holds.
+      result.requests.emplace_back(operate::Pause{});
+      state.asked_to_pause = true;
+    } else {
       open_dialog(state, command.dialog);
     }
   }
@@ -199,7 +205,7 @@ void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
 void draw_stage_list(Ui& ui, const Rect& place, const SessionView& view) {
   ui.card(place);
   Rect inside = place.inset(18);
-  Rect times = inside.take_bottom(56, 10);
+  Rect times = inside.take_bottom(82, 10);
   ui.heading(inside.take_top(16, 10), tr("Session"));
   // A long session shows the part around the stage under way.
   constexpr float kLine = 38;
@@ -234,6 +240,11 @@ void draw_stage_list(Ui& ui, const Rect& place, const SessionView& view) {
     ui.text(line, name, {.colour = Colour::kSoft});
     ui.text(line, value, {.font = Font::kStrong, .align = Align::kRight});
   };
+  if (view.num_trials > 0) {
+    time_line(tr("Answers"), view.num_trials_is_expected
+                                 ? tr("{} of about {}", view.trials_on_disk, view.num_trials)
+                                 : tr("{} of {}", view.trials_on_disk, view.num_trials));
+  }
   time_line(tr("Elapsed"), clock_words(view.elapsed_s));
   time_line(tr("About left"),
             view.step == Step::kFinished ? tr("{} s", 0) : about_words(view.left_s));
@@ -309,24 +320,25 @@ void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewSta
     const std::string name = "answer_" + std::to_string(answer.trial);
     const std::string label = tr("{}, trial {}", answer.block, answer.in_block);
     if (ui.row(name, line, label) && may_correct) {
-      open_dialog(state, answer.can_undo ? RunViewState::Dialog::kUndo
-                                         : RunViewState::Dialog::kCorrect);
-      state.correct_trial = answer.trial;
-      state.correct_kind = answer.kind;
-      state.correct_takes_cannot_tell = answer.takes_cannot_tell;
-      state.correct_value.clear();
+      open_dialog(state, RunViewState::Dialog::kCorrect);
+      state.correct = {.line = answer};
     }
     line.x += 8;
     line.width -= 16;
     line = line.middle(line.width, ui.line_height(Font::kBody));
     cells = columns(line);
     ui.text(cells.trial, label, {});
+    if (!answer.hint.empty()) {
+      Rect beside = cells.trial;
+      beside.take_left(ui.text_width(label, Font::kBody), 14);
+      ui.text(beside, answer.hint, {.font = Font::kSmall, .colour = Colour::kAmber});
+      if (ui.hovered(beside)) ui.tooltip(ui.mouse_x(), ui.mouse_y(), answer.hint);
+    }
     ui.text(cells.answer, answer.answer, {.align = Align::kRight});
     ui.text(cells.time, formatted("%.1f s", answer.response_time_s),
             {.font = Font::kMono, .align = Align::kRight});
     if (may_correct) {
-      ui.text(cells.act, answer.can_undo ? tr("undo") : tr("change"),
-              {.colour = Colour::kSoft, .align = Align::kRight});
+      ui.text(cells.act, tr("change"), {.colour = Colour::kSoft, .align = Align::kRight});
     }
     ui.line(inside.x, inside.y, inside.right(), inside.y, Colour::kLine);
   }

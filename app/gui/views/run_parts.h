@@ -13,13 +13,17 @@ namespace jnd::app::gui {
 
 inline constexpr float kRunHeader = 56;
 
-void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state);
+void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state,
+                     RunViewResult& result);
 void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view);
 void draw_stage_list(Ui& ui, const Rect& place, const SessionView& view);
 void draw_progress_card(Ui& ui, const Rect& place, const SessionView& view);
 void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state);
 void draw_live_panel(Ui& ui, const Rect& place, const SessionView& view,
                      const std::vector<TracePoint>& trace);
+void draw_correct_dialog(Ui& ui, RunViewState& state, RunViewResult& result);
+/// Over everything while it waits: the answer is stored or not, by S and F2.
+void draw_doubt_dialog(Ui& ui, const DoubtView& doubt, RunViewResult& result);
 void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
                      RunViewResult& result);
 
@@ -49,6 +53,8 @@ void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
                              int selected = 0);
 
 void open_dialog(RunViewState& state, RunViewState::Dialog dialog);
+/// Why, once the pause that was asked for here holds.
+void ask_why_paused(const SessionView& view, RunViewState& state);
 
 /// "41:07"
 [[nodiscard]] std::string clock_words(double seconds);

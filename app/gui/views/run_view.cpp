@@ -47,6 +47,14 @@ void open_dialog(RunViewState& state, RunViewState::Dialog dialog) {
   state.dialog = dialog;
   state.dialog_is_new = true;
   state.reason.clear();
+  state.writes_reason = false;
+}
+
+void ask_why_paused(const SessionView& view, RunViewState& state) {
+  if (!state.asked_to_pause || view.step != Step::kPaused || !view.asks_why_paused) return;
+  if (state.dialog != RunViewState::Dialog::kNone) return;
+  state.asked_to_pause = false;
+  open_dialog(state, RunViewState::Dialog::kWhyPaused);
 }
 
 void ask_to_leave(RunViewState& state) { open_dialog(state, RunViewState::Dialog::kLeave); }
@@ -70,15 +78,21 @@ RunViewResult draw_run_view(Ui& ui, const SessionView& view,
                rest.take_bottom(std::clamp(rest.height * 0.235f - 40.0f, 96.0f, 196.0f), kGap),
                view, state);
   draw_run_card(ui, rest, view, trace, after, state, result);
-  draw_run_header(ui, header, view, state);
+  draw_run_header(ui, header, view, state, result);
   draw_run_footer(ui, footer, view);
   if (view.pilot) ui.outline(ui.screen().inset(2), Colour::kPilot, 0, 4);
-  if (state.dialog != RunViewState::Dialog::kNone) draw_run_dialog(ui, view, state, result);
+  ask_why_paused(view, state);
+  const bool has_dialog = state.dialog != RunViewState::Dialog::kNone;
+  if (has_dialog) {
+    draw_run_dialog(ui, view, state, result);
+  } else if (view.doubt) {
+    draw_doubt_dialog(ui, *view.doubt, result);
+  }
   if (!state.is_covered) result.stop = draw_emergency_stop(ui);
   // A field that comes back, after a stop or from below a dialog, takes the keyboard again.
   const bool has_item =
       view.step == Step::kItem || view.step == Step::kFeeling || view.step == Step::kStageDone;
-  if (!has_item || state.is_covered || state.dialog != RunViewState::Dialog::kNone) {
+  if (!has_item || state.is_covered || has_dialog) {
     state.item_is_new = true;
   }
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,17 @@
 
 namespace jnd::app::gui {
 
+/// An answer that is being set right.
+struct CorrectState {
+  AnswerLine line;     ///< As it stood when somebody chose it.
+  std::string typed;   ///< Where it is a number.
+  bool is_new = true;  ///< Its field takes the keyboard.
+  bool has_choice = false;
+  std::optional<double> value;  ///< What was chosen; none: "cannot tell".
+  bool runs_again = false;      ///< Instead of another answer.
+  bool asks_why = false;        ///< The field for the reason takes the keyboard.
+};
+
 /// What the window remembers of a running session: words being typed, nothing that counts.
 struct RunViewState {
   enum class Dialog {
@@ -18,7 +30,7 @@ struct RunViewState {
     kUndo,
     kCorrect,
     kNote,
-    kPause,
+    kWhyPaused,  ///< The session is paused already.
     kEndEarly,
     kLeave,
     kGoOnEarly,
@@ -29,11 +41,10 @@ struct RunViewState {
   bool is_covered = false;       ///< By a dialog of the application, which then draws the stop.
   bool shows_apparatus = false;  ///< Instead of the card and what is around it.
   std::string reason;            ///< Or the note.
+  bool writes_reason = false;    ///< None of those that have a key of their own.
+  bool asked_to_pause = false;   ///< The pause that was asked for will have to be explained.
   std::uint8_t given_up_bits = 0;  ///< Points, of the dialog that goes on without them.
-  std::int64_t correct_trial = 0;  ///< Of the dialog that corrects.
-  experiments::AnswerKind correct_kind = experiments::AnswerKind::kPercent;
-  bool correct_takes_cannot_tell = false;  ///< The answer can be "cannot tell".
-  std::string correct_value;
+  CorrectState correct;            ///< Of the dialog that corrects.
 
   std::string percent;                                  ///< Typed so far.
   std::int64_t percent_trial = 0, percent_attempt = 0;  ///< What it was typed for.
@@ -41,8 +52,9 @@ struct RunViewState {
   std::string typed;
   bool says_yes = false;  ///< Of "yes, which?".
   bool item_is_new = false;
-  std::string changed_item;  ///< Of a questionnaire: answered already, asked again.
-  std::string item_problem;  ///< Why what is typed is no answer.
+  double item_since_s = 0.0;  ///< On the screen; the frames' time.
+  std::string changed_item;   ///< Of a questionnaire: answered already, asked again.
+  std::string item_problem;   ///< Why what is typed is no answer.
   float consent_height = 0;
 
   /// Where the mouse moves the hand, and how many metres a logical pixel is; empty without.

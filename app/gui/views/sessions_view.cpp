@@ -49,7 +49,7 @@ std::string marks_of(const SessionLine& line) {
 std::vector<ColumnLook> columns_of(const StudyFolder& study) {
   std::vector<ColumnLook> columns = {{tr("Participant"), 1.05f},
                                      {tr("State"), 1.25f},
-                                     {tr("Answers"), 0.95f, Align::kRight},
+                                     {tr("Answers"), 1.15f, Align::kRight},
                                      {tr("When"), 1.25f},
                                      {tr("Device"), 0.75f}};
   if (!study.hides_levels) columns.push_back({tr("Order"), 1.35f});
@@ -72,7 +72,9 @@ void draw_session(Ui& ui, const Rect& row, const StudyFolder& study, const Sessi
   ui.dot(status.x + 5, status.y + status.height / 2, 4.5f, look.colour);
   status.take_left(17);
   ui.text(status, look.words, {.colour = look.colour});
-  const std::string answers = tr("{} of {}", line.num_answers, line.num_trials);
+  const std::string answers = line.num_is_expected
+                                  ? tr("{} of about {}", line.num_answers, line.num_trials)
+                                  : tr("{} of {}", line.num_answers, line.num_trials);
   ui.text(cells[2], answers, {.font = Font::kMono, .align = Align::kRight});
   const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft};
   ui.text(cells[3], line.when.empty() ? "-" : line.when, soft);

@@ -60,7 +60,18 @@ TEST(TextLayout, CapitalsAreThoseOfEuropeanLanguagesAndLeaveGreekSymbolsAlone) {
   EXPECT_EQ(in_capitals("Session"), "SESSION");
   EXPECT_EQ(in_capitals("größte Übung"), "GRÖSSTE ÜBUNG");
   EXPECT_EQ(in_capitals("łódź, ÿ, ÷"), "ŁÓDŹ, Ÿ, ÷");
-  EXPECT_EQ(in_capitals("5 µm · η"), "5 µM · η");
+  EXPECT_EQ(in_capitals("η · q"), "η · Q");
+}
+
+TEST(TextLayout, AUnitIsNoWord) {
+  EXPECT_EQ(in_capitals("5 µm · η"), "5 µm · η");
+  EXPECT_EQ(in_capitals("Group D: 1.85 Pa s"), "GROUP D: 1.85 Pa s");
+  EXPECT_EQ(in_capitals("Viscosity in Pa s"), "VISCOSITY IN Pa s");
+  EXPECT_EQ(in_capitals("Stiffness [N/m], largest speed [m/s]"),
+            "STIFFNESS [N/m], LARGEST SPEED [m/s]");
+  EXPECT_EQ(in_capitals("10 mm, 2 s, 3 stimuli"), "10 mm, 2 s, 3 STIMULI");
+  EXPECT_EQ(in_capitals("Spa sessions, m and s"), "SPA SESSIONS, M AND S");
+  EXPECT_EQ(in_capitals("m/s"), "m/s");
 }
 
 }  // namespace text_layout_test

@@ -182,7 +182,7 @@ TEST_F(AnsweringViewTest, CannotTellIsStoredShownAndCorrected) {
   now = act(operate::Answer{number, std::nullopt});
   EXPECT_EQ(now.refusal, "");
   EXPECT_EQ(now.answers.front().answer, "cannot tell");
-  EXPECT_TRUE(now.answers.front().takes_cannot_tell);
+  EXPECT_TRUE(now.answers.front().form.takes_cannot_tell);
   EXPECT_EQ(now.trials_on_disk, 1);
   EXPECT_EQ(now.trial->in_block, 2);
   EXPECT_EQ(store_->trials(session_number_).back().response, std::nullopt);

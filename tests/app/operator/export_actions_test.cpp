@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "analysis/hand_made_study.h"
+#include "app/operator/results_model.h"
 #include "app/operator/simulated_study.h"
 #include "app/results/study_report.h"
 #include "core/error.h"
@@ -25,18 +26,91 @@ class ExportActionsTest : public ::testing::Test {
 
 TEST_F(ExportActionsTest, TablesAreWrittenWithACodebook) {
   study_.simulate(2);
-  const ActionOutcome outcome = export_tables(study_.folder(), target(), control_);
+  const ActionOutcome outcome = export_study(study_.folder(), target(), {"csv"}, control_);
   EXPECT_TRUE(outcome.ok);
   EXPECT_EQ(outcome.sentence, "20 answers of 2 sessions are written to " + target().string() +
-                                  ", with a codebook");
+                                  ": tables with a codebook");
+  EXPECT_EQ(outcome.opens, target());
   EXPECT_TRUE(fs::exists(target() / "trials.csv"));
   EXPECT_TRUE(fs::exists(target() / "codebook.csv"));
   EXPECT_EQ(control_.ratio(), 1.0);
 }
 
+TEST_F(ExportActionsTest, EveryFormatOfTheCommandIsWritten) {
+  study_.simulate(1, /*record=*/true);
+  const fs::path bids = study_.temporary() / "bids", hdf5 = study_.temporary() / "hdf5";
+  const ActionOutcome first = export_study(study_.folder(), bids, {"bids"}, control_);
+  EXPECT_TRUE(first.sentence.ends_with(": a BIDS data set")) << first.sentence;
+  EXPECT_TRUE(fs::exists(bids / "dataset_description.json"));
+  const ActionOutcome second = export_study(study_.folder(), hdf5, {"hdf5"}, control_);
+  EXPECT_TRUE(second.sentence.ends_with(": tables and an HDF5 file")) << second.sentence;
+  EXPECT_TRUE(fs::exists(hdf5 / "study.h5"));
+  EXPECT_EQ(second.opens, hdf5);
+  (void)export_study(study_.folder(), target(), {.format = "csv", .recordings = true},
+                     control_);
+  EXPECT_TRUE(fs::exists(target() / "recordings"));
+}
+
+TEST_F(ExportActionsTest, FiguresAreDrawnAsTheReportDrawsThem) {
+  study_.simulate(2);
+  const std::vector<analysis::ChartSet> charts =
+      results_model(study_.folder(), control_).charts;
+  const auto what = StudyFiguresRequest::What::kCharts;
+  const ActionOutcome outcome = save_figures(
+      {.folder = study_.folder(), .out = target(), .what = what, .charts = charts}, control_);
+  EXPECT_TRUE(outcome.ok) << outcome.sentence;
+  EXPECT_TRUE(outcome.sentence.ends_with(", as SVG and PDF")) << outcome.sentence;
+  EXPECT_EQ(outcome.opens, target());
+  EXPECT_EQ(control_.ratio(), 1.0);
+  (void)write_report(study_.folder(), study_.temporary() / "report", control_);
+  int num_svg = 0;
+  for (const auto& entry : fs::directory_iterator(target())) {
+    if (entry.path().extension() != ".svg") continue;
+    ++num_svg;
+    const fs::path name = entry.path().filename();
+    EXPECT_TRUE(fs::exists(target() / fs::path(name).replace_extension(".pdf")));
+    const fs::path reported = study_.temporary() / "report" / "figures" / name;
+    ASSERT_TRUE(fs::exists(reported)) << name;
+  }
+  EXPECT_GT(num_svg, 0);
+  EXPECT_EQ(core::noted_exports(study_.folder()).front().kind, "figures");
+}
+
+TEST_F(ExportActionsTest, OneParticipantsChartsAreFiguresOfTheirOwn) {
+  study_.simulate(2);
+  const std::vector<analysis::ChartSet> charts =
+      results_model(study_.folder(), control_).charts;
+  const ActionOutcome outcome = save_figures({.folder = study_.folder(),
+                                              .out = target(),
+                                              .charts = charts,
+                                              .who = "P02",
+                                              .simulated = true},
+                                             control_);
+  EXPECT_TRUE(outcome.ok) << outcome.sentence;
+  for (const auto& entry : fs::directory_iterator(target())) {
+    if (entry.path().extension() != ".svg") continue;
+    EXPECT_TRUE(entry.path().stem().string().ends_with("_P02")) << entry.path();
+  }
+  EXPECT_THROW((void)save_figures({.folder = study_.folder(),
+                                   .out = study_.temporary() / "nobody",
+                                   .charts = charts,
+                                   .who = "P99"},
+                                  control_),
+               core::Error);
+  EXPECT_FALSE(fs::exists(study_.temporary() / "nobody"));
+}
+
+TEST_F(ExportActionsTest, BoxesAreFiguresOfTheReport) {
+  study_.simulate(3);
+  const ActionOutcome outcome = save_figures(
+      {.folder = study_.folder(), .out = target(), .what = StudyFiguresRequest::What::kBoxes},
+      control_);
+  EXPECT_TRUE(outcome.ok) << outcome.sentence;
+}
+
 TEST_F(ExportActionsTest, TheStudyRemembersWhereItWasWrittenTo) {
   study_.simulate(1);
-  EXPECT_TRUE(export_tables(study_.folder(), target(), control_).problems.empty());
+  EXPECT_TRUE(export_study(study_.folder(), target(), {"csv"}, control_).problems.empty());
   (void)write_report(study_.folder(), study_.temporary() / "report", control_);
   const std::vector<core::ExportNote> notes = core::noted_exports(study_.folder());
   ASSERT_EQ(notes.size(), 2U);
@@ -50,7 +124,7 @@ TEST_F(ExportActionsTest, NothingIsEverOverwritten) {
   study_.simulate(1);
   fs::create_directories(target());
   write_file(target() / "mine.txt", "x");
-  EXPECT_THROW((void)export_tables(study_.folder(), target(), control_), core::Error);
+  EXPECT_THROW((void)export_study(study_.folder(), target(), {"csv"}, control_), core::Error);
   EXPECT_THROW((void)write_report(study_.folder(), target(), control_), core::Error);
   EXPECT_EQ(std::distance(fs::directory_iterator(target()), {}), 1);
 }
@@ -101,6 +175,7 @@ TEST_F(ExportActionsTest, AReportIsTheOneOfTheCommand) {
   const ActionOutcome outcome = write_report(study_.folder(), target(), control_);
   EXPECT_TRUE(outcome.ok);
   EXPECT_EQ(outcome.sentence.find("report.html"), 0U) << outcome.sentence;
+  EXPECT_EQ(outcome.opens, target() / "report.html");
   EXPECT_EQ(control_.ratio(), 1.0);
   const fs::path other = study_.temporary() / "by_the_command";
   (void)write_study_report({.folder = study_.folder(), .out = other});
@@ -127,7 +202,7 @@ TEST_F(ExportActionsTest, AReportThatIsCancelledHalfWayLeavesNothingBehind) {
 TEST_F(ExportActionsTest, ADoubleBlindStudyGivesNothingAway) {
   SimulatedStudy blind(kDoubleBlindStudy);
   blind.simulate(1);
-  EXPECT_THROW((void)export_tables(blind.folder(), target(), control_), core::Error);
+  EXPECT_THROW((void)export_study(blind.folder(), target(), {"csv"}, control_), core::Error);
   EXPECT_THROW((void)write_report(blind.folder(), target(), control_), core::Error);
   EXPECT_FALSE(fs::exists(target()));
 }
@@ -154,7 +229,7 @@ TEST_F(ExportActionsTest, AnUnblindingIsInTheLogOfEverySessionOnce) {
 TEST_F(ExportActionsTest, WhatIsCancelledLeavesNothingBehind) {
   study_.simulate(1);
   control_.cancel();
-  EXPECT_THROW((void)export_tables(study_.folder(), target(), control_), WorkCancelled);
+  EXPECT_THROW((void)export_study(study_.folder(), target(), {"csv"}, control_), WorkCancelled);
   EXPECT_THROW((void)write_report(study_.folder(), target(), control_), WorkCancelled);
   EXPECT_FALSE(fs::exists(target()));
 }

@@ -62,7 +62,8 @@ class OperatedSessionTest : public ::testing::Test {
                                     .allow_no_realtime = true,
                                     .stops = stops_,
                                     .injected_faults = faults,
-                                    .on_sample = on_sample_});
+                                    .on_sample = on_sample_,
+                                    .asks_about_answers = asks_about_answers_});
     pass(0.1);
   }
 
@@ -181,8 +182,9 @@ class OperatedSessionTest : public ::testing::Test {
   KnownProfile profile_;           ///< Without a text: none.
   std::map<std::string, std::string> fitting_;
   bool realtime_ = false;
-  bool may_miss_ticks_ = true;   ///< A test in real time must not hang on the machine.
-  std::filesystem::path stops_;  ///< Where stops are remembered; "": nowhere.
+  bool asks_about_answers_ = false;  ///< Tests answer sooner than any person.
+  bool may_miss_ticks_ = true;       ///< A test in real time must not hang on the machine.
+  std::filesystem::path stops_;      ///< Where stops are remembered; "": nowhere.
   std::function<void(const core::Sample&)> on_sample_;
   std::unique_ptr<OperatedSession> session_;
 };

@@ -360,7 +360,7 @@ TEST_F(OperatedSessionTest, ADoubleBlindViewHoldsNoLevelNoForceAndNoName) {
   }
   for (const AnswerLine& answer : now.answers) {
     EXPECT_TRUE(answer.block.starts_with("Block ")) << answer.block;
-    if (answer.kind == experiments::AnswerKind::kMatch) {
+    if (answer.form.kind == experiments::AnswerKind::kMatch) {
       EXPECT_EQ(answer.answer, "set");
     }
   }

@@ -87,6 +87,8 @@ TEST(StudyFolder, CountsWhoIsDoneAndWhoIsNot) {
   EXPECT_EQ(study.sessions[0].when, "") << "simulated time has no date";
   EXPECT_EQ(study.sessions[2].status, Status::kOpen);
   EXPECT_EQ(study.sessions[2].num_answers, 3);
+  EXPECT_EQ(study.sessions[2].num_trials, kTinyTrials)
+      << "blocks that nobody has come to count as well";
   EXPECT_TRUE(study.sessions[3].pilot);
   EXPECT_EQ(study.sessions[3].device, "lumped");
 }

@@ -27,6 +27,7 @@ TEST_F(AnsweringPicturesTest, OfATrialInGoodTime) {
   window_->start({"run", path("study.json").string(), "--study", path("in_time.study").string(),
                   "--participant", "P07", "--device", "lumped", "--seed", "7"});
   window_->wait_for("start_session");
+  window_->use("real_session");
   window_->use("start_session");
   window_->use("begin");
   window_->wait_for_text("Present the first");

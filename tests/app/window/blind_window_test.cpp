@@ -103,6 +103,7 @@ class BlindWindowTest : public WindowTest {
     window_->use("new_session");
     window_->wait_for_view("prepare");
     window_->wait_for("start_session");
+    window_->use("real_session");
   }
   [[nodiscard]] std::string texts_of_all_files_in(const fs::path& folder) const {
     std::string all;

@@ -18,9 +18,7 @@ TEST_F(ComparisonWindowTest, ABlockWithUndoPauseAndNoteIsStoredAsItWasClicked) {
   // The second answer was a slip.
   window_->use("undo");
   window_->wait_for_text("Undo the last answer");
-  window_->type("slip of the finger");
-  window_->wait_for("dialog_do");
-  window_->press("Return");
+  window_->use("reason_2");
   wait_for_trial(2);
   feel_test();
   window_->use("answer_no");
@@ -29,8 +27,12 @@ TEST_F(ComparisonWindowTest, ABlockWithUndoPauseAndNoteIsStoredAsItWasClicked) {
   // A pause in the middle of a presentation: the trial is run again.
   feel_test();
   window_->use("pause");
-  window_->wait_for_text("Pause the session");
+  window_->wait_for_text("Paused. Why?");
+  EXPECT_EQ(events_of(stored(), "paused").size(), 1U) << "before anybody says why";
+  window_->use("reason_5");
+  window_->wait_for("reason");
   window_->type("a phone rang");
+  window_->wait_for("dialog_do");
   window_->press("Return");
   window_->wait_for("go_on");
   window_->use("note");
@@ -61,10 +63,13 @@ TEST_F(ComparisonWindowTest, ABlockWithUndoPauseAndNoteIsStoredAsItWasClicked) {
   const auto undone = events_of(store, "answer_undone");
   ASSERT_EQ(undone.size(), 1u);
   EXPECT_EQ(undone[0].trial, 2);
-  EXPECT_EQ(value(undone[0], "reason"), "slip of the finger");
+  EXPECT_EQ(value(undone[0], "reason"), "the wrong key was pressed");
   const auto paused = events_of(store, "paused");
   ASSERT_EQ(paused.size(), 1u);
-  EXPECT_EQ(value(paused[0], "reason"), "a phone rang");
+  EXPECT_EQ(value(paused[0], "reason"), "");
+  const auto explained = events_of(store, "pause_explained");
+  ASSERT_EQ(explained.size(), 1u);
+  EXPECT_EQ(value(explained[0], "reason"), "a phone rang");
   EXPECT_EQ(events_of(store, "continued").size(), 1u);
   const auto notes = events_of(store, "note_added");
   ASSERT_EQ(notes.size(), 1u);

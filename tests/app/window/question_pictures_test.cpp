@@ -27,6 +27,7 @@ TEST_F(QuestionPicturesTest, OfARatingAndTheQuestionsAfterIt) {
   window_->start({"run", path("study.json").string(), "--study", path("asked.study").string(),
                   "--participant", "P07", "--device", "lumped", "--seed", "7"});
   window_->wait_for("start_session");
+  window_->use("real_session");
   window_->use("start_session");
   for (int number = 1;; ++number) {
     ASSERT_LT(number, 60);

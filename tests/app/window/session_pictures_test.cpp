@@ -120,6 +120,7 @@ TEST_F(SessionPicturesTest, OfASessionFromItsPreparationToItsEnd) {
                   "lumped", "--seed", "7"});
   window_->wait_for("start_session");
   take("prepare");
+  window_->use("real_session");
   window_->use("start_session");
   while (step_on()) {
   }
@@ -153,10 +154,13 @@ TEST_F(SessionPicturesTest, OfADoubleBlindPilotAndWhatInterruptsIt) {
   take_dialog("session-leave", "ctrl+w", "dialog_cancel");
   do {
     window_->use("pause");
-    window_->wait_for("dialog_cancel");
-    take("session-pause");
-    window_->press("Return");
     // Refused where the window has stalled meanwhile.
+    window_->wait_until("a pause", [](const Screen& now) {
+      return now.offers("dialog_cancel") || now.shows("Not done");
+    });
+    if (!window_->screen().offers("dialog_cancel")) continue;
+    take("session-pause");
+    window_->press("F2");
     window_->wait_until("a pause", [](const Screen& now) {
       return now.offers("go_on") || now.offers("pause");
     });

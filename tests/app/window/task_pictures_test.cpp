@@ -104,6 +104,7 @@ TEST_F(TaskPicturesTest, OfEveryTask) {
   window_->use("field_handedness_right");
   window_->wait_for("start_session");
   take("task-prepare-known", 1);
+  window_->use("real_session");
   window_->use("start_session");
   for (int number = 1; step_on(number); ++number) ASSERT_LT(number, 90);
   window_->wait_for_text("complete");

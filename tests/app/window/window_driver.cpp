@@ -104,11 +104,22 @@ Screen WindowDriver::screen() const { return read_screen(folder_ / "widgets.json
 Screen WindowDriver::wait_until(const std::string& what, const Condition& condition) const {
   const auto end = Clock::now() + kPatience;
   Screen now = screen();
-  while (!condition(now)) {
+  // A dialog that asks about an answer stands over whatever is waited for.
+  const auto is_asked = [this](const Screen& at) {
+    return confirms_answers && at.offers("doubt_store");
+  };
+  while (is_asked(now) || !condition(now)) {
     const bool has_ended = program_ == nullptr || program_->has_ended();
     if (has_ended || Clock::now() > end) {
       const std::string why = has_ended ? "the program ended before " : "waited in vain for ";
       throw std::runtime_error(why + what + stands_there(now));
+    }
+    if (is_asked(now)) {
+      press("s");
+      // Once for each: the next card may have the key as well.
+      while (screen().offers("doubt_store") && Clock::now() < end) {
+        std::this_thread::sleep_for(kGlance);
+      }
     }
     std::this_thread::sleep_for(kGlance);
     now = screen();

@@ -75,6 +75,8 @@ class WindowDriver {
   /// Large windows drawn by a busy processor may stop for longer than the heartbeat allows;
   /// then the session is armed again and the trial felt once more.
   bool forgives_stalls = false;
+  /// A test answers sooner than anybody would, and is asked whether it means it: it does.
+  bool confirms_answers = true;
 
  private:
   void xdotool(std::vector<std::string> words) const;

@@ -53,6 +53,7 @@ class WindowTest : public ::testing::Test {
     window_->start({"run", path("study.json").string(), "--study", path(folder).string(),
                     "--participant", "P01", "--device", "lumped", "--seed", "7"});
     window_->wait_for_view("prepare");
+    window_->use("real_session");
     window_->use("start_session");
     window_->wait_for("begin");
   }

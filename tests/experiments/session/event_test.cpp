@@ -72,6 +72,7 @@ std::vector<EventData> one_of_each() {
                                          {"index", {1.0 / 3.0, 0.059, -0.1}}}},
           QuestionAnswered{4, 2, "confidence", "3"},
           TurnTaken{4},
+          PauseExplained{17, "why"},
           SessionCompleted{},
           SessionEndedEarly{"why"}};
 }

@@ -72,6 +72,39 @@ TEST_F(SessionTest, RunsEveryStageAndShowsEachStimulusOncePerRepetition) {
   EXPECT_EQ(s.current_stage(), &production_);
 }
 
+TEST_F(SessionTest, APauseIsExplainedByAnEventOfItsOwnWhichMayNeverCome) {
+  Session s = session();
+  s.start();
+  EXPECT_THROW(s.explain_pause("why"), core::Error) << "there is none";
+  s.pause("");
+  const std::int64_t pause = s.state().last_sequence;
+  EXPECT_EQ(s.state().unexplained_pause, pause);
+  s.explain_pause("a cough");
+  EXPECT_EQ(s.state().unexplained_pause, 0);
+  EXPECT_TRUE(s.state().paused) << "explained, it goes on";
+  EXPECT_THROW(s.explain_pause("again"), core::Error);
+  EXPECT_EQ(log_.events.back().data,
+            R"({"pause_sequence":)" + std::to_string(pause) + R"(,"reason":"a cough"})");
+  EXPECT_EQ(session(log_.events).state().unexplained_pause, 0);
+  s.go_on();
+  s.pause("lunch");
+  EXPECT_THROW(s.explain_pause("tea"), core::Error) << "it has its reason";
+  s.pause("");
+  Session again = session(log_.events);
+  again.resume("repeat", 0, -1);
+  EXPECT_THROW(again.explain_pause("why"), core::Error) << "whoever knew it is gone";
+}
+
+TEST_F(SessionTest, AnExplanationOfAnotherPauseIsADamagedLog) {
+  Session s = session();
+  s.start();
+  s.pause("");
+  SessionState state = s.state();
+  const Event wrong{.sequence = state.last_sequence + 1,
+                    .data = PauseExplained{state.last_sequence - 1, "why"}};
+  EXPECT_THROW(apply(state, wrong), core::Error);
+}
+
 TEST_F(SessionTest, WhatWouldBeRefusedCanBeAskedBeforeAndChangesNothing) {
   Session s = session();
   s.start();

@@ -338,6 +338,15 @@ TEST_F(ApparatusView, WhyThereIsNoPictureStandsInItsPlaceAndTheScopesGoOn) {
   EXPECT_FALSE(asked_scopes_.empty());
 }
 
+TEST_F(ApparatusView, WhileThePictureLoadsItSaysSoAndEverythingElseIsThere) {
+  sources_.paint = [](const SceneRequest&) { return std::uintptr_t{0}; };
+  draw(felt());
+  EXPECT_TRUE(drawn().shows("Loading the 3D view …"));
+  EXPECT_FALSE(drawn().shows("picture of the apparatus"));
+  EXPECT_NE(drawn().find("scope_1"), nullptr);
+  EXPECT_NE(drawn().find("emergency_stop"), nullptr);
+}
+
 TEST_F(ApparatusView, EmptyAndBrokenChannelsAreDrawnAsSuch) {
   state_.scopes.channels = {"", "no_such_channel", "fault", "index_force_x_n"};
   sources_.scopes = [](const std::vector<std::string>& names) {

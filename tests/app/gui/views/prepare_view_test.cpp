@@ -62,6 +62,30 @@ TEST_F(PrepareViewTest, HowTheDeviceWasFittedIsWrittenAsPairsOrNotAtAll) {
   EXPECT_TRUE(after_key({Key::kEnter}).start);
 }
 
+TEST_F(PrepareViewTest, ASimulatedDeviceNeverStartsAsARealSession) {
+  model_.devices.push_back({"delta", "a real one", false});
+  choose_kind(model_, state_);
+  EXPECT_TRUE(state_.pilot);
+  (void)draw();
+  EXPECT_TRUE(ui_.drawn().shows("Marked for good, left out of results."));
+  EXPECT_FALSE(ui_.drawn().shows("Its answers are data"));
+  (void)after_key({letter('3')});
+  EXPECT_EQ(state_.device, "delta");
+  EXPECT_FALSE(state_.pilot) << "a person's hand is in it";
+  (void)after_key({letter('1')});
+  EXPECT_TRUE(state_.pilot) << "and back";
+}
+
+TEST_F(PrepareViewTest, WhatAPersonChoseStaysAndSaysWhatItMeans) {
+  choose_kind(model_, state_);
+  (void)after_key({letter('R')});
+  EXPECT_FALSE(state_.pilot);
+  (void)draw();
+  EXPECT_TRUE(ui_.drawn().shows("Its answers are data, though the device is simulated."));
+  (void)after_key({letter('2')});
+  EXPECT_FALSE(state_.pilot) << "chosen, it stays";
+}
+
 TEST_F(PrepareViewTest, AFailureForbidsAndIsNamed) {
   model_.lines[0].status = Status::kFailed;
   EXPECT_FALSE(after_key({Key::kEnter}).start);

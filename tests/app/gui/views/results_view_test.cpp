@@ -36,9 +36,10 @@ class ResultsViewTest : public ::testing::Test {
     ui.frame([&](Ui& now) {
       const ResultsViewResult result = draw_results_view(now, model_, state_);
       if (result.tab != StudyTab::kNone) all.tab = result.tab;
-      all.export_tables |= result.export_tables;
+      if (result.export_as) all.export_as = result.export_as;
       all.write_report |= result.write_report;
-      all.save_picture |= result.save_picture;
+      if (result.save_picture) all.save_picture = result.save_picture;
+      all.open |= result.open;
       all.cancel |= result.cancel;
       all.unblind |= result.unblind;
     });
@@ -102,22 +103,68 @@ TEST_F(ResultsViewTest, EveryPageIsReachedByItsNumber) {
 }
 
 TEST_F(ResultsViewTest, EveryActionHasItsKey) {
-  EXPECT_TRUE(after_key({.key = letter('E'), .control = true}).export_tables);
   EXPECT_TRUE(after_key({.key = letter('R'), .control = true}).write_report);
-  EXPECT_TRUE(after_key({.key = letter('S'), .control = true}).save_picture);
   EXPECT_EQ(after_key({.key = letter('1'), .control = true}).tab, StudyTab::kSessions);
+}
+
+TEST_F(ResultsViewTest, AnExportAsksForItsFormat) {
+  const char* const formats[] = {"csv", "bids", "hdf5"};
+  for (std::size_t i = 0; i < std::size(formats); ++i) {
+    EXPECT_FALSE(after_key({.key = letter('E'), .control = true}).export_as);
+    EXPECT_TRUE(ui_.drawn().shows("Export the study as …"));
+    const auto chosen = after_key({letter(static_cast<char>('1' + i))}).export_as;
+    ASSERT_TRUE(chosen) << formats[i];
+    EXPECT_EQ(chosen->format, formats[i]);
+    EXPECT_FALSE(chosen->recordings);
+    EXPECT_FALSE(state_.asks_for_format);
+  }
+  (void)after_key({.key = letter('E'), .control = true});
+  (void)after_key({letter('R')});
+  ui_.click("export_bids");
+  const auto with_samples = draw(ui_).export_as;
+  ASSERT_TRUE(with_samples);
+  EXPECT_TRUE(with_samples->recordings);
+  (void)after_key({.key = letter('E'), .control = true});
+  EXPECT_FALSE(after_key({Key::kF2}).export_as);
+  EXPECT_FALSE(state_.asks_for_format);
+}
+
+TEST_F(ResultsViewTest, APictureIsOfTheFiguresOfItsPage) {
+  using What = StudyFiguresRequest::What;
+  const Chord save{.key = letter('S'), .control = true};
+  EXPECT_EQ(after_key(save).save_picture, What::kCharts);
+  (void)after_key({letter('2')});
+  EXPECT_EQ(after_key(save).save_picture, What::kBoxes);
+  (void)after_key({letter('3')});
+  EXPECT_EQ(after_key(save).save_picture, std::nullopt) << "a page of words has none";
+  EXPECT_FALSE(ui_.drawn().find("save_picture")->enabled);
+}
+
+TEST_F(ResultsViewTest, WhatWasWrittenIsOpenedByItsKey) {
+  (void)draw(ui_);
+  EXPECT_EQ(ui_.drawn().find("open_written"), nullptr) << "nothing was";
+  model_.work.outcome = {.sentence = "report.html with 4 figures is in a-report",
+                         .problems = {"no browser is installed"},
+                         .opens = "a-report/report.html"};
+  EXPECT_TRUE(after_key({.key = letter('O'), .control = true}).open);
+  EXPECT_TRUE(ui_.drawn().shows("is in a-report · no browser is installed"));
+  model_.work.running = "Exporting";
+  (void)draw(ui_);
+  EXPECT_EQ(ui_.drawn().find("open_written"), nullptr);
 }
 
 TEST_F(ResultsViewTest, WorkUnderWayIsShownAndKeepsTheButtonsAway) {
   model_.work = {.running = "Exporting", .progress = 0.5};
-  EXPECT_FALSE(after_key({.key = letter('E'), .control = true}).export_tables);
+  (void)after_key({.key = letter('E'), .control = true});
+  EXPECT_FALSE(state_.asks_for_format);
   EXPECT_TRUE(ui_.drawn().shows("Exporting · 50 %"));
   EXPECT_TRUE(after_key({Key::kF2}).cancel);
 }
 
 TEST_F(ResultsViewTest, WhileTheyAreComputedThereIsProgressAndNothingToExport) {
   model_.results = nullptr;
-  EXPECT_FALSE(after_key({.key = letter('E'), .control = true}).export_tables);
+  (void)after_key({.key = letter('E'), .control = true});
+  EXPECT_FALSE(state_.asks_for_format);
   EXPECT_TRUE(ui_.drawn().shows("Computing the results"));
 }
 

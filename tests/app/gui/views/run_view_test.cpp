@@ -2,133 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-
 #include "app/gui/headless_ui.h"
 #include "app/gui/views/participant_view.h"
+#include "app/gui/views/run_view_fixture.h"
 
 namespace jnd::app::gui {
 namespace run_view_test {
 
-using experiments::AnswerKind;
-
-/// The test fluid of a comparison is being felt, the reference was before.
-SessionView comparison() {
-  SessionView view{.study = "Viscosity discrimination",
-                   .participant = "P07",
-                   .device = "lumped",
-                   .language = "en"};
-  view.step = Step::kPresenting;
-  view.heading = "Test fluid";
-  view.sentence = "Show one finger. At the ready sign, ask:";
-  view.say = "Does this feel thicker than the reference?";
-  view.sign = HandSign::kOneFinger;
-  view.participant_text = view.say;
-  for (const char* title : {"Checklist", "Consent", "Group D", "Break", "Group E"}) {
-    view.stages.push_back({.title = title});
-  }
-  view.stages[2].status = StageLine::Status::kNow;
-  view.stage = 2;
-  view.trial = TrialView{.trial = 23,
-                         .in_block = 23,
-                         .num_in_block = 40,
-                         .repetition = 3,
-                         .num_repetitions = 5,
-                         .answer = AnswerKind::kYesNo,
-                         .has_reference = true,
-                         .interval = "test",
-                         .felt_s = 6.4,
-                         .num_strokes = 3,
-                         .first_felt_s = 8.1,
-                         .can_answer = true,
-                         .question = view.say,
-                         .yes_label = "Thicker",
-                         .no_label = "Not thicker",
-                         .level = "1.65 Pa s, reference 1.85 Pa s"};
-  for (int i = 22; i > 12; --i) {
-    view.answers.push_back({.trial = i,
-                            .in_block = i,
-                            .block = "Group D",
-                            .answer = "Thicker",
-                            .response_time_s = 4.2,
-                            .can_undo = i == 22});
-  }
-  view.trials_on_disk = 22;
-  view.last_sequence = 180;
-  view.loop = {.rate_hz = 1000, .lateness_p99_us = 0.03, .scheduler = "SCHED_FIFO 80"};
-  view.max_total_force_n = 30;
-  view.telemetry.sample.attached_bits = 31;
-  view.telemetry.total_force_n = {3.0, 4.0, 0.0};
-  return view;
-}
-
-SessionView estimation() {
-  SessionView view = comparison();
-  view.trial->answer = AnswerKind::kPercent;
-  view.trial->has_reference = false;
-  return view;
-}
-
-SessionView production() {
-  SessionView view = comparison();
-  view.trial->answer = AnswerKind::kMatch;
-  view.trial->has_reference = false;
-  view.trial->adjustable = true;
-  view.trial->target_percent = 100;
-  return view;
-}
-
-SessionView item_of(ItemView item) {
-  SessionView view = comparison();
-  view.trial.reset();
-  view.step = Step::kItem;
-  view.heading = "Questions";
-  view.sentence = item.text;
-  view.item = std::move(item);
-  return view;
-}
-
-class RunView : public ::testing::Test {
- protected:
-  std::vector<OperatorRequest> draw(const SessionView& view) {
-    std::vector<OperatorRequest> requests;
-    ui_.frame([&](Ui& ui) {
-      last_ = draw_run_view(ui, view, trace_, after_, state_);
-      requests.insert(requests.end(), last_.requests.begin(), last_.requests.end());
-      stopped_ |= last_.stop;
-    });
-    return requests;
-  }
-  /// The one request that a key leads to.
-  template <typename Request>
-  Request after_key(const SessionView& view, const Chord& key) {
-    draw(view);
-    ui_.press(key);
-    return only<Request>(draw(view));
-  }
-  template <typename Request>
-  Request after_click(const SessionView& view, std::string_view widget) {
-    draw(view);
-    ui_.click(widget);
-    return only<Request>(draw(view));
-  }
-  template <typename Request>
-  static Request only(const std::vector<OperatorRequest>& requests) {
-    EXPECT_EQ(requests.size(), 1U);
-    if (requests.size() != 1 || !std::holds_alternative<Request>(requests[0])) {
-      ADD_FAILURE() << "another request";
-      return {};
-    }
-    return std::get<Request>(requests[0]);
-  }
-
-  HeadlessUi ui_;
-  RunViewState state_;
-  AfterSession after_;
-  std::vector<TracePoint> trace_;
-  RunViewResult last_;
-  bool stopped_ = false;
-};
+using RunView = RunViewTest;
 
 TEST_F(RunView, AnswersByKeyAndByMouseForTheTrialThatIsShown) {
   EXPECT_EQ(after_key<operate::Answer>(comparison(), {letter('Y')}).value, 1.0);
@@ -239,24 +120,6 @@ TEST_F(RunView, AStepOfARatingIsChosenByItsNumber) {
   EXPECT_TRUE(ui_.drawn().shows("very thick"));
 }
 
-TEST_F(RunView, AWrongIntervalIsSetRightByItsName) {
-  SessionView view = two_intervals();
-  AnswerLine line;
-  line.trial = 20;
-  line.kind = AnswerKind::kInterval;
-  view.answers = {line};
-  draw(view);
-  ui_.click("answer_20");
-  draw(view);
-  draw(view);
-  EXPECT_TRUE(ui_.drawn().shows("first or second"));
-  ui_.type("second");
-  draw(view);
-  state_.reason = "misheard";
-  ui_.press({Key::kEnter});
-  EXPECT_EQ(only<operate::Correct>(draw(view)).value, 2.0);
-}
-
 TEST_F(RunView, CannotTellIsAnAnswerWithAKeyWhereTheStudyHasIt) {
   for (SessionView view : {comparison(), two_intervals(), three_intervals()}) {
     view.trial->can_answer = true;
@@ -271,25 +134,6 @@ TEST_F(RunView, CannotTellIsAnAnswerWithAKeyWhereTheStudyHasIt) {
     ASSERT_NE(ui_.drawn().find("answer_cannot_tell"), nullptr);
     EXPECT_EQ(ui_.drawn().find("answer_cannot_tell")->label, "Cannot tell");
   }
-}
-
-TEST_F(RunView, AnAnswerIsSetRightToCannotTellWhereThatIsOne) {
-  SessionView view = comparison();
-  AnswerLine line;
-  line.trial = 20;
-  line.kind = AnswerKind::kYesNo;
-  line.takes_cannot_tell = true;
-  view.answers = {line};
-  draw(view);
-  ui_.click("answer_20");
-  draw(view);
-  draw(view);
-  EXPECT_TRUE(ui_.drawn().shows("yes, no or cannot tell"));
-  ui_.type("cannot tell");
-  draw(view);
-  state_.reason = "misheard";
-  ui_.press({Key::kEnter});
-  EXPECT_EQ(only<operate::Correct>(draw(view)).value, std::nullopt);
 }
 
 TEST_F(RunView, NothingGoesOnBeforeAStimulusWasFeltForItsLeastTime) {
@@ -399,19 +243,6 @@ TEST_F(RunView, AHeldKeyAsksForStepsThatMayBeLeftOut) {
   EXPECT_TRUE(std::get<operate::Adjust>(requests.back()).held);
   ui_.release({Key::kRight});
   EXPECT_EQ(after_key<operate::Answer>(production(), {Key::kEnter}).trial, 23);
-}
-
-TEST_F(RunView, UndoAsksForAReasonAndEnterSendsIt) {
-  draw(comparison());
-  ui_.press({letter('Z'), true});
-  draw(comparison());
-  ASSERT_NE(ui_.drawn().find("dialog_do"), nullptr);
-  EXPECT_FALSE(ui_.drawn().find("dialog_do")->enabled) << "a reason is needed";
-  ui_.type("my slip");
-  EXPECT_TRUE(draw(comparison()).empty()) << "letters are words now, not answers";
-  ui_.press(Key::kEnter);
-  EXPECT_EQ(only<operate::Undo>(draw(comparison())).reason, "my slip");
-  EXPECT_EQ(state_.dialog, RunViewState::Dialog::kNone);
 }
 
 TEST_F(RunView, ADialogIsLeftByItsPrintedKeyAndNothingHappens) {

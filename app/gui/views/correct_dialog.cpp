@@ -1,0 +1,204 @@
+// Sets an earlier answer right: with the buttons or the field that its trial has, or by running
+// it again. First the answer, then why.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "app/gui/views/run_parts.h"
+#include "app/gui/views/typed_number.h"
+#include "app/language/words.h"
+
+namespace jnd::app::gui {
+namespace {
+
+using experiments::AnswerKind;
+
+constexpr float kCorrectButton = 52;
+constexpr float kCorrectScale = 96;
+
+bool is_typed_again(const AnswerForm& form) {
+  return form.kind == AnswerKind::kPercent || form.kind == AnswerKind::kNumber ||
+         form.kind == AnswerKind::kMatch;
+}
+
+/// Why what is typed is no answer; "" if it is one, or nothing yet.
+std::string problem_of_correction(const AnswerForm& form, const std::string& typed) {
+  if (is_blank(typed)) return "";
+  const std::optional<double> value = typed_number(typed);
+  if (!value) return tr("expected a number, found “{}”", typed);
+  if (form.kind == AnswerKind::kNumber && !(*value > 0.0))
+    return tr("expected a number above 0");
+  if (!(*value >= 0.0)) return tr("expected a number of 0 or more");
+  return "";
+}
+
+class CorrectDialog {
+ public:
+  CorrectDialog(Ui& ui, CorrectState& state) : ui_(ui), state_(state), form_(state.line.form) {}
+
+  [[nodiscard]] float height() const {
+    if (is_typed_again(form_) && !form_.is_hidden) return 396;
+    return form_.kind == AnswerKind::kStep ? 404 : 356;
+  }
+
+  /// What is to be stored instead.
+  void draw_answer(Rect& inside) {
+    if (is_typed_again(form_)) return draw_field(inside);
+    if (form_.kind == AnswerKind::kStep) {
+      const int selected =
+          state_.has_choice && state_.value ? static_cast<int>(std::lround(*state_.value)) : 0;
+      const int step = draw_scale(ui_, inside.take_top(kCorrectScale, 14), "correct_step_",
+                                  form_.num_steps, form_.low_label, form_.high_label, selected);
+      if (step > 0) choose(step);
+      return;
+    }
+    draw_buttons(inside.take_top(kCorrectButton, 18));
+  }
+
+ private:
+  void choose(std::optional<double> value) {
+    state_.has_choice = true;
+    state_.runs_again = false;
+    state_.value = value;
+    state_.asks_why = true;
+  }
+
+  void draw_field(Rect& inside) {
+    if (form_.is_hidden) {
+      const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
+      ui_.text(inside.take_top(kCorrectButton, 18),
+               state_.line.can_run_again
+                   ? tr("What was set is hidden and cannot be typed. Run the trial again.")
+                   : tr("What was set is hidden and cannot be typed, and its block is over. "
+                        "Write a note."),
+               soft);
+      return;
+    }
+    const char* hint = form_.kind == AnswerKind::kPercent  ? tr("percent")
+                       : form_.kind == AnswerKind::kNumber ? tr("number")
+                                                           : tr("what was set");
+    Rect row = inside.take_top(46, 6);
+    const std::string unit = form_.kind == AnswerKind::kPercent ? "%" : form_.unit;
+    if (!unit.empty()) {
+      ui_.text(row.take_right(ui_.text_width(unit, Font::kBody) + 4, 10), unit, {});
+    }
+    const std::string before = state_.typed;
+    const bool entered =
+        ui_.text_field("correct_value", row, state_.typed, hint, state_.is_new);
+    if (state_.typed != before) state_.runs_again = false;
+    const std::string problem = problem_of_correction(form_, state_.typed);
+    ui_.text(inside.take_top(22, 8), problem,
+             {.font = Font::kSmall, .colour = Colour::kAmber, .wrap = true});
+    const std::optional<double> value = typed_number(state_.typed);
+    state_.has_choice = value && problem.empty();
+    state_.value = state_.has_choice ? value : std::nullopt;
+    state_.is_new = entered && !state_.has_choice;  // The field keeps the keyboard.
+    if (entered && state_.has_choice) state_.asks_why = true;
+  }
+
+  void draw_buttons(const Rect& place) {
+    std::vector<RowButton> buttons;
+    const auto add = [&](const char* name, const std::string& label, char key,
+                         std::optional<double> value) {
+      const bool selected = state_.has_choice && !state_.runs_again && state_.value == value;
+      buttons.push_back(
+          {name, label, {.key = {letter(key)}, .selected = selected}, [this, value] {
+             choose(value);
+           }});
+    };
+    if (form_.kind == AnswerKind::kYesNo) {
+      add("correct_yes", form_.yes_label, 'Y', 1.0);
+      add("correct_no", form_.no_label, 'N', 0.0);
+    }
+    constexpr const char* kNames[] = {"correct_first", "correct_second", "correct_third"};
+    for (const TrialView::Choice& choice : form_.choices) {
+      add(kNames[choice.interval - 1], choice.label, static_cast<char>('0' + choice.interval),
+          choice.interval);
+    }
+    const std::string cannot_tell = tr("Cannot tell");
+    if (form_.takes_cannot_tell) add("correct_cannot_tell", cannot_tell, 'C', std::nullopt);
+    const auto count = static_cast<float>(std::max<std::size_t>(buttons.size(), 1));
+    draw_button_row(ui_, place, buttons, std::min(240.0f, (place.width - 40) / count));
+  }
+
+  Ui& ui_;
+  CorrectState& state_;
+  const AnswerForm& form_;
+};
+
+}  // namespace
+
+void draw_correct_dialog(Ui& ui, RunViewState& run, RunViewResult& result) {
+  CorrectState& state = run.correct;
+  const AnswerLine& line = state.line;
+  CorrectDialog dialog(ui, state);
+  Rect inside = ui.begin_dialog("dialog", 680, dialog.height());
+  ui.text(inside.take_top(34, 4), tr("Set an answer right"), {.font = Font::kLarge});
+  const TextStyle strong{.font = Font::kStrong, .wrap = true};
+  const std::string which =
+      tr("{}, trial {}: the answer was {}.", line.block, line.in_block, in_quotes(line.answer));
+  ui.text(inside.take_top(ui.text_height(inside.width, which, strong), 4), which, strong);
+  const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
+  const char* words = tr("The old answer stays in the log; what was felt is not touched.");
+  ui.text(inside.take_top(ui.text_height(inside.width, words, soft), 14), words, soft);
+  dialog.draw_answer(inside);
+  const bool is_ready = state.has_choice || state.runs_again;
+  bool entered = false;
+  if (is_ready || state.asks_why) {
+    entered = ui.text_field("reason", inside.take_top(46, 14), run.reason, tr("reason"),
+                            std::exchange(state.asks_why, false));
+  }
+  Rect row = inside.take_bottom(48);
+  const bool may_store = is_ready && !is_blank(run.reason);
+  const char* verb = state.runs_again ? tr("Run it again") : tr("Correct");
+  const ButtonStyle store{.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = may_store};
+  const Rect place = row.take_right(ui.button_width(verb, store), 12);
+  const bool done = ui.button("dialog_do", place, verb, store) || (entered && may_store);
+  const ButtonStyle cancel{.key = {Key::kF2}};
+  const bool cancelled =
+      ui.button("dialog_cancel", row.take_right(ui.button_width(tr("Cancel"), cancel), 12),
+                tr("Cancel"), cancel);
+  if (line.can_run_again) {
+    const ButtonStyle again{.key = {Key::kF5}, .selected = state.runs_again};
+    const Rect at_left = row.take_left(ui.button_width(tr("Run the trial again"), again));
+    if (ui.button("correct_run_again", at_left, tr("Run the trial again"), again)) {
+      state.runs_again = state.asks_why = true;
+    }
+  }
+  ui.end_dialog();
+  if (entered && !done)
+    state.asks_why = true;  // Nothing written: the field keeps the keyboard.
+  if (done && state.runs_again) {
+    result.requests.emplace_back(operate::RunAgain{line.trial, run.reason});
+  } else if (done) {
+    result.requests.emplace_back(
+        operate::Correct{.trial = line.trial, .value = state.value, .reason = run.reason});
+  }
+  if (done || cancelled) run.dialog = RunViewState::Dialog::kNone;
+}
+
+void draw_doubt_dialog(Ui& ui, const DoubtView& doubt, RunViewResult& result) {
+  const TextStyle style{.font = Font::kLarge, .wrap = true};
+  constexpr float kWidth = 620;
+  const float words = ui.text_height(kWidth - 56, doubt.sentence, style);
+  Rect inside = ui.begin_dialog("doubt", kWidth, 56 + 40 + words + 24 + 52);
+  ui.text(inside.take_top(34, 6), tr("Store this answer?"), {.font = Font::kTitle});
+  ui.text(inside.take_top(words, 24), doubt.sentence, style);
+  Rect row = inside.take_bottom(52);
+  // Not by Enter: whoever presses it twice has not read this.
+  const ButtonStyle store{.key = {letter('S')}};
+  const ButtonStyle back{.tone = Tone::kPrimary, .key = {Key::kF2}};
+  const Rect store_place = row.take_right(ui.button_width(tr("Store it"), store), 12);
+  if (ui.button("doubt_store", store_place, tr("Store it"), store)) {
+    result.requests.emplace_back(operate::StoreDoubted{doubt.trial});
+  }
+  const Rect back_place = row.take_right(ui.button_width(tr("Go back"), back), 12);
+  if (ui.button("doubt_go_back", back_place, tr("Go back"), back)) {
+    result.requests.emplace_back(operate::GoBack{doubt.trial});
+  }
+  ui.end_dialog();
+}
+
+}  // namespace jnd::app::gui

@@ -1,0 +1,46 @@
+#include "app/operator/open_outside.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
+
+#include "app/language/words.h"
+
+extern char** environ;
+
+namespace jnd::app {
+
+std::string open_outside(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    return tr("{} is not there any more.", path.string());
+  }
+  // The shell leaves at once, and nobody waits for the program: it is init's child. A path that
+  // begins with a dash is none of its options.
+  constexpr int kNoProgram = 9;
+  std::string shell = "sh", command = "-c", name = "open",
+              script = as_is(
+                  "command -v xdg-open >/dev/null || exit 9; "
+                  "setsid xdg-open \"$1\" </dev/null >/dev/null 2>&1 &"),
+              whole = std::filesystem::absolute(path).string();
+  std::array<char*, 6> arguments = {shell.data(), command.data(), script.data(),
+                                    name.data(),  whole.data(),   nullptr};
+  pid_t child = 0;
+  if (::posix_spawnp(&child, "sh", nullptr, nullptr, arguments.data(), environ) != 0) {
+    return tr("{} cannot be opened from here.", whole);
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNoProgram) {
+    return tr("No program opens files here: expected xdg-open (Debian's xdg-utils). It is {}.",
+              whole);
+  }
+  return tr("{} cannot be opened from here.", whole);
+}
+
+}  // namespace jnd::app

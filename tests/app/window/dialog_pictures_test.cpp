@@ -1,0 +1,88 @@
+#include "app/window/pictures_fixture.h"
+#include "app/window/window_studies.h"
+
+namespace jnd::app {
+namespace dialog_pictures_test {
+
+/// What is asked before an answer is stored, taken back or set right, and where results go.
+class DialogPicturesTest : public PicturesWindowTest {
+ protected:
+  void present() {
+    window_->use("present");
+    window_->wait_for_text("felt for");
+  }
+  void leave_dialog(const std::string& widget) {
+    window_->press("F2");
+    window_->wait_until("the dialog's end",
+                        [&](const Screen& now) { return !now.find(widget); });
+  }
+};
+
+TEST_F(DialogPicturesTest, OfAnAnswerThatIsDoubtedTakenBackAndSetRight) {
+  prepare(study_of(kEstimation + "," + kComparison + "," + kProduction), "dialogs.study");
+  window_->use("begin");
+  window_->confirms_answers = false;
+  present();
+  window_->type("99999");
+  window_->wait_for("answer_percent");
+  window_->press("Return");
+  window_->wait_for("doubt_store");
+  take("dialog-doubt");
+  window_->press("s");
+  window_->wait_for("present");
+  present();
+  window_->type("120");
+  window_->wait_for("answer_percent");
+  window_->press("Return");
+  window_->wait_for("doubt_go_back");
+  leave_dialog("doubt_store");
+  window_->confirms_answers = true;
+  window_->type("120");
+  window_->wait_for("answer_percent");
+  window_->press("Return");
+  window_->wait_for("finish_stage");
+  take("session-hints");
+  window_->press("ctrl+z");
+  window_->wait_for("reason_1");
+  take("dialog-undo");
+  leave_dialog("reason_1");
+  window_->click("answer_1");
+  window_->wait_for("correct_value");
+  window_->type("abc");
+  window_->wait_for_text("expected a number");
+  take("dialog-correct-number");
+  leave_dialog("correct_value");
+  window_->use("finish_stage");
+  feel_test();
+  window_->use("answer_yes");
+  wait_for_trial(2);
+  window_->click("answer_3");
+  window_->wait_for("correct_no");
+  take("dialog-correct");
+  window_->press("n");
+  window_->wait_for("reason");
+  take("dialog-correct-why");
+  window_->kill();
+}
+
+TEST_F(DialogPicturesTest, OfWhereResultsGo) {
+  ASSERT_EQ(jnd({"simulate", "viscosity_discrimination", "--participants", "3", "--fast",
+                 "--study", path("three.study").string()})
+                .exit_code,
+            0);
+  window_->start({"run", "viscosity_discrimination", "--study", path("three.study").string()});
+  window_->use("tab_results");
+  window_->wait_for_view("results");
+  window_->wait_for("export");
+  window_->press("ctrl+e");
+  window_->wait_for("export_csv");
+  take("dialog-export");
+  leave_dialog("export_csv");
+  window_->press("ctrl+s");
+  window_->wait_for("open_written");
+  take("results-written");
+  window_->kill();
+}
+
+}  // namespace dialog_pictures_test
+}  // namespace jnd::app
