@@ -71,7 +71,7 @@ TEST_F(ComparisonWindowTest, ABlockWithUndoPauseAndNoteIsStoredAsItWasClicked) {
   ASSERT_EQ(explained.size(), 1u);
   EXPECT_EQ(value(explained[0], "reason"), "a phone rang");
   EXPECT_EQ(events_of(store, "continued").size(), 1u);
-  const auto notes = events_of(store, "note_added");
+  const auto notes = written_notes(store);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(value(notes[0], "text"), "It was the door.");
   expect_verified();

@@ -97,7 +97,7 @@ TEST_F(StopWindowTest, EscapeStopsTheForceFromAnywhereAndTheSessionGoesOnOnceItI
   for (const core::EventRow& fault : faults) {
     EXPECT_THAT(value(fault, "fault"), ::testing::StartsWith("The emergency stop was pressed"));
   }
-  const auto notes = events_of(store, "note_added");
+  const auto notes = written_notes(store);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_EQ(value(notes[0], "text"), "he said");
   EXPECT_EQ(store.answers(1).back().answer, "41");

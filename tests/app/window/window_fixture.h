@@ -103,6 +103,15 @@ class WindowTest : public ::testing::Test {
     const auto data = nlohmann::json::parse(event.data);
     return data.at(key).get<std::string>();
   }
+  /// Notes that somebody wrote: not those that tell what became of an unlikely answer.
+  [[nodiscard]] static std::vector<core::EventRow> written_notes(
+      const core::StudyStore& store) {
+    std::vector<core::EventRow> notes = events_of(store, "note_added");
+    std::erase_if(notes, [](const core::EventRow& note) {
+      return value(note, "text").starts_with("asked about the answer");
+    });
+    return notes;
+  }
   void expect_verified(const std::string& folder = "a.study") const {
     const test_support::ProgramOutcome outcome = jnd({"verify", path(folder).string()});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
