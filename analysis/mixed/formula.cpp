@@ -10,7 +10,8 @@ namespace {
 /// A set of variables by their places; 0 is the intercept.
 using TermBits = std::uint64_t;
 constexpr std::size_t kMostVariables = 60;
-/// Each becomes a column of the design. A product of thirty columns would be a thousand million.
+/// Each becomes a column of the design. A product of thirty columns would be a thousand
+/// million.
 constexpr std::size_t kMostTerms = 500;
 /// Parentheses and functions within one another.
 constexpr int kDeepest = 100;
