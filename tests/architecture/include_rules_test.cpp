@@ -24,6 +24,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"core/media", {"core", "core/safety"}},
     {"core/exchange", {"core", "core/safety", "core/media"}},
     {"core/storage", {"core", "core/exchange"}},
+    {"core/streams", {"core", "core/storage"}},
     {"device", {"core", "core/safety", "core/media", "core/exchange"}},
     {"device/exoskeleton", {"core", "core/safety", "device"}},
     {"device/network", {"core", "core/safety", "core/exchange", "device"}},
