@@ -8,6 +8,7 @@
 #include "analysis/export/bids_export.h"
 #include "analysis/export/csv_export.h"
 #include "analysis/export/hdf5_export.h"
+#include "analysis/export/xdf_export.h"
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/progress_bar.h"
@@ -88,6 +89,11 @@ Written export_as(const ExportOptions& options, const core::StudyStore& store) {
         analysis::export_hdf5(store, options.out, options.data);
     return {"study.h5" + samples_text(outcome, true), outcome.problems};
   }
+  if (options.format == "xdf") {
+    const analysis::ExportOutcome outcome =
+        analysis::export_xdf(store, options.out, options.data);
+    return {"an XDF file for each session" + samples_text(outcome, true), outcome.problems};
+  }
   const analysis::ExportOutcome outcome =
       analysis::export_csv(store, options.out, options.data);
   return {"tables and codebook.csv" + samples_text(outcome, asked), outcome.problems};
@@ -96,7 +102,7 @@ Written export_as(const ExportOptions& options, const core::StudyStore& store) {
 /// Only where it takes a while and much of a disk.
 void tell_size(const ExportOptions& options, const core::StudyStore& store) {
   constexpr double kWorthTelling = 50e6, kTooLargeForMost = 500e6;
-  const bool is_text = options.format != "hdf5";
+  const bool is_text = options.format == "csv" || options.format == "bids";
   if (is_text && !options.data.recordings) return;
   const analysis::ExpectedSize size = analysis::expected_size(store, options.data, is_text);
   if (size.bytes < kWorthTelling) return;
@@ -109,7 +115,19 @@ void tell_size(const ExportOptions& options, const core::StudyStore& store) {
   std::fflush(stdout);
 }
 
+/// A file of streams holds all of a session, tick by tick.
+void require_whole_sessions(const ExportOptions& options) {
+  if (options.format != "xdf") return;
+  const analysis::ExportSelection& selection = options.data.selection;
+  if (selection.blocks.empty() && selection.rate_hz == 0.0) return;
+  throw UsageError(
+      "--block, --rate-hz: expected neither with xdf, which holds whole sessions at the rate "
+      "of "
+      "the loop; leave them away, or take csv, bids or hdf5");
+}
+
 int run_export(ExportOptions options) {
+  require_whole_sessions(options);
   stop_on_signals();
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   require_results_open(store);
@@ -151,15 +169,16 @@ void add_export(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<ExportOptions>();
   command
       ->add_option("FORMAT", options->format,
-                   "csv: tables; bids: BIDS 1.9.0; hdf5: recordings, tables beside them")
+                   "csv: tables; bids: BIDS 1.9.0; hdf5: recordings, tables beside them; xdf: "
+                   "markers, samples and recorded streams of each session")
       ->required()
-      ->check(CLI::IsMember({"csv", "bids", "hdf5"}));
+      ->check(CLI::IsMember({"csv", "bids", "hdf5", "xdf"}));
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
       ->check(CLI::ExistingDirectory);
   command->add_option("--out", options->out, "Folder to write to: new or empty")->required();
   command->add_flag("--recordings", options->data.recordings,
-                    "Also every sample; hdf5 always has them");
+                    "Also every sample; hdf5 and xdf always have them");
   command->add_flag("--pilot", options->data.pilot, "Also pilot sessions");
   analysis::ExportSelection& selection = options->data.selection;
   command
@@ -173,7 +192,7 @@ void add_export(CLI::App& program, Invocation& invocation) {
   command
       ->add_option("--channel", selection.channels,
                    "Of samples this one alone, as position_m or force_n, beside ticks and "
-                   "flags; may be given several times")
+                   "flags (xdf: alone); may be given several times")
       ->type_name("NAME");
   command
       ->add_option("--rate-hz", selection.rate_hz,
