@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "core/streams/wanted_streams.h"
+
 namespace jnd::app {
 
 /// What the window shows first.
@@ -28,6 +30,7 @@ struct WindowRequest {
   /// `gui::ParticipantStop`.
   std::string participant_stop;
   bool participant_holds = false;  ///< Force only while it is held.
+  core::WantedStreams streams;     ///< To and of other recorders, of every session.
   /// A session to go on with.
   std::optional<std::int64_t> resume_session;
 };

@@ -24,7 +24,7 @@ struct ExportOptions {
 /// Only where it takes a while and much of a disk.
 void tell_size(const ExportOptions& options, const core::StudyStore& store) {
   constexpr double kWorthTelling = 50e6, kTooLargeForMost = 500e6;
-  const bool is_text = options.format != "hdf5";
+  const bool is_text = options.format == "csv" || options.format == "bids";
   if (is_text && !options.data.recordings) return;
   const analysis::ExpectedSize size = analysis::expected_size(store, options.data, is_text);
   if (size.bytes < kWorthTelling) return;
@@ -37,7 +37,18 @@ void tell_size(const ExportOptions& options, const core::StudyStore& store) {
   std::fflush(stdout);
 }
 
+/// A file of streams holds all of a session, tick by tick.
+void require_whole_sessions(const ExportOptions& options) {
+  if (options.format != "xdf") return;
+  const analysis::ExportSelection& selection = options.data.selection;
+  if (selection.blocks.empty() && selection.rate_hz == 0.0) return;
+  throw UsageError(
+      "--block, --rate-hz: expected neither with xdf, which holds whole sessions at the rate "
+      "of the loop; leave them away, or take csv, bids or hdf5");
+}
+
 int run_export(ExportOptions options) {
+  require_whole_sessions(options);
   stop_on_signals();
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   require_results_open(store);
@@ -69,7 +80,8 @@ void add_export(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<ExportOptions>();
   command
       ->add_option("FORMAT", options->format,
-                   "csv: tables; bids: BIDS 1.9.0; hdf5: recordings, tables beside them")
+                   "csv: tables; bids: BIDS 1.9.0; hdf5: recordings, tables beside them; xdf: "
+                   "markers, samples and recorded streams of each session")
       ->required()
       ->check(CLI::IsMember(
           std::vector<std::string>(kExportFormats.begin(), kExportFormats.end())));
@@ -78,7 +90,7 @@ void add_export(CLI::App& program, Invocation& invocation) {
       ->check(CLI::ExistingDirectory);
   command->add_option("--out", options->out, "Folder to write to: new or empty")->required();
   command->add_flag("--recordings", options->data.recordings,
-                    "Also every sample; hdf5 always has them");
+                    "Also every sample; hdf5 and xdf always have them");
   command->add_flag("--pilot", options->data.pilot, "Also pilot sessions");
   analysis::ExportSelection& selection = options->data.selection;
   command
@@ -92,7 +104,7 @@ void add_export(CLI::App& program, Invocation& invocation) {
   command
       ->add_option("--channel", selection.channels,
                    "Of samples this one alone, as position_m or force_n, beside ticks and "
-                   "flags; may be given several times")
+                   "flags (xdf: alone); may be given several times")
       ->type_name("NAME");
   command
       ->add_option("--rate-hz", selection.rate_hz,

@@ -19,6 +19,7 @@
 #include "app/commands/field_options.h"
 #include "app/commands/fitting_option.h"
 #include "app/commands/profile_option.h"
+#include "app/commands/stream_options.h"
 #include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
 #include "app/session/laboratory_run.h"
@@ -57,7 +58,8 @@ struct RunOptions {
   std::vector<std::string> fields;   ///< "sex=female"
   std::vector<std::string> fitting;  ///< "glove=M"
   double wait_s = 0.0;               ///< For a device that is elsewhere.
-  std::string participant_stop;      ///< A key; "": none.
+  StreamOptions streams;
+  std::string participant_stop;  ///< A key; "": none.
   bool participant_holds = false;
 };
 
@@ -153,6 +155,7 @@ int run_session(const RunOptions& options, core::StudyStore& store,
          .choice = options.choose,
          .language = options.language,
          .fitting = fitting_given(options.fitting),
+         .streams = streams_given(options.streams),
          .on_event =
              [&](const core::EventRow& event) {
                has_begun = true;
@@ -244,7 +247,9 @@ int run_run(RunOptions options) {
   const std::filesystem::path file = user_or_shipped(options.file, "protocols");
   const experiments::Study study = experiments::read_study(file);
   require_language(study, options.language);
+  const WantedStreams streams = streams_given(options.streams);
   if (!options.headless) {
+    require_streams_fit(streams, /*is_realtime=*/true, study, options.folder);
     return open_window({.study_folder = options.folder,
                         .study_file = file,
                         .participant = options.participant,
@@ -257,7 +262,8 @@ int run_run(RunOptions options) {
                         .fields = fields_or_none(study, options.fields),
                         .fitting = fitting_given(options.fitting),
                         .participant_stop = options.participant_stop,
-                        .participant_holds = options.participant_holds});
+                        .participant_holds = options.participant_holds,
+                        .streams = streams});
   }
   experiments::FieldValues fields = fields_given(study, options.fields);
   require_device_moves_by_itself(options.device, "--device " + options.device);
@@ -267,6 +273,7 @@ int run_run(RunOptions options) {
   const std::optional<KnownProfile> profile =
       profile_for(options.device, options.profile, study);
   options.realtime |= has_own_clock(options.device);
+  require_streams_fit(streams, options.realtime, study, options.folder);
   const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
       options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
       "data/laboratories"));
@@ -362,6 +369,7 @@ int resume_headless(RunOptions options, core::StudyStore& store, const core::Ses
   require_device_starts(row.device, row.rate_hz);
   require_device_moves_by_itself(row.device, "session " + std::to_string(row.session));
   options.realtime |= has_own_clock(row.device);
+  require_streams_fit(streams_given(options.streams), options.realtime, study, options.folder);
   if (const std::string remark = changed_study_remark(store, row); !remark.empty()) {
     std::fprintf(stderr, "jnd: %s\n", remark.c_str());
   }
@@ -380,11 +388,15 @@ int resume(const RunOptions& options) {
     return kDone;
   }
   if (options.headless) return resume_headless(options, *store, *row);
+  const WantedStreams streams = streams_given(options.streams);
+  require_streams_fit(streams, /*is_realtime=*/true, stored_study(*store, row->session),
+                      options.folder);
   store.reset();  // The window opens it itself.
   return open_window({.study_folder = options.folder,
                       .device_profile = options.profile,
                       .participant_stop = options.participant_stop,
                       .participant_holds = options.participant_holds,
+                      .streams = streams,
                       .resume_session = row->session});
 }
 
@@ -438,6 +450,7 @@ void add_run(CLI::App& program, Invocation& invocation) {
                     "Run a real device without real-time rights");
   add_headless_options(*command, *options);
   add_participant_stop(*command, *options);
+  add_stream_options(*command, options->streams);
   command->add_option("--laboratory", options->laboratory,
                       "Of the simulated participant; default: thesis, or thesis_exoskeleton "
                       "with that device");
@@ -475,6 +488,7 @@ void add_resume(CLI::App& program, Invocation& invocation) {
       ->capture_default_str();
   add_headless_options(*command, *options);
   add_participant_stop(*command, *options);
+  add_stream_options(*command, options->streams);
   command->add_option("--laboratory", options->laboratory,
                       "Of the simulated participant; default: the session's own");
   command->add_flag("--realtime", options->realtime, "Paced by the clock");

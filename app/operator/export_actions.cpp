@@ -71,6 +71,7 @@ ActionOutcome export_study(const fs::path& folder, const fs::path& target,
   if (!written.forgotten.empty()) written.problems.push_back(written.forgotten);
   const std::string what = choice.format == "bids"   ? tr("a BIDS data set")
                            : choice.format == "hdf5" ? tr("tables and an HDF5 file")
+                           : choice.format == "xdf"  ? tr("an XDF file for each session")
                                                      : tr("tables with a codebook");
   return {.sentence = tr("{} of {} are written to {}: {}", answers_words(answers),
                          sessions_words(std::ssize(store.sessions())), target.string(), what),

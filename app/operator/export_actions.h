@@ -22,7 +22,7 @@ struct ActionOutcome {
 // the study as it is. Not real time.
 
 struct ExportChoice {
-  std::string format;       ///< "csv", "bids", "hdf5"
+  std::string format;       ///< "csv", "bids", "hdf5", "xdf"
   bool recordings = false;  ///< Every sample as well; hdf5 always has them.
 };
 /// A data set as `jnd export` writes it. `target` must not exist or be empty. Refused for a

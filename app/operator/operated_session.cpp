@@ -61,7 +61,8 @@ OperatedSession::OperatedSession(const Parameters& parameters)
                 .session = parameters.session,
                 .study = parameters.study,
                 .apparatus = apparatus_parameters(parameters, row_, hides_levels_),
-                .laboratory = parameters.laboratory}),
+                .laboratory = parameters.laboratory,
+                .streams = parameters.streams}),
       session_(running_.session()),
       presenter_(running_.apparatus(), session_, parameters.study.device) {
   running_.apparatus().render(core::free_space());
@@ -197,6 +198,7 @@ void OperatedSession::follow_session() {
   while (!state().ended && !state().paused && known_fault_ == core::Fault::kNone) {
     if (stage() == nullptr) {
       running_.keep_timing();
+      running_.close_streams();
       session_.complete();
       return;
     }

@@ -48,6 +48,7 @@ class OperatedSession {
     /// Where stops are remembered that nobody released; "": nowhere. See `remember_stop`.
     std::filesystem::path stops;
     std::vector<device::ScheduledFault> injected_faults;  ///< For tests and rehearsals.
+    WantedStreams streams{};  ///< To and of other recorders, in real time.
     /// Gets every sample as `trace` does, from the thread that stores it; may be empty.
     std::function<void(const core::Sample&)> on_sample;
     /// Asks about an unlikely answer before it is stored; see answer_doubts.h.

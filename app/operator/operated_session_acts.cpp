@@ -308,6 +308,7 @@ struct OperatedSession::Act {
     require_reason(end.reason);
     my.abandon_presentation();
     my.running_.keep_timing();
+    my.running_.close_streams();
     my.session_.end_early(end.reason);
   }
 
@@ -316,6 +317,7 @@ struct OperatedSession::Act {
     my.abandon_presentation();
     if (!my.begun_ || my.state().ended) return;
     my.running_.keep_timing();
+    my.running_.close_streams();
     my.session_.pause(leave.reason.empty() ? as_is("left by the operator") : leave.reason);
   }
 

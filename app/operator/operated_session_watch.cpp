@@ -11,6 +11,7 @@ void OperatedSession::watch_apparatus() {
   watch_for_faults();
   if (begun_ && !state().ended && failure_.empty()) {
     running_.keep_arming(as_is("armed by the experimenter"));
+    running_.follow_streams();
   }
   watch_for_loose_points();
 }

@@ -98,7 +98,8 @@ void SessionWorker::work() {
                            .language = parameters_.language,
                            .fitting = parameters_.fitting,
                            .allow_no_realtime = parameters_.allow_no_realtime,
-                           .stops = parameters_.stops});
+                           .stops = parameters_.stops,
+                           .streams = parameters_.streams});
   auto next_picture = std::chrono::steady_clock::now();
   while (!session.over()) {
     const std::vector<OperatorRequest> requests = wait_for_requests();

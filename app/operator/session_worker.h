@@ -17,6 +17,7 @@
 #include "app/operator/scope_trace.h"
 #include "app/operator/session_view.h"
 #include "app/session/operator_exchange.h"
+#include "app/session/session_streams.h"
 #include "core/storage/study_store.h"
 #include "experiments/participants/laboratory.h"
 #include "experiments/study/study.h"
@@ -38,6 +39,7 @@ class SessionWorker {
     std::map<std::string, std::string> fitting{};  ///< As `OperatedSession::Parameters`.
     bool allow_no_realtime = false;
     std::filesystem::path stops;  ///< As `OperatedSession::Parameters`.
+    WantedStreams streams{};      ///< Likewise.
     /// Called from the thread whenever there is a newer picture; may be empty.
     std::function<void()> wake;
   };

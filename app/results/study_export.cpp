@@ -8,6 +8,7 @@
 #include "analysis/export/bids_export.h"
 #include "analysis/export/csv_export.h"
 #include "analysis/export/hdf5_export.h"
+#include "analysis/export/xdf_export.h"
 #include "app/command_line/json_text.h"
 #include "app/preregistration/deviations.h"
 #include "app/preregistration/preregistration.h"
@@ -73,6 +74,12 @@ StudyExport export_as(const core::StudyStore& store, const StudyExportRequest& o
     const analysis::ExportOutcome outcome =
         analysis::export_hdf5(store, options.out, options.data);
     return {.what = "study.h5" + samples_text(outcome, true), .problems = outcome.problems};
+  }
+  if (options.format == "xdf") {
+    const analysis::ExportOutcome outcome =
+        analysis::export_xdf(store, options.out, options.data);
+    return {.what = "an XDF file for each session" + samples_text(outcome, true),
+            .problems = outcome.problems};
   }
   const analysis::ExportOutcome outcome =
       analysis::export_csv(store, options.out, options.data);

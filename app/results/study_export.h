@@ -11,7 +11,7 @@
 namespace jnd::app {
 
 /// What a study can be exported as.
-inline constexpr std::array<const char*, 3> kExportFormats = {"csv", "bids", "hdf5"};
+inline constexpr std::array<const char*, 4> kExportFormats = {"csv", "bids", "hdf5", "xdf"};
 
 struct StudyExportRequest {
   std::string format;         ///< One of `kExportFormats`.

@@ -38,7 +38,8 @@ class SimulatedSession {
                                 .injected_faults = run.injected_faults},
                   .laboratory = &run.laboratory,
                   .on_event = run.on_event,
-                  .only_ends = run.choice == "end"}),
+                  .only_ends = run.choice == "end",
+                  .streams = run.streams}),
         session_(running_.session()),
         player_(run, running_.apparatus(), session_, participant_) {}
 
@@ -61,7 +62,9 @@ class SimulatedSession {
         session_.finish_stage();
         running_.keep_arming(kArmedBy);
         running_.keep_timing();
+        running_.follow_streams();
       }
+      running_.close_streams();
       if (!session_.state().ended) session_.complete();
       result.ended = true;
       result.cautions = std::move(cautions_);
@@ -69,6 +72,7 @@ class SimulatedSession {
       // First of all: the disk may take its time.
       running_.apparatus().render(core::free_space());
       running_.keep_timing();
+      running_.close_streams();
       session_.pause("stopped by the operator");
     } catch (const core::Error&) {
       running_.apparatus().render(core::free_space());
@@ -148,6 +152,7 @@ class SimulatedSession {
       const Block block = session_.current_block_as_drawn();
       player_.run_trial(block);
       player_.answer_questions(block);
+      running_.follow_streams();
       trial_progress();
     }
     for (const std::int64_t index : session_.current_stages()) {

@@ -1,10 +1,12 @@
 #include "app/session/replay_check.h"
 
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
 
 #include "core/error.h"
+#include "core/storage/stream_file.h"
 #include "experiments/session/session_state.h"
 
 namespace jnd::app {
@@ -20,7 +22,9 @@ class ReplayCheck {
 
   void run() {
     for (const core::EventRow& row : store_.events(session_)) {
-      apply(state_, experiments::event_from_row(row));
+      const experiments::Event event = experiments::event_from_row(row);
+      check_stream(event);
+      apply(state_, event);
     }
     check_design();
     check_trials();
@@ -39,6 +43,34 @@ class ReplayCheck {
     if (trial >= 1 && trial <= num_trials) return &state_.trial(trial);
     problem(trial, what);
     return nullptr;
+  }
+
+  /// The file that an event names is there, and is the one that the event tells of.
+  void check_stream(const experiments::Event& event) {
+    const auto* opened = std::get_if<experiments::StreamOpened>(&event.data);
+    const auto* closed = std::get_if<experiments::StreamClosed>(&event.data);
+    const std::string file = opened != nullptr   ? opened->file
+                             : closed != nullptr ? closed->file
+                                                 : "";
+    if (file.empty()) return;
+    const std::filesystem::path path =
+        store_.recording_file(session_).parent_path() / std::filesystem::path(file).filename();
+    if (!std::filesystem::exists(path)) {
+      if (opened == nullptr) return;  // It was told when it was opened.
+      integrity_.problems.push_back(
+          {session_, file + ": expected a stream that was recorded, found no such file"});
+      return;
+    }
+    if (closed == nullptr) return;
+    const core::StreamFileSeal told{closed->num_samples, closed->num_offsets, closed->sha256};
+    try {
+      if (core::StreamFileReader(path).seal() == told) return;
+    } catch (const core::Error&) {
+      return;  // A damaged file is told where its content is checked.
+    }
+    integrity_.problems.push_back(
+        {session_, file + ": expected the stream as the log of events has it, found another; "
+                          "one of them is damaged"});
   }
 
   void check_design() {

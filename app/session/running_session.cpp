@@ -63,6 +63,7 @@ void RunningSession::StoredLog::append(const core::Commit& commit) {
   } catch (const core::Error& error) {
     throw StorageError(error.what());
   }
+  if (running_.streams_) running_.streams_->tell(commit.event);
   if (running_.parameters_.on_event) running_.parameters_.on_event(commit.event);
 }
 
@@ -71,6 +72,7 @@ RunningSession::RunningSession(const Parameters& parameters)
       recorded_samples_(parameters.store.session(parameters.session).recorded),
       history_(parameters.store.events(parameters.session)),
       recorded_tick_(last_recorded_tick(parameters.store, parameters.session)),
+      streams_(streams_asked_for()),
       apparatus_(parameters.laboratory != nullptr
                      ? Apparatus(apparatus_parameters(), *parameters.laboratory)
                      : Apparatus(apparatus_parameters())),
@@ -104,10 +106,32 @@ Apparatus::Parameters RunningSession::apparatus_parameters() const {
   apparatus.force_map = experiments::force_map_of(parameters_.study.device);
   apparatus.first_tick = std::max(recorded_tick_, last_tick_in(history_)) + 1;
   apparatus.first_time_ns = last_time_ns(history_);
+  if (streams_) {
+    apparatus.on_sample = [streams = streams_.get(),
+                           visit = apparatus.on_sample](const core::Sample& sample) {
+      streams->take(sample);
+      if (visit) visit(sample);
+    };
+  }
   if (recorded_samples_) {
     apparatus.recording = parameters_.store.recording_file(parameters_.session);
   }
   return apparatus;
+}
+
+std::unique_ptr<SessionStreams> RunningSession::streams_asked_for() const {
+  if (!parameters_.streams.any() || !parameters_.apparatus.realtime) return nullptr;
+  const Study& study = parameters_.study;
+  core::StudyStore& store = parameters_.store;
+  return std::make_unique<SessionStreams>(SessionStreams::Parameters{
+      .wanted = parameters_.streams,
+      .facts = {.study_id = store.study_id(),
+                .study = study.name,
+                .session = parameters_.session,
+                .program_version = JND_VERSION},
+      .rate_hz = study.device.rate_hz,
+      .hides_levels = study.blinding == Blinding::kDouble && !store.unblinded(),
+      .recording = store.recording_file(parameters_.session)});
 }
 
 void RunningSession::begin(const std::string& choice, const std::string& language) {
@@ -117,6 +141,7 @@ void RunningSession::begin(const std::string& choice, const std::string& languag
   } else {
     session_.start(language);
   }
+  follow_streams();
   const device::RealtimeThread* thread = apparatus_.realtime_thread();
   if (thread == nullptr || session_.state().ended) return;
   const device::RealtimeReport& given = thread->report();
@@ -165,6 +190,18 @@ void RunningSession::keep_arming(const std::string& by) {
   if (now.arming == core::Arming::kFaulted) cause = name(now.fault);
   if (now.arming == core::Arming::kDisarmed) cause = "nobody has armed it";
   session_.arming_changed(std::string(name(now.arming)), cause);
+}
+
+void RunningSession::follow_streams() {
+  if (streams_ && session_.state().started && !session_.state().ended) {
+    streams_->follow(session_);
+  }
+}
+
+void RunningSession::close_streams() {
+  if (streams_ && session_.state().started && !session_.state().ended) {
+    streams_->close(session_);
+  }
 }
 
 void RunningSession::keep_fault() {

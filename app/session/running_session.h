@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/session/apparatus.h"
+#include "app/session/session_streams.h"
 #include "core/safety/fault.h"
 #include "core/storage/study_store.h"
 #include "experiments/session/session.h"
@@ -31,7 +33,8 @@ class RunningSession {
     const experiments::Laboratory* laboratory =
         nullptr;  ///< That of a simulated hand; or none.
     std::function<void(const core::EventRow&)> on_event;  ///< After its commit; may be empty.
-    bool only_ends = false;  ///< It is resumed to be ended: nothing is felt any more.
+    bool only_ends = false;   ///< It is resumed to be ended: nothing is felt any more.
+    WantedStreams streams{};  ///< To and of other recorders, in real time; none unless asked.
   };
 
   /// Replays the log and starts the apparatus, by the profile of the device that the session
@@ -59,6 +62,11 @@ class RunningSession {
   /// Stores the fault that the loop has latched, and the last second before it; does nothing
   /// without one.
   void keep_fault();
+  /// Stores what there is to say of streams; every now and then. Nothing where none was asked
+  /// for.
+  void follow_streams();
+  /// Ends what is recorded of others: before the session ends, or its program leaves it.
+  void close_streams();
 
  private:
   /// Events go through the apparatus, which syncs the recording first.
@@ -72,11 +80,13 @@ class RunningSession {
   };
 
   [[nodiscard]] Apparatus::Parameters apparatus_parameters() const;
+  [[nodiscard]] std::unique_ptr<SessionStreams> streams_asked_for() const;
 
   Parameters parameters_;
   bool recorded_samples_;
   std::vector<core::EventRow> history_;
   std::int64_t recorded_tick_;
+  std::unique_ptr<SessionStreams> streams_;  ///< nullptr where none was asked for.
   Apparatus apparatus_;
   std::optional<core::Arming> told_arming_;
   StoredLog log_{*this};

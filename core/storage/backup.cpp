@@ -9,6 +9,7 @@
 #include "core/storage/export_note.h"
 #include "core/storage/files.h"
 #include "core/storage/flight_record.h"
+#include "core/storage/stream_file.h"
 #include "core/storage/study_format.h"
 #include "core/storage/study_store.h"
 #include "core/storage/writer_lock.h"
@@ -203,6 +204,9 @@ void copy_study(const StudyStore& study, Database& snapshot, const fs::path& tar
     }
     for (const fs::path& record : flight_records(source)) {
       copy_file_durably(record, target / "recordings" / record.filename());
+    }
+    for (const fs::path& stream : stream_files(source)) {
+      copy_stream_file(stream, target / "recordings" / stream.filename());
     }
     done += 1.0;
     if (on_progress) on_progress(done / static_cast<double>(sessions.size()));

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/storage/flight_record.h"
+#include "core/storage/stream_file.h"
 
 namespace jnd::core {
 namespace {
@@ -81,7 +82,13 @@ void copy_file_durably(const fs::path& source, const fs::path& target) {
 
 void remove_recording(const fs::path& file) {
   std::vector<fs::path> files = flight_records(file);
-  for (const char* ending : {"", "-wal", "-shm"}) files.emplace_back(file.string() + ending);
+  std::vector<fs::path> databases = stream_files(file);
+  databases.push_back(file);
+  for (const fs::path& database : databases) {
+    for (const char* ending : {"", "-wal", "-shm"}) {
+      files.emplace_back(database.string() + ending);
+    }
+  }
   bool removed = false;
   for (const fs::path& one : files) {
     std::error_code error;

@@ -21,8 +21,8 @@ void sync_file(const std::filesystem::path& file);
 void copy_file_durably(const std::filesystem::path& source,
                        const std::filesystem::path& target);
 
-/// Removes a database and what lies beside it, SQLite's files and flight records, where they
-/// are.
+/// Removes a recording and what lies beside it, SQLite's files, flight records and streams of
+/// others, where they are.
 void remove_recording(const std::filesystem::path& file);
 
 }  // namespace jnd::core

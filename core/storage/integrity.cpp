@@ -11,6 +11,7 @@
 #include "core/storage/recorded_ticks.h"
 #include "core/storage/recording.h"
 #include "core/storage/sha256.h"
+#include "core/storage/stream_file.h"
 
 namespace jnd::core {
 namespace {
@@ -41,6 +42,7 @@ class SessionCheck {
     check_sequence(events);
     check_answers();
     if (session_.recorded) check_recording(events);
+    check_streams();
   }
 
  private:
@@ -135,6 +137,22 @@ class SessionCheck {
     check_claims(merged(std::move(recorded)), missed, events);
   }
 
+  void check_streams() {
+    for (const std::filesystem::path& file :
+         stream_files(store_.recording_file(session_.session))) {
+      try {
+        const StreamFileReader reader(file);
+        for (std::string& found : reader.problems()) problem(std::move(found));
+        if (!reader.seal()) {
+          remark(file.filename().string() +
+                 ": its program ended before the stream did, or still records it");
+        }
+      } catch (const Error& error) {
+        problem(error.what());
+      }
+    }
+  }
+
   static bool speaks_of_ticks(const std::vector<EventRow>& events) {
     return std::any_of(events.begin(), events.end(), [](const EventRow& event) {
       return event.kind == "medium_explored" || event.kind == "presentation_ended";
@@ -190,9 +208,9 @@ std::vector<std::filesystem::path> recordings_without_session(const StudyStore& 
   std::error_code error;
   for (const auto& entry :
        std::filesystem::directory_iterator(store.folder() / "recordings", error)) {
-    if (entry.path().extension() == ".sqlite" && !known.contains(entry.path())) {
-      orphans.push_back(entry.path());
-    }
+    if (entry.path().extension() != ".sqlite" || known.contains(entry.path())) continue;
+    if (known.contains(recording_beside(entry.path()))) continue;
+    orphans.push_back(entry.path());
   }
   std::sort(orphans.begin(), orphans.end());
   return orphans;
@@ -219,7 +237,10 @@ Integrity verify(const StudyStore& store, const Progress& progress) {
     for (const WithdrawalRow& withdrawn : store.withdrawals()) {
       integrity.remarks.push_back({withdrawn.session, withdrawn.participant + " withdrew"});
       const std::filesystem::path recording = store.recording_file(withdrawn.session);
-      if (!std::filesystem::exists(recording) && flight_records(recording).empty()) continue;
+      if (!std::filesystem::exists(recording) && flight_records(recording).empty() &&
+          stream_files(recording).empty()) {
+        continue;
+      }
       integrity.problems.push_back(
           {withdrawn.session, "expected the recording of " + withdrawn.participant +
                                   ", who withdrew, to be gone, found it; run `jnd withdraw` "

@@ -24,7 +24,8 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "loop_started",       "loop_measured",        "unblinded",
     "arming_changed",     "exposure_told",        "guard_noticed",
     "fitting_kept",       "question_answered",    "turn_taken",
-    "pause_explained",    "session_completed",    "session_ended_early"};
+    "pause_explained",    "stream_opened",        "stream_closed",
+    "stream_failed",      "session_completed",    "session_ended_early"};
 
 json exposure_json(const core::Exposure& exposure) {
   return {{"force_time_n_s", exposure.force_time_n_s},
@@ -228,6 +229,31 @@ struct Writer {
     data = {
         {"guard", e.guard}, {"num_warnings", e.num_warnings}, {"num_shadowed", e.num_shadowed}};
   }
+  void operator()(const StreamOpened& e) const {
+    data = {{"direction", e.direction},
+            {"name", e.name},
+            {"type", e.type},
+            {"channel_format", e.channel_format},
+            {"channel_count", e.channel_count},
+            {"nominal_rate_hz", e.nominal_rate_hz},
+            {"source_id", e.source_id},
+            {"hostname", e.hostname},
+            {"file", e.file},
+            {"by", e.by},
+            {"monotonic_s", e.monotonic_s}};
+  }
+  void operator()(const StreamClosed& e) const {
+    data = {{"direction", e.direction},
+            {"name", e.name},
+            {"file", e.file},
+            {"num_samples", e.num_samples},
+            {"num_offsets", e.num_offsets},
+            {"num_dropped", e.num_dropped},
+            {"sha256", e.sha256}};
+  }
+  void operator()(const StreamFailed& e) const {
+    data = {{"direction", e.direction}, {"name", e.name}, {"problem", e.problem}};
+  }
   void operator()(const SessionCompleted&) const {}
   void operator()(const SessionEndedEarly& e) const { data = {{"reason", e.reason}}; }
 
@@ -393,6 +419,33 @@ struct Reader {
     data.at("guard").get_to(e.guard);
     data.at("num_warnings").get_to(e.num_warnings);
     data.at("num_shadowed").get_to(e.num_shadowed);
+  }
+  void operator()(StreamOpened& e) const {
+    data.at("direction").get_to(e.direction);
+    data.at("name").get_to(e.name);
+    data.at("type").get_to(e.type);
+    data.at("channel_format").get_to(e.channel_format);
+    e.channel_count = whole_number(data.at("channel_count"), "channel_count");
+    e.nominal_rate_hz = data.at("nominal_rate_hz").get<double>();
+    data.at("source_id").get_to(e.source_id);
+    data.at("hostname").get_to(e.hostname);
+    data.at("file").get_to(e.file);
+    data.at("by").get_to(e.by);
+    e.monotonic_s = data.at("monotonic_s").get<double>();
+  }
+  void operator()(StreamClosed& e) const {
+    data.at("direction").get_to(e.direction);
+    data.at("name").get_to(e.name);
+    data.at("file").get_to(e.file);
+    e.num_samples = whole_number(data.at("num_samples"), "num_samples");
+    e.num_offsets = whole_number(data.at("num_offsets"), "num_offsets");
+    e.num_dropped = whole_number(data.at("num_dropped"), "num_dropped");
+    data.at("sha256").get_to(e.sha256);
+  }
+  void operator()(StreamFailed& e) const {
+    data.at("direction").get_to(e.direction);
+    data.at("name").get_to(e.name);
+    data.at("problem").get_to(e.problem);
   }
   void operator()(SessionCompleted&) const {}
   void operator()(SessionEndedEarly& e) const { data.at("reason").get_to(e.reason); }

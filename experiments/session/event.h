@@ -236,6 +236,34 @@ struct GuardNoticed {
   std::int64_t num_warnings = 0, num_shadowed = 0;
 };
 
+/// A stream of the Lab Streaming Layer that goes out from this session, or is recorded with it.
+struct StreamOpened {
+  std::string direction;  ///< "out" or "in".
+  std::string name, type, channel_format, source_id;
+  std::string hostname;  ///< Of the other machine; "" for one of ours.
+  std::int64_t channel_count = 0;
+  double nominal_rate_hz = 0.0;
+  std::string file;  ///< Beside the recording, where it is recorded; else "".
+  std::string by;    ///< "jnd", or the library that carries it.
+  /// Of the clock that streams tell their times by, at the time of the event.
+  double monotonic_s = 0.0;
+};
+
+/// What became of it.
+struct StreamClosed {
+  std::string direction, name;
+  std::string file;
+  std::int64_t num_samples = 0, num_offsets = 0;
+  std::int64_t num_dropped = 0;  ///< That came or went and were lost, as far as is known.
+  std::string sha256;            ///< Of the file, where there is one; see `StreamFileSeal`.
+};
+
+/// A stream that was asked for and is not there, or went away: the session goes on without.
+struct StreamFailed {
+  std::string direction, name;
+  std::string problem;  ///< A sentence.
+};
+
 /// Ended before its last stage; not resumable.
 struct SessionEndedEarly {
   std::string reason;
@@ -248,7 +276,8 @@ using EventData =
                  AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
                  FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
                  ArmingChanged, ExposureTold, GuardNoticed, FittingKept, QuestionAnswered,
-                 TurnTaken, PauseExplained, SessionCompleted, SessionEndedEarly>;
+                 TurnTaken, PauseExplained, StreamOpened, StreamClosed, StreamFailed,
+                 SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

@@ -554,6 +554,12 @@ void Session::exposed(const core::Exposure& exposure) { commit(ExposureTold{expo
 
 void Session::guard_noticed(const GuardNoticed& noticed) { commit(noticed); }
 
+void Session::stream_opened(const StreamOpened& stream) { commit(stream); }
+
+void Session::stream_closed(const StreamClosed& stream) { commit(stream); }
+
+void Session::stream_failed(const StreamFailed& stream) { commit(stream); }
+
 void Session::require_exposure_left() const {
   if (const std::string over = exposure_words(parameters_.limits, state_.exposure);
       !over.empty()) {

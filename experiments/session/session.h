@@ -161,6 +161,9 @@ class Session {
   void arming_changed(const std::string& arming, const std::string& cause);
   void exposed(const core::Exposure& exposure);
   void guard_noticed(const GuardNoticed& noticed);
+  void stream_opened(const StreamOpened& stream);
+  void stream_closed(const StreamClosed& stream);
+  void stream_failed(const StreamFailed& stream);
   /// Throws `Error` where the hand was exposed to all that the study allows.
   void require_exposure_left() const;
   void loop_measured(const LoopMeasured& timing);

@@ -169,6 +169,9 @@ struct Fold {
   void operator()(const Unblinded&) const {}
   void operator()(const ArmingChanged&) const {}
   void operator()(const GuardNoticed&) const {}
+  void operator()(const StreamOpened&) const {}
+  void operator()(const StreamClosed&) const {}
+  void operator()(const StreamFailed&) const {}
   void operator()(const FittingKept&) const {}
   void operator()(const ExposureTold& e) const { state.exposure += e.exposure; }
   void operator()(const SessionCompleted&) const {

@@ -163,7 +163,7 @@ TEST_F(WrongUsageTest, WhatDoesNotExistIsNamed) {
       {{"resume", ".", "--choose", "repaet"},
        {"expected repeat, restart or end", "did you mean `repeat`?"}},
       {{"export", "xlsx", ".", "--out", "x"},
-       {"FORMAT: expected csv, bids or hdf5, found `xlsx`"}},
+       {"FORMAT: expected csv, bids, hdf5 or xdf, found `xlsx`"}},
       {{"force", "honey"}, {"law: expected ", "viscous", "`honey`"}},
       {{"compare", "--csv", "/dev/null", "--test", "pared"}, {"did you mean `paired`?"}},
   });

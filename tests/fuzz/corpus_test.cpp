@@ -21,6 +21,7 @@ int datagram_fuzz_input(const std::uint8_t* data, std::size_t size);
 int force_map_fuzz_input(const std::uint8_t* data, std::size_t size);
 int device_profile_fuzz_input(const std::uint8_t* data, std::size_t size);
 int formula_fuzz_input(const std::uint8_t* data, std::size_t size);
+int stream_fuzz_input(const std::uint8_t* data, std::size_t size);
 }
 
 namespace corpus_test {
@@ -74,6 +75,10 @@ TEST(FuzzCorpus, DatagramsAreReadOrRefused) {
 TEST(FuzzCorpus, LaboratoriesAreReadOrRefusedWithASentence) {
   expect_sound(laboratory_fuzz_input, "tests/fuzz/corpus/laboratory");
   expect_sound(laboratory_fuzz_input, "data/laboratories");
+}
+
+TEST(FuzzCorpus, StreamsOfOthersAreReadOrRefusedWithASentence) {
+  expect_sound(stream_fuzz_input, "tests/fuzz/corpus/stream");
 }
 
 TEST(FuzzCorpus, DeviceProfilesAreReadOrRefusedWithASentence) {

@@ -110,6 +110,7 @@ void SessionScreen::run(std::unique_ptr<core::StudyStore> store, std::int64_t se
                                 .fitting = fitting,
                                 .allow_no_realtime = allow_no_realtime_,
                                 .stops = stops_folder(),
+                                .streams = streams_,
                                 .wake = host_.wake()},
       exchange_);
 }

@@ -22,13 +22,15 @@ namespace jnd::app::gui {
 /// A session in the window, from its start or resumption to the check and copy after it.
 class SessionScreen final : public Screen {
  public:
-  /// `device_profile`: that of sessions that are resumed, a file; "": looked for.
+  /// `device_profile`: that of sessions that are resumed, a file; "": looked for. `streams`: to
+  /// and of other recorders, of every session.
   SessionScreen(ScreenHost& host, OpenStudy& study, bool allow_no_realtime,
-                std::string device_profile)
+                std::string device_profile, WantedStreams streams)
       : host_(host),
         study_(study),
         allow_no_realtime_(allow_no_realtime),
-        device_profile_(std::move(device_profile)) {}
+        device_profile_(std::move(device_profile)),
+        streams_(std::move(streams)) {}
 
   /// Adds a session to the study that is open, and begins it. Throws `Error`.
   void start(const NewSession& session);
@@ -82,6 +84,7 @@ class SessionScreen final : public Screen {
   OpenStudy& study_;
   bool allow_no_realtime_;
   std::string device_profile_;
+  WantedStreams streams_;
   OperatorExchange exchange_;
   std::unique_ptr<SessionWorker> worker_;
   std::shared_ptr<const SessionView> view_;

@@ -129,9 +129,12 @@ void draw_export_dialog(Ui& ui, ResultsViewState& state, ResultsViewResult& resu
   constexpr Format kFormats[] = {
       {"csv", tr_later("CSV"), tr_later("tables with a codebook, for R, Python, spreadsheets")},
       {"bids", tr_later("BIDS"), tr_later("a data set in the layout of neuroimaging")},
-      {"hdf5", tr_later("HDF5"), tr_later("tables, and one file with every sample")}};
-  constexpr float kRow = 54;
-  Rect inside = ui.begin_dialog("export_dialog", 640, 56 + 46 + 3 * (kRow + 8) + 50 + 62);
+      {"hdf5", tr_later("HDF5"), tr_later("tables, and one file with every sample")},
+      {"xdf", tr_later("XDF"),
+       tr_later("a file for each session, in step with other recorders")}};
+  constexpr float kRow = 54, kNumFormats = std::size(kFormats);
+  Rect inside =
+      ui.begin_dialog("export_dialog", 640, 56 + 46 + kNumFormats * (kRow + 8) + 50 + 62);
   ui.text(inside.take_top(34, 12), tr("Export the study as …"), {.font = Font::kLarge});
   for (std::size_t i = 0; i < std::size(kFormats); ++i) {
     const Format& format = kFormats[i];

@@ -108,7 +108,7 @@ TEST_F(ResultsViewTest, EveryActionHasItsKey) {
 }
 
 TEST_F(ResultsViewTest, AnExportAsksForItsFormat) {
-  const char* const formats[] = {"csv", "bids", "hdf5"};
+  const char* const formats[] = {"csv", "bids", "hdf5", "xdf"};
   for (std::size_t i = 0; i < std::size(formats); ++i) {
     EXPECT_FALSE(after_key({.key = letter('E'), .control = true}).export_as);
     EXPECT_TRUE(ui_.drawn().shows("Export the study as …"));

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace jnd::core {
+
+/// What the values of a stream of other recorders are (docs/lab_streaming_layer.md).
+enum class ChannelFormat : std::uint8_t {
+  kFloat32,
+  kDouble64,
+  kString,
+  kInt32,
+  kInt16,
+  kInt8,
+  kInt64
+};
+
+inline constexpr std::string_view kChannelFormatNames[] = {
+    "float32", "double64", "string", "int32", "int16", "int8", "int64"};
+
+/// "float32", as streams and files spell it.
+[[nodiscard]] constexpr std::string_view name(ChannelFormat format) noexcept {
+  return kChannelFormatNames[static_cast<std::size_t>(format)];
+}
+
+/// None for a word that is no format.
+[[nodiscard]] constexpr std::optional<ChannelFormat> channel_format_of(std::string_view word) {
+  for (std::size_t i = 0; i < std::size(kChannelFormatNames); ++i) {
+    if (kChannelFormatNames[i] == word) return static_cast<ChannelFormat>(i);
+  }
+  return std::nullopt;
+}
+
+/// Of one value; 0 for texts, each of which has a length of its own.
+[[nodiscard]] constexpr std::size_t value_bytes(ChannelFormat format) noexcept {
+  switch (format) {
+    case ChannelFormat::kFloat32:
+    case ChannelFormat::kInt32:
+      return 4;
+    case ChannelFormat::kDouble64:
+    case ChannelFormat::kInt64:
+      return 8;
+    case ChannelFormat::kInt16:
+      return 2;
+    case ChannelFormat::kInt8:
+      return 1;
+    case ChannelFormat::kString:
+      break;
+  }
+  return 0;
+}
+
+/// One sample of a stream: a value for each channel.
+struct StreamSample {
+  double time_s = 0.0;  ///< By the clock of whoever sent it.
+  /// Of numbers: little-endian, channel after channel, as the format says. Kept as they came,
+  /// so that nothing is rounded on the way.
+  std::string values;
+  std::vector<std::string> texts;  ///< Of texts: one a channel.
+
+  friend bool operator==(const StreamSample&, const StreamSample&) = default;
+};
+
+}  // namespace jnd::core
