@@ -33,8 +33,8 @@ struct SampleColumn {
 /// A sample as a row of a table, for files that people and other programs read: one spelling of
 /// its columns for all of them. Units end the names. The columns of an array come by part, then
 /// by component. Not real time.
-[[nodiscard]] std::vector<SampleColumn> sample_columns(const SampleColumns& columns);
-[[nodiscard]] std::vector<std::string> sample_column_names(const SampleColumns& columns);
+[[nodiscard]] std::vector<SampleColumn> sample_columns(const SampleColumns& which);
+[[nodiscard]] std::vector<std::string> sample_column_names(const SampleColumns& which);
 
 /// In the order of `sample_column_names`. Whole numbers (tick, bits) are exact.
 [[nodiscard]] std::vector<double> sample_values(const Sample& sample,

@@ -42,7 +42,7 @@ FrameFit fit_frame(const std::vector<TouchedMark>& marks) {
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d extent = svd.singularValues();
+  const Eigen::Vector3d& extent = svd.singularValues();
   // Extents are squared lengths here.
   if (!(extent[1] > kLeastBreadthRatio * kLeastBreadthRatio * extent[0])) {
     throw core::Error(

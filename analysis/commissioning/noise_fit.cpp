@@ -47,7 +47,7 @@ std::vector<Eigen::Vector3d> first_readings_m(const std::vector<Eigen::Vector3d>
   mean_m /= static_cast<double>(position_m.size());
   std::vector<Eigen::Vector3d> first_m;
   for (std::size_t i = 0; i < std::min(kMost, position_m.size()); ++i) {
-    first_m.push_back(position_m[i] - mean_m);
+    first_m.emplace_back(position_m[i] - mean_m);
   }
   return first_m;
 }

@@ -22,7 +22,7 @@ char separator_of(std::string_view header) noexcept {
     const auto place = kSeparators.find(letter);
     if (!in_quotes && place != std::string_view::npos) ++counts[place];
   }
-  const auto most = std::ranges::max_element(counts);
+  const auto* const most = std::ranges::max_element(counts);
   return *most == 0 ? ',' : kSeparators[static_cast<std::size_t>(most - counts.begin())];
 }
 

@@ -52,7 +52,7 @@ struct TrialTable {
 /// The table has no column of this name.
 class UnknownColumn : public core::Error {
  public:
-  UnknownColumn(const std::string& where, std::string column,
+  UnknownColumn(const std::string& where, std::string missing,
                 const std::vector<std::string>& header);
   std::string column;
   std::string known;  ///< "a, b, c"

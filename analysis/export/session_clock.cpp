@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/sample_table.h"
 
@@ -41,8 +42,8 @@ std::optional<double> monotonic_in(const core::EventRow& event) {
 
 }  // namespace
 
-SessionClock::SessionClock(const std::vector<core::EventRow>& events, double rate_hz)
-    : rate_hz_(rate_hz), events_(events) {
+SessionClock::SessionClock(std::vector<core::EventRow> events, double rate_hz)
+    : rate_hz_(rate_hz), events_(std::move(events)) {
   std::int64_t next_tick = 0;
   for (const core::EventRow& event : events_) {
     if (parts_.empty() || event.kind == "session_resumed") {

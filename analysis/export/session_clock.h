@@ -20,7 +20,7 @@ namespace jnd::analysis {
 /// day. Not real time.
 class SessionClock {
  public:
-  SessionClock(const std::vector<core::EventRow>& events, double rate_hz);
+  SessionClock(std::vector<core::EventRow> events, double rate_hz);
 
   /// Each sample that is recorded, in the order of ticks, before anything is asked.
   void take(const core::Sample& sample);

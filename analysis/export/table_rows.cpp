@@ -101,7 +101,8 @@ std::vector<core::TickRange> ticks_of_blocks(
   std::map<std::string, core::TickRange> blocks;
   const auto widen = [&](const std::string& block, std::int64_t first_tick,
                          std::int64_t last_tick) {
-    core::TickRange& its = blocks.try_emplace(block, first_tick, last_tick).first->second;
+    core::TickRange& its =
+        blocks.try_emplace(block, core::TickRange{first_tick, last_tick}).first->second;
     its.first_tick = std::min(its.first_tick, first_tick);
     its.last_tick = std::max(its.last_tick, last_tick);
   };

@@ -30,9 +30,12 @@ BoundaryTest boundary_test(double log_with, double log_without) {
 }
 
 NestedOptima::NestedOptima(const std::vector<HierarchicalPerson>& people,
-                           const HierarchicalStructure& structure, Eigen::VectorXd start,
+                           HierarchicalStructure structure, Eigen::VectorXd start,
                            int num_nodes)
-    : people_(people), structure_(structure), start_(std::move(start)), num_nodes_(num_nodes) {}
+    : people_(people),
+      structure_(std::move(structure)),
+      start_(std::move(start)),
+      num_nodes_(num_nodes) {}
 
 HierarchicalStructure NestedOptima::structure(bool has_scatter, bool has_own_lapses) const {
   HierarchicalStructure within = structure_;

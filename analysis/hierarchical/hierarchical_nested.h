@@ -24,8 +24,8 @@ class NestedOptima {
  public:
   /// `structure`: of the largest model; `start` as of `start_of`. The people have to outlive
   /// it.
-  NestedOptima(const std::vector<HierarchicalPerson>& people,
-               const HierarchicalStructure& structure, Eigen::VectorXd start, int num_nodes);
+  NestedOptima(const std::vector<HierarchicalPerson>& people, HierarchicalStructure structure,
+               Eigen::VectorXd start, int num_nodes);
 
   /// Neither may be asked for where the largest model has it not.
   [[nodiscard]] const HierarchicalOptimum& of(bool has_scatter, bool has_own_lapses);

@@ -192,7 +192,7 @@ class FormulaReader {
   }
 
   TermList power() {
-    const TermList base = atom();
+    TermList base = atom();
     if (!take('^')) return base;
     if (const char digit = sign(); digit < '1' || digit > '9') {
       fail_at_sign("a whole number from 1 to 9 behind ^");

@@ -43,7 +43,7 @@ bool MixedLikelihood::add_gradient(Eigen::VectorXd& gradient) {
 
 /// Of f(u~) - 1/2 ln |H|, in which f is level in the modes: the derivative by H is -H^-1 / 2.
 void MixedLikelihood::add_laplace(GradientParts& parts) {
-  const auto size = static_cast<std::size_t>(head_size_ + tail_size_);
+  const auto size = static_cast<std::size_t>(head_size_) + static_cast<std::size_t>(tail_size_);
   information_.invert();
   std::vector<double> image(size);
   for (std::size_t row = 0; row < model_.num_rows(); ++row) {

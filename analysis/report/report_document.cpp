@@ -110,7 +110,7 @@ ReportOutcome write_document(ReportDocument document, const fs::path& folder,
         "prints the same");
   } else {
     const auto print = [&](const fs::path& html) {
-      const fs::path pdf = fs::path(html).replace_extension(".pdf");
+      fs::path pdf = fs::path(html).replace_extension(".pdf");
       const std::string problem =
           print_as_pdf(options.browser, html, pdf, document.date_time_ns);
       if (problem.empty()) return pdf;

@@ -40,7 +40,8 @@ std::vector<double> steps_aside(const std::vector<double>& values) {
   std::size_t num_near = 0;
   for (std::size_t i = 1; i < order.size(); ++i) {
     num_near = values[order[i]] - values[order[i - 1]] <= near ? num_near + 1 : 0;
-    const double step = std::min(1.0, 0.2 * static_cast<double>((num_near + 1) / 2));
+    const std::size_t pair = (num_near + 1) / 2;
+    const double step = std::min(1.0, 0.2 * static_cast<double>(pair));
     steps[order[i]] = num_near % 2 == 1 ? step : -step;
   }
   return steps;

@@ -46,7 +46,7 @@ RatedAnswer rated(const BlockDesign& block, const core::TrialRow& trial, double 
 
 /// What a step means: "step from 1, “I guessed”, to 5, “wholly sure”: How sure are you?"
 std::string words_of(const Item& item) {
-  const std::string question = in_english(item.question);
+  std::string question = in_english(item.question);
   if (item.kind == "yes_no") return "1 being yes and 0 no: " + question;
   if (item.kind != "scale") return question;
   return "step from 1, “" + in_english(item.low_label) + "”, to " +

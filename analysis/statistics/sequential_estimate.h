@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "analysis/statistics/sequential_test.h"
 
@@ -34,8 +35,8 @@ class SequentialEstimate {
   [[nodiscard]] Interval interval(double confidence) const;
 
  private:
-  SequentialEstimate(const SequentialBoundaries& boundaries, const SequentialOutcome& outcome)
-      : boundaries_(boundaries), outcome_(outcome) {}
+  SequentialEstimate(SequentialBoundaries boundaries, SequentialOutcome outcome)
+      : boundaries_(std::move(boundaries)), outcome_(std::move(outcome)) {}
 
   /// The effect at which `probability_above` comes to this.
   [[nodiscard]] std::optional<double> effect_at(double probability) const;

@@ -296,7 +296,7 @@ void add_fit_detection(CLI::App& fit, Invocation& invocation) {
   same->answer_name = "Proportion different";
   CLI::App& pairs = *fit.add_subcommand(
       "same-different",
-      "Weber fraction and criterion of \"same\" and \"different\", a yes being \"different\"");
+      R"(Weber fraction and criterion of "same" and "different", a yes being "different")");
   add_answer_options(pairs, *same);
   pairs.add_option("--reference", same->reference, "the other stimulus of every pair, > 0")
       ->required();

@@ -38,7 +38,7 @@ nlohmann::ordered_json power_of(const std::string& folder, const experiments::St
   if (folder.empty()) return nullptr;
   const fs::path file = fs::path(folder) / "power.json";
   std::ifstream stream(file, std::ios::binary);
-  const auto json = nlohmann::ordered_json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  auto json = nlohmann::ordered_json::parse(stream, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object() || !json.contains("sizes") || !json.contains("study_sha256")) {
     throw core::Error(file.string() +
                       ": expected what `jnd power --out` writes, found something else or "

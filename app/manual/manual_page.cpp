@@ -73,13 +73,13 @@ std::string synopsis(const ManualCommand& command) {
 /// What `--help` says in brackets and signs, in sentences.
 std::string rules_of(const ManualOption& option) {
   std::vector<std::string> rules;
-  if (option.is_required && !option.is_positional) rules.push_back("Required.");
+  if (option.is_required && !option.is_positional) rules.emplace_back("Required.");
   if (!option.choices.empty()) {
     rules.push_back(fmt::format("One of: {}.", fmt::join(option.choices, ", ")));
   }
   if (!option.allowed.empty()) rules.push_back("Allowed: " + option.allowed + ".");
   if (!option.standard.empty()) rules.push_back("Default: " + option.standard + ".");
-  if (option.repeats) rules.push_back("May be given several times.");
+  if (option.repeats) rules.emplace_back("May be given several times.");
   if (!option.needs.empty()) {
     rules.push_back(fmt::format("Only with {}.", fmt::join(option.needs, ", ")));
   }

@@ -29,7 +29,8 @@ int likeness(const std::string& name, const Words& whole, const Words& within) {
   const std::string small = lower(name);
   if (std::ranges::find(whole, small) != whole.end()) return 2;
   return std::ranges::any_of(
-             within, [&](std::string_view word) { return small.find(word) != small.npos; })
+             within,
+             [&](std::string_view word) { return small.find(word) != std::string::npos; })
              ? 1
              : 0;
 }

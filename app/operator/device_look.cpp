@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <ranges>
 #include <utility>
 
 #include "app/commissioning/daily_check.h"
@@ -117,8 +118,8 @@ void add_profile(DeviceView& view, const KnownProfile& known) {
                         {tr("Measured"), profile.measured_on + ", " + age_in_days(profile)},
                         {tr("Valid until"), profile.valid_until}};
   view.profile_numbers = numbers_of(profile);
-  for (auto check = profile.checks.rbegin(); check != profile.checks.rend(); ++check) {
-    view.checks.push_back(check_line(*check));
+  for (const auto& check : std::views::reverse(profile.checks)) {
+    view.checks.push_back(check_line(check));
   }
 }
 

@@ -2,14 +2,13 @@
 
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <system_error>
 
 #include "app/language/words.h"
-
-extern char** environ;
 
 namespace jnd::app {
 

@@ -158,7 +158,7 @@ class OperatedSession {
   /// As it was given: percent, 1 and 0, the interval chosen; none is "cannot tell".
   [[nodiscard]] std::string answer_in_words(const experiments::Block& block,
                                             experiments::AnswerKind kind,
-                                            const std::optional<double>& answer) const;
+                                            const std::optional<double>& given) const;
   [[nodiscard]] AnswerForm form_of(const experiments::Block& block) const;
   [[nodiscard]] std::string level_of(const experiments::TrialState& trial) const;
   void describe_loop(SessionView& view) const;

@@ -284,7 +284,7 @@ SequentialRun sequential_run_of(const ordered_json& json, const PlannedSequentia
   for (const char one : json.at("fixed_significant").get<std::string>()) {
     run.fixed_significant.push_back(one == '1');
   }
-  const auto num_sizes = static_cast<std::size_t>(looks.back() - looks.front() + 1);
+  const auto num_sizes = static_cast<std::size_t>(looks.back() - looks.front()) + 1;
   if (run.look >= looks.size() || run.fixed_significant.size() != num_sizes) {
     throw core::Error("run: expected one that its looks ended, found another");
   }

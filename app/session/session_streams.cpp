@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <variant>
 
 #include "core/clock.h"
@@ -105,8 +106,8 @@ void require_possible(const WantedStreams& wanted, bool hides_levels) {
 }
 
 struct SessionStreams::Implementation {
-  explicit Implementation(const Parameters& the_parameters)
-      : parameters(the_parameters), sample_stream(std::vector<std::string>{}) {
+  explicit Implementation(Parameters the_parameters)
+      : parameters(std::move(the_parameters)), sample_stream(std::vector<std::string>{}) {
     parameters.network.peers = parameters.wanted.peers;
     attempt(kOut, "liblsl", [this] {
       if (parameters.wanted.library.empty()) return;

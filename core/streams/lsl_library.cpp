@@ -94,14 +94,14 @@ InfoHandle library_info(const Lsl& lsl, const StreamInfo& info) {
                                  info.nominal_rate_hz, library_format(info.format),
                                  info.source_id.c_str()),
            "a description of a stream");
-  const auto desc = lsl.get_desc(handle.get());
+  auto* const desc = lsl.get_desc(handle.get());
   for (const auto& [fact, value] : info.facts) {
     lsl.append_child_value(desc, fact.c_str(), value.c_str());
   }
   if (info.channels.empty()) return handle;
-  const auto channels = lsl.append_child(desc, "channels");
+  auto* const channels = lsl.append_child(desc, "channels");
   for (const StreamChannel& one : info.channels) {
-    const auto channel = lsl.append_child(channels, "channel");
+    auto* const channel = lsl.append_child(channels, "channel");
     lsl.append_child_value(channel, "label", one.label.c_str());
     if (!one.unit.empty()) lsl.append_child_value(channel, "unit", one.unit.c_str());
     if (!one.type.empty()) lsl.append_child_value(channel, "type", one.type.c_str());

@@ -87,17 +87,17 @@ std::string full_xml_of(const StreamInfo& info, double timeout_s) {
 
 std::size_t bytes_of(const StreamSample& sample) {
   std::size_t bytes = sizeof sample + sample.values.size();
-  for (const std::string& text : sample.texts) bytes += sizeof text + text.size();
+  for (const std::string& text : sample.texts) bytes += sizeof(std::string) + text.size();
   return bytes;
 }
 
 class OwnInlet final : public StreamInlet {
  public:
-  OwnInlet(const StreamInfo& info, const StreamNetwork& network, double timeout_s)
-      : info_(info),
-        place_(info),
+  OwnInlet(StreamInfo info, const StreamNetwork& network, double timeout_s)
+      : info_(std::move(info)),
+        place_(info_),
         network_(network),
-        full_xml_(full_xml_of(info, timeout_s)),
+        full_xml_(full_xml_of(info_, timeout_s)),
         time_socket_(datagram_socket()),
         probe_(static_cast<int>(std::random_device{}() >> 2)) {
     thread_ = std::thread([this] { listen(); });

@@ -17,7 +17,7 @@ constexpr std::string_view kToldKinds[] = {
 
 std::optional<std::string> SessionMarkers::marker_of(const EventRow& event) {
   if (std::ranges::find(kToldKinds, event.kind) == std::end(kToldKinds)) return std::nullopt;
-  std::string text = "{\"what\":\"" + event.kind + '"';
+  std::string text = R"({"what":")" + event.kind + '"';
   const auto add = [&text](const char* key, std::int64_t number) {
     text += std::string(",\"") + key + "\":" + std::to_string(number);
   };

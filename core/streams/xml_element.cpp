@@ -81,7 +81,7 @@ class XmlReader {
   std::string word() {
     const std::size_t end = std::min(text_.find_first_of(" \t\r\n/><=&\"'", at_), text_.size());
     if (end == at_) refuse("a name");
-    const std::string name(text_.substr(at_, end - at_));
+    std::string name(text_.substr(at_, end - at_));
     at_ = end;
     return name;
   }

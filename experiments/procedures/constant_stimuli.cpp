@@ -164,7 +164,7 @@ std::vector<PlannedTrial> ConstantStimuli::draw_next(const Block& block,
   return trials;
 }
 
-int ConstantStimuli::expected_trials(const Block& block) const noexcept {
+int ConstantStimuli::expected_trials(const Block& block) const {
   return block.repetitions *
          (static_cast<int>(block.intensities.size()) + num_catch_trials(block));
 }

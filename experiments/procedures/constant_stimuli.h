@@ -23,7 +23,7 @@ class ConstantStimuli final : public Procedure {
                                                      const PlannedTrial& trial) const override;
   [[nodiscard]] std::optional<double> feedback_response(
       const Block& block, const PlannedTrial& trial) const override;
-  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+  [[nodiscard]] int expected_trials(const Block& block) const override;
 };
 
 }  // namespace jnd::experiments

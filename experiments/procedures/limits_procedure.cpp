@@ -149,7 +149,7 @@ int LimitsProcedure::most_trials(const Block& block) const noexcept {
       block, block.settings.integer("num_series") * static_cast<int>(block.intensities.size()));
 }
 
-int LimitsProcedure::expected_trials(const Block& block) const noexcept {
+int LimitsProcedure::expected_trials(const Block& block) const {
   // The answer changes about half way.
   return with_catch_trials(
       block, block.settings.integer("num_series") *

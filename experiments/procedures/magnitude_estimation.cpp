@@ -80,7 +80,7 @@ std::vector<PlannedTrial> MagnitudeEstimation::draw_next(
   return trials;
 }
 
-int MagnitudeEstimation::expected_trials(const Block& block) const noexcept {
+int MagnitudeEstimation::expected_trials(const Block& block) const {
   return block.repetitions * static_cast<int>(block.intensities.size());
 }
 

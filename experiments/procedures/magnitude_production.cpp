@@ -39,7 +39,7 @@ std::vector<PlannedTrial> MagnitudeProduction::draw_next(
       });
 }
 
-int MagnitudeProduction::expected_trials(const Block& block) const noexcept {
+int MagnitudeProduction::expected_trials(const Block& block) const {
   return block.repetitions *
          static_cast<int>(block.target_percent.size() * block.intensities.size());
 }

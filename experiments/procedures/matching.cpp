@@ -41,7 +41,7 @@ std::vector<PlannedTrial> Matching::draw_next(const Block& block,
   return trials;
 }
 
-int Matching::expected_trials(const Block& block) const noexcept {
+int Matching::expected_trials(const Block& block) const {
   return block.repetitions *
          static_cast<int>(block.standards.size() * block.intensities.size());
 }

@@ -23,7 +23,7 @@ class Matching final : public Procedure {
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;
-  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+  [[nodiscard]] int expected_trials(const Block& block) const override;
 };
 
 }  // namespace jnd::experiments

@@ -102,7 +102,7 @@ class Procedure {
   /// Whether the answers decide what is presented, and how many trials there are.
   [[nodiscard]] virtual bool adapts() const noexcept { return rule() != AdaptiveRule::kNone; }
   /// How many trials to expect, for progress and planning; no more than `most_trials`.
-  [[nodiscard]] virtual int expected_trials(const Block& block) const noexcept = 0;
+  [[nodiscard]] virtual int expected_trials(const Block& block) const = 0;
   /// How many there can be, with as many catch trials as are to be expected among them.
   [[nodiscard]] virtual int most_trials(const Block& block) const noexcept {
     return expected_trials(block);

@@ -290,7 +290,7 @@ void QuestPlusProcedure::check(const Block& block) const {
   check_grids(block, lowest, highest);
 }
 
-int QuestPlusProcedure::expected_trials(const Block& block) const noexcept {
+int QuestPlusProcedure::expected_trials(const Block& block) const {
   return with_catch_trials(block, block.settings.integer("max_trials"));
 }
 

@@ -28,7 +28,7 @@ class QuestPlusProcedure final : public Procedure {
   [[nodiscard]] std::string caution(const Block& block,
                                     const std::vector<AnsweredTrial>& answered) const override;
   [[nodiscard]] AdaptiveRule rule() const noexcept override { return AdaptiveRule::kQuestPlus; }
-  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+  [[nodiscard]] int expected_trials(const Block& block) const override;
 };
 
 /// Throws `Error` naming what does not fit together.

@@ -40,7 +40,7 @@ std::vector<PlannedTrial> Rating::draw_next(const Block& block,
   });
 }
 
-int Rating::expected_trials(const Block& block) const noexcept {
+int Rating::expected_trials(const Block& block) const {
   return block.repetitions * static_cast<int>(block.intensities.size());
 }
 

@@ -20,7 +20,7 @@ class Rating final : public Procedure {
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
                                                     const std::vector<AnsweredTrial>& answered,
                                                     core::RandomStream& stream) const override;
-  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+  [[nodiscard]] int expected_trials(const Block& block) const override;
 };
 
 /// The last step of the scale of a block that rates.

@@ -226,7 +226,7 @@ std::vector<double> StaircaseProcedure::possible_intensities(const Block& block)
   return {block.settings.number("lowest"), block.settings.number("highest")};
 }
 
-int StaircaseProcedure::expected_trials(const Block& block) const noexcept {
+int StaircaseProcedure::expected_trials(const Block& block) const {
   const Observer observer = usual_observer(block);
   double num_trials = 0.0;
   for (int series = 1; series <= num_series(block); ++series) {

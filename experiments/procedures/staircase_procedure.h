@@ -25,7 +25,7 @@ class StaircaseProcedure final : public Procedure {
       const Block& block, const PlannedTrial& trial) const override;
   void check(const Block& block) const override;
   [[nodiscard]] AdaptiveRule rule() const noexcept override { return AdaptiveRule::kStaircase; }
-  [[nodiscard]] int expected_trials(const Block& block) const noexcept override;
+  [[nodiscard]] int expected_trials(const Block& block) const override;
   [[nodiscard]] int most_trials(const Block& block) const noexcept override;
 };
 

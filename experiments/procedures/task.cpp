@@ -91,7 +91,7 @@ IntervalChoice chosen_interval(Task task, std::span<const double> readings) {
   if (task == Task::kOddity) {
     // How far apart the other two are, were this the odd one.
     const double others[] = {distance(1, 2), distance(0, 2), distance(0, 1)};
-    const auto odd = std::ranges::min_element(others);
+    const auto* const odd = std::ranges::min_element(others);
     double next = std::numeric_limits<double>::infinity();
     for (const double& one : others) {
       if (&one != odd) next = std::min(next, one);
