@@ -72,6 +72,14 @@ void add_blocks_set_aside(std::vector<ResultsSection>& sections, const StudyData
   }
 }
 
+/// How many people have an answer that counts; somebody whose answers are all set aside has
+/// none.
+int num_heard(const StudyData& data) {
+  return static_cast<int>(std::ranges::count_if(data.participants, [](const auto& participant) {
+    return !participant.trials.empty() || participant.excluded_trials.empty();
+  }));
+}
+
 }  // namespace
 
 const Estimate* StudyResults::find(const std::string& name) const {
@@ -89,7 +97,7 @@ StudyResults results_of(const StudyData& data, const Published& published,
                        .simulated = data.simulated,
                        .laboratory = data.laboratory,
                        .citation = published.citation,
-                       .num_participants = static_cast<int>(data.participants.size()),
+                       .num_participants = num_heard(data),
                        .sessions = data.sessions,
                        .losses = level_losses(data),
                        .contrasts = planned_contrasts(data)};

@@ -197,9 +197,9 @@ int run_session(const RunOptions& options, core::StudyStore& store,
     return kEnvironmentLacks;
   }
   std::fprintf(options.acknowledge ? stderr : stdout,
-               "session %lld: finished, %lld samples, loop %s\n",
-               static_cast<long long>(session), static_cast<long long>(result.num_ticks),
-               result.realtime.c_str());
+               "session %lld: %s, %lld samples, loop %s\n", static_cast<long long>(session),
+               result.ended_early ? "ended early" : "finished",
+               static_cast<long long>(result.num_ticks), result.realtime.c_str());
   return kDone;
 }
 

@@ -91,7 +91,7 @@ std::string missing_words(const analysis::MissingSessions& sessions) {
 
 std::string heading(const analysis::StudyResults& results) {
   std::string line =
-      fmt::format("{}: {} participants", results.study, results.num_participants);
+      results.study + ": " + counted_words(results.num_participants, "participant");
   if (results.simulated) {
     line += fmt::format(", SIMULATED (laboratory \"{}\"{})", results.laboratory,
                         results.laboratory_changed ? ", CHANGED from the shipped one" : "");

@@ -67,6 +67,7 @@ class SimulatedSession {
       running_.close_streams();
       if (!session_.state().ended) session_.complete();
       result.ended = true;
+      result.ended_early = !session_.state().completed;
       result.cautions = std::move(cautions_);
     } catch (const Cancelled&) {
       // First of all: the disk may take its time.

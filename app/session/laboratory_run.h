@@ -42,7 +42,8 @@ struct LaboratoryRun {
 
 /// What came of it.
 struct LaboratoryRunResult {
-  bool ended = false;  ///< False: cancelled, and can be resumed.
+  bool ended = false;        ///< False: cancelled, and can be resumed.
+  bool ended_early = false;  ///< Ended before its last stage, by somebody's choice.
   std::int64_t num_ticks = 0;
   std::string realtime;  ///< "simulated", or what the real-time thread was given.
   /// What the answers of a block say against it, "BLOCK: ..."; see `Procedure::caution`.

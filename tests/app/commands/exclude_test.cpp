@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "app/commands/command_fixture.h"
 #include "app/json_document.h"
 #include "app/tiny_study.h"
@@ -46,6 +49,16 @@ TEST_F(ExcludeCommandTest, LeavesTrialsOutWithTheReasonAndTakesThemBack) {
             0);
   EXPECT_EQ(trials_in_force(2), static_cast<std::size_t>(kTinyTrials - 1));
   EXPECT_EQ(jnd({"verify", "a.study"}).exit_code, 0);
+}
+
+TEST_F(ExcludeCommandTest, WhoHasNoAnswerLeftIsNotCounted) {
+  std::vector<std::string> all = {"exclude",  "a.study", "--session", "1",
+                                  "--reason", "asleep",  "--trial"};
+  for (int trial = 1; trial <= kTinyTrials; ++trial) all.push_back(std::to_string(trial));
+  ASSERT_EQ(jnd(all).exit_code, 0);
+  const ProgramOutcome results = jnd({"results", "a.study"});
+  EXPECT_TRUE(results.out.find(": 1 participant, SIMULATED") != std::string::npos)
+      << results.out.substr(0, 200);
 }
 
 TEST_F(ExcludeCommandTest, OneOfAllTrialsMissingChangesNothing) {

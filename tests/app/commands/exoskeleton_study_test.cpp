@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <map>
 #include <string>
 
 #include "app/json_document.h"
+#include "app/shortened_study.h"
 #include "app/tiny_study.h"
 #include "support/places.h"
 #include "support/program.h"
@@ -17,27 +17,12 @@
 namespace jnd::app {
 namespace exoskeleton_study_test {
 
-namespace fs = std::filesystem;
-
-/// Every level once instead of five times.
-std::string shortened(const fs::path& file) {
-  std::ifstream stream(file);
-  nlohmann::json study = nlohmann::json::parse(stream);
-  const auto shorten = [](auto& self, nlohmann::json& part) -> void {
-    if (part.is_object() && part.contains("repetitions")) part["repetitions"] = 1;
-    if (!part.is_structured()) return;
-    for (nlohmann::json& inner : part) self(self, inner);
-  };
-  shorten(shorten, study);
-  return study.dump();
-}
-
 TEST(ExoskeletonStudy, TheThickFluidIsSlowerThePalmLeadsAndTheFingersFollow) {
   if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   const test_support::TemporaryFolder temporary{test_support::memory_folder()};
-  write_file(
-      temporary.path() / "short.json",
-      shortened(test_support::source_folder() / "protocols/viscosity_discrimination.json"));
+  write_file(temporary.path() / "short.json",
+             shortened_study(
+                 test_support::source_folder() / "protocols/viscosity_discrimination.json", 1));
   const auto jnd = [&](const std::vector<std::string>& words) {
     return test_support::run_program(words, {.folder = temporary.path(), .environment = {}});
   };

@@ -161,7 +161,7 @@ TEST_P(KilledAtAnyMomentTest, ItLosesNothingThatItAcknowledgedAndGoesOnAsIfUnint
   EXPECT_GT(num_compared_, 25 / kFewer);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, KilledAtAnyMomentTest, ::testing::Values(1U, 2U, 3U, 4U));
+INSTANTIATE_TEST_SUITE_P(Seeds, KilledAtAnyMomentTest, ::testing::Values(1U, 2U));
 
 TEST_F(KillTest, WithinTheLoopInRealTimeItLosesNothingEither) {
   // While the hand moves freely, right after that, at rest, and in the first stroke.

@@ -10,6 +10,7 @@
 #include "analysis/results/study_results.h"
 #include "app/commands/command_fixture.h"
 #include "app/json_document.h"
+#include "app/shortened_study.h"
 #include "app/tiny_study.h"
 #include "core/storage/study_store.h"
 #include "support/places.h"
@@ -63,8 +64,11 @@ TEST_F(PredictiveCommandTest, OfAnotherLaboratoryPeopleAreSimulatedWhereThatIsAs
       read_file(test_support::source_folder() / "data" / "laboratories" / "thesis.json"));
   laboratory["name"] = "mine";
   write_file(temporary_.path() / "mine.json", laboratory.dump());
-  ASSERT_EQ(jnd({"simulate", "viscosity_discrimination", "--participants", "2", "--fast",
-                 "--laboratory", "mine.json", "--study", "v.study"})
+  write_file(temporary_.path() / "short.json",
+             shortened_study(
+                 test_support::source_folder() / "protocols/viscosity_discrimination.json", 2));
+  ASSERT_EQ(jnd({"simulate", "short.json", "--participants", "2", "--fast", "--laboratory",
+                 "mine.json", "--study", "v.study"})
                 .exit_code,
             0);
   const auto without =

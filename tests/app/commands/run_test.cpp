@@ -298,7 +298,9 @@ TEST_F(RunCommandTest, AnOpenSessionNeedsHeadlessToBeResumedAndCanBeEnded) {
     EXPECT_EQ(child.wait().signal, SIGKILL);
   }
   EXPECT_EQ(jnd({"resume", "a.study"}).exit_code, 3);
-  EXPECT_EQ(jnd({"resume", "a.study", "--choose", "end", "--headless"}).exit_code, 0);
+  const ProgramOutcome ended = jnd({"resume", "a.study", "--choose", "end", "--headless"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("session 1: ended early, "), std::string::npos) << ended.out;
   const core::StudyStore store = opened("a.study");
   EXPECT_TRUE(store.finished(1));
   EXPECT_FALSE(store.completed(1));
