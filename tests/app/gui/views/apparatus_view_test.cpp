@@ -135,8 +135,6 @@ TEST_F(ApparatusView, TheEmergencyStopAndThePrintedKeyBackAreAlwaysThere) {
 TEST_F(ApparatusView, CommandsOfTheHeaderWorkAsInTheSession) {
   draw(felt());
   ui_.press(letter('P'));
-  draw(felt());
-  ui_.press(Key::kEnter);
   const RunViewResult result = draw(felt());
   ASSERT_EQ(result.requests.size(), 1U);
   EXPECT_TRUE(std::holds_alternative<operate::Pause>(result.requests[0]));
