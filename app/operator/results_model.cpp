@@ -27,6 +27,7 @@
 #include "core/storage/recording.h"
 #include "core/storage/study_store.h"
 #include "experiments/procedures/practice.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::app {
 namespace {
@@ -113,8 +114,21 @@ std::string section_words(const ResultsSource& source, const std::string& name) 
   return name_words(name, /*as_title=*/true);
 }
 
+/// "Is it solid? yes" of "questionnaire.solid_is_solid.yes"; "" of what is no question's.
+std::string label_of_question(const ResultsSource& source, const std::string& name) {
+  constexpr std::string_view kStart = "questionnaire.";
+  if (!name.starts_with(kStart)) return "";
+  const std::size_t dot = name.find('.', kStart.size());
+  const auto question = source.questions.find(
+      name.substr(kStart.size(), dot == std::string::npos ? dot : dot - kStart.size()));
+  if (question == source.questions.end()) return "";
+  if (dot == std::string::npos) return question->second;
+  return question->second + " " + name_words(name.substr(dot + 1), /*as_title=*/false);
+}
+
 /// "group_d.weber_fraction" without its block, which stands above it.
 std::string label_of(const ResultsSource& source, const std::string& name) {
+  if (std::string label = label_of_question(source, name); !label.empty()) return label;
   const std::size_t dot = name.find('.');
   const bool is_own = dot != std::string::npos && source.titles.contains(name.substr(0, dot));
   return name_words(is_own ? name.substr(dot + 1) : name, /*as_title=*/true);
@@ -298,9 +312,31 @@ std::map<std::string, std::string> titles_of(const experiments::Study& study,
   return titles;
 }
 
-/// What the program calls something, "stroke_width_m", in words; blocks have their titles.
-std::string told_in_words(const ResultsSource& source, const std::string& told) {
-  const std::string sentence = source.in_titles(told);
+/// What questionnaires ask, after the experiment and after trials, in the study's first
+/// language.
+std::map<std::string, std::string> questions_of(const experiments::Study& study) {
+  std::map<std::string, std::string> questions;
+  const auto add = [&](const auto& items) {
+    for (const auto& item : items) {
+      const std::string& words = in_language(item.question, study.languages.front());
+      if (!words.empty()) questions.emplace(item.name, words);
+    }
+  };
+  experiments::for_each_stage(study.stages, [&](const experiments::Stage& stage) {
+    if (const auto* form = std::get_if<experiments::Questionnaire>(&stage.content)) {
+      add(form->items);
+    } else if (const auto* post = std::get_if<experiments::PostExperiment>(&stage.content)) {
+      add(post->items);
+    } else if (const auto* block = std::get_if<experiments::Block>(&stage.content)) {
+      add(block->questions);
+    }
+  });
+  return questions;
+}
+
+/// What the program calls something, "stroke_width_m", in words; blocks have their titles. A
+/// name that could be any word, "production", stays what it is.
+std::string told_in_words(const ResultsSource& source, const std::string& sentence) {
   const auto is_of_a_name = [](char letter) {
     return letter == '_' || std::isalnum(static_cast<unsigned char>(letter)) != 0;
   };
@@ -313,13 +349,20 @@ std::string told_in_words(const ResultsSource& source, const std::string& told) 
       continue;
     }
     const std::string name = sentence.substr(at, end - at);
-    // Of a file or a path it is the name.
-    const bool is_of_a_file =
-        (at > 0 && sentence[at - 1] == '/') ||
-        (end + 1 < sentence.size() && sentence[end] == '.' && is_of_a_name(sentence[end + 1]));
-    words += is_of_a_file || name.find('_') == std::string::npos
-                 ? name
-                 : name_words(name, /*as_title=*/false);
+    const bool has_part =
+        end + 1 < sentence.size() && sentence[end] == '.' && is_of_a_name(sentence[end + 1]);
+    const auto block = source.titles.find(name);
+    if (name.find('_') == std::string::npos) {
+      words += name;
+    } else if (block != source.titles.end()) {
+      // "group_d.weber_fraction" is "Group D: weber fraction".
+      words += short_title(block->second) + (has_part ? ": " : "");
+      if (has_part) ++end;
+    } else {
+      // Of a file or a path it is the name.
+      const bool is_of_a_file = has_part || (at > 0 && sentence[at - 1] == '/');
+      words += is_of_a_file ? name : name_words(name, /*as_title=*/false);
+    }
     at = end;
   }
   return words;
@@ -408,7 +451,7 @@ ResultsModel results_model(const std::filesystem::path& folder, WorkControl& con
   results.preregistration = preregistered_study(store, data);
   control.progress(0.8);
   control.stop_if_cancelled();
-  const ResultsSource source{data, results, titles_of(study, data.blocks)};
+  const ResultsSource source{data, results, titles_of(study, data.blocks), questions_of(study)};
   analysis::StudyTitles chart_titles = analysis::titles_of(study);
   chart_titles.stages.insert(source.titles.begin(), source.titles.end());
   ResultsModel model{.study = results.study,

@@ -106,7 +106,8 @@ struct ResultsModel {
 struct ResultsSource {
   const analysis::StudyData& data;
   const analysis::StudyResults& results;
-  std::map<std::string, std::string> titles;  ///< By block; its name where there is none.
+  std::map<std::string, std::string> titles;       ///< By block; its name where there is none.
+  std::map<std::string, std::string> questions{};  ///< What is asked, by the name of the item.
 
   [[nodiscard]] std::string title(const std::string& block) const;
   /// A sentence with the titles of blocks in place of their names.

@@ -99,7 +99,7 @@ TEST_F(ResultsViewTest, EveryPageIsReachedByItsNumber) {
   }
   EXPECT_TRUE(ui_.drawn().shows("Weber fraction"));
   (void)after_key({letter('1')});
-  EXPECT_TRUE(ui_.drawn().shows("Estimation and production"));
+  EXPECT_TRUE(ui_.drawn().shows("Estimation and production")) << all_texts(ui_.drawn());
 }
 
 TEST_F(ResultsViewTest, EveryActionHasItsKey) {
