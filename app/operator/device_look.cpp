@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
-#include <ranges>
 #include <utility>
 
 #include "app/commissioning/daily_check.h"
@@ -118,9 +118,8 @@ void add_profile(DeviceView& view, const KnownProfile& known) {
                         {tr("Measured"), profile.measured_on + ", " + age_in_days(profile)},
                         {tr("Valid until"), profile.valid_until}};
   view.profile_numbers = numbers_of(profile);
-  for (const auto& check : std::views::reverse(profile.checks)) {
-    view.checks.push_back(check_line(check));
-  }
+  std::ranges::transform(profile.checks.rbegin(), profile.checks.rend(),
+                         std::back_inserter(view.checks), check_line);
 }
 
 /// What a session would say now, and what is known all the same.
