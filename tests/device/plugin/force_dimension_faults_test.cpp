@@ -20,12 +20,17 @@ using core::Fault;
 class ForceDimensionFaultsTest : public ForceDimensionTest {
  protected:
   /// Runs until the twin has felt a force, in the middle of a stroke.
-  static void push(StrokedFluid& fluid) {
+  static void push(HapticDevice& device, StrokedFluid& fluid) {
     const auto is_in_a_stroke = [&] {
       return force_at_twin_n() >= 0.2 && std::abs(fluid.told().hand_velocity_m_per_s[0]) > 0.1;
     };
+    int num_late = 0;
     for (int i = 0; i < 400 && !is_in_a_stroke(); ++i) {
       const Fault found = fluid.run(10);
+      if (was_late(found, fluid) && ++num_late <= 5) {
+        arm(device, fluid);
+        continue;
+      }
       ASSERT_EQ(found, Fault::kNone) << core::name(found) << ": " << fluid.words();
     }
     ASSERT_GE(force_at_twin_n(), 0.2)
@@ -36,7 +41,7 @@ class ForceDimensionFaultsTest : public ForceDimensionTest {
   /// As a person does, who tries again where a busy machine was late with a reading.
   static void arm(HapticDevice& device, StrokedFluid& fluid) {
     Fault found = Fault::kLinkLost;
-    for (int i = 0; i < 20 && found == Fault::kLinkLost; ++i) {
+    for (int i = 0; i < 20 && was_late(found, fluid); ++i) {
       ASSERT_TRUE(comes_to([&] {
         (void)fluid.run(1);
         return device.may_arm();
@@ -45,6 +50,12 @@ class ForceDimensionFaultsTest : public ForceDimensionTest {
       found = fluid.run(900);
     }
     ASSERT_EQ(found, Fault::kNone) << core::name(found) << ": " << fluid.words();
+  }
+  /// A busy machine kept the process of the driver waiting. The driver itself has no complaint,
+  /// for it says in words what the library refused.
+  static bool was_late(Fault found, const StrokedFluid& fluid) {
+    return found == Fault::kLinkLost ||
+           (found == Fault::kDeviceReadFailed && fluid.words().empty());
   }
   /// The force is gone, and none comes while the loop goes on.
   static void expect_no_force(StrokedFluid& fluid) {
@@ -130,7 +141,7 @@ TEST_F(ForceDimensionFaultsTest, EachTroubleInALoopEndsTheForceAndIsNamed) {
     page().slow_ms = 300;
     const auto device = opened(argument());
     StrokedFluid fluid(*device);
-    push(fluid);
+    push(*device, fluid);
     page().trouble = expected.trouble;
     const Fault found = fluid.run(8000);
     EXPECT_TRUE(std::ranges::find(expected.faults, found) != expected.faults.end())
@@ -150,7 +161,7 @@ TEST_F(ForceDimensionFaultsTest, OneWithAWristAndAGripperIsHeldToTheSame) {
   page().has_wrist = page().has_gripper = 1;
   const auto device = opened(argument());
   StrokedFluid fluid(*device);
-  push(fluid);
+  push(*device, fluid);
   page().trouble = TWIN_BROKEN_ROTATION;
   EXPECT_EQ(fluid.run(3000), Fault::kDeviceReadFailed);
   EXPECT_EQ(device->words_of_fault(), "it tells an orientation that is none");
@@ -169,7 +180,7 @@ TEST_F(ForceDimensionFaultsTest, ACablePulledInAnyPhaseEndsTheForce) {
     SetUp();
     auto device = opened(argument());
     StrokedFluid fluid(*device);
-    push(fluid);
+    push(*device, fluid);
     page().unplugged_in = phase;
     if (phase == TWIN_IN_HALT) device->halt();
     if (phase != TWIN_IN_CLOSE) {
@@ -197,20 +208,20 @@ TEST_F(ForceDimensionFaultsTest, AfterAPassingTroubleAPersonArmsAndTheForceIsBac
   const auto device = opened(argument());
   StrokedFluid fluid(*device);
   for (const int trouble : {TWIN_READS_FAIL, TWIN_WRITES_FAIL, TWIN_ZEROS_FAIL}) {
-    push(fluid);
+    push(*device, fluid);
     page().trouble = trouble;
     EXPECT_NE(fluid.run(3000), Fault::kNone) << trouble;
     expect_no_force(fluid);
     page().trouble = TWIN_IS_WELL;
     arm(*device, fluid);
   }
-  push(fluid);
+  push(*device, fluid);
 }
 
 TEST_F(ForceDimensionFaultsTest, WhatAPersonSwitchesOffNoProgramSwitchesOn) {
   const auto device = opened(argument());
   StrokedFluid fluid(*device);
-  push(fluid);
+  push(*device, fluid);
   page().trouble = TWIN_BUTTON;
   EXPECT_EQ(fluid.run(3000), Fault::kNotEnabled);
   expect_no_force(fluid);
@@ -226,14 +237,14 @@ TEST_F(ForceDimensionFaultsTest, WhatAPersonSwitchesOffNoProgramSwitchesOn) {
   fluid.go_on(50);
   EXPECT_EQ(force_at_twin_n(), 0.0) << "nobody has armed it";
   arm(*device, fluid);
-  push(fluid);
+  push(*device, fluid);
 }
 
 TEST_F(ForceDimensionFaultsTest, AfterTheControllersWatchdogZerosSwitchItOnAndAPersonArms) {
   page().watchdog_step_s = 1.25e-3;
   const auto device = opened(argument());
   StrokedFluid fluid(*device);
-  push(fluid);
+  push(*device, fluid);
   const int num_before = page().num_watchdog_ends;
   pause_ms(400);  // Nobody writes.
   EXPECT_EQ(force_at_twin_n(), 0.0);
@@ -245,7 +256,7 @@ TEST_F(ForceDimensionFaultsTest, AfterTheControllersWatchdogZerosSwitchItOnAndAP
   }));
   expect_no_force(fluid);
   arm(*device, fluid);
-  push(fluid);
+  push(*device, fluid);
 }
 
 TEST_F(ForceDimensionFaultsTest, ForcesOfARealOneEndByThemselvesWhenCommandsDo) {
@@ -313,7 +324,7 @@ TEST_F(ForceDimensionFaultsTest, SaturationAndTheTimeGuardAreNoErrors) {
     const auto device = opened(argument());
     StrokedFluid fluid(*device);
     page().trouble = TWIN_SATURATED;
-    push(fluid);
+    push(*device, fluid);
     EXPECT_EQ(fluid.run(200), Fault::kNone);
     page().trouble = TWIN_IS_WELL;
   }
