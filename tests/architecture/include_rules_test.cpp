@@ -25,6 +25,8 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"core/exchange", {"core", "core/safety", "core/media"}},
     {"core/storage", {"core", "core/exchange"}},
     {"core/streams", {"core", "core/storage"}},
+    {"core/markers", {"core", "core/storage"}},
+    {"core/controls", {"core", "core/markers"}},
     {"device", {"core", "core/safety", "core/media", "core/exchange"}},
     {"device/exoskeleton", {"core", "core/safety", "device"}},
     {"device/network", {"core", "core/safety", "core/exchange", "device"}},
@@ -194,6 +196,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
 const std::map<std::string, std::set<std::string>> kLibraryHomes = {
     {"sqlite3", {"core/storage/database."}},
     {"zstd", {"core/storage/sample_codec.", "core/storage/stream_file."}},
+    {"libevdev", {"core/controls/"}},
     {"openssl", {"core/storage/sha256.", "device/network/"}},
     {"boost",
      {"analysis/statistics/distributions.", "analysis/statistics/root_finding.",
