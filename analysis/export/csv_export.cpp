@@ -112,6 +112,7 @@ class CsvExport {
     CsvTableWriter trials = table("trials.csv", factors_.columns());
     CsvTableWriter presentations = table("presentations.csv", presentation_columns());
     CsvTableWriter events = table("events.csv", event_columns());
+    CsvTableWriter markers = table("markers.csv", marker_columns());
     CsvTableWriter answers = table("answers.csv", answer_columns());
     CsvTableWriter questionnaires = table("questionnaires.csv", questionnaire_columns());
     CsvTableWriter after_trials = table("questions.csv", question_columns());
@@ -136,13 +137,14 @@ class CsvExport {
       write_trials(trials, session, rows.trials, factors_);
       write_presentations(presentations, session, rows.presentations);
       write_events(events, session, rows.events);
+      write_markers(markers, session, rows.events);
       write_answers(answers, session, rows.answers);
       write_questionnaire(questionnaires, session, rows.answers, rows.questions);
       write_questions(after_trials, session, rows.question_answers);
       count(session, rows);
     }
     for (CsvTableWriter* one : {&sessions, &session_values, &trials, &presentations, &events,
-                                &answers, &questionnaires, &after_trials}) {
+                                &markers, &answers, &questionnaires, &after_trials}) {
       one->finish();
     }
   }
@@ -265,6 +267,7 @@ class CsvExport {
         {"trials.csv", &factors_.columns()},
         {"presentations.csv", &presentation_columns()},
         {"events.csv", &event_columns()},
+        {"markers.csv", &marker_columns()},
         {"answers.csv", &answer_columns()},
         {"questionnaires.csv", &questionnaire_columns()},
         {"questions.csv", &question_columns()},

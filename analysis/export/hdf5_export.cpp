@@ -232,9 +232,11 @@ class Hdf5Export {
     write_table(group, "presentations", presentation_columns(), [&](TableWriter& table) {
       write_presentations(table, session, presentations);
     });
-    write_table(group, "events", event_columns(), [&](TableWriter& table) {
-      write_events(table, session, store_.events(session.session));
-    });
+    const std::vector<core::EventRow> events = store_.events(session.session);
+    write_table(group, "events", event_columns(),
+                [&](TableWriter& table) { write_events(table, session, events); });
+    write_table(group, "markers", marker_columns(),
+                [&](TableWriter& table) { write_markers(table, session, events); });
     write_table(group, "answers", answer_columns(),
                 [&](TableWriter& table) { write_answers(table, session, answers); });
     write_table(group, "questionnaires", questionnaire_columns(), [&](TableWriter& table) {
@@ -274,6 +276,7 @@ class Hdf5Export {
                              {"session_*/trials", &factors_.columns()},
                              {"session_*/presentations", &presentation_columns()},
                              {"session_*/events", &event_columns()},
+                             {"session_*/markers", &marker_columns()},
                              {"session_*/answers", &answer_columns()},
                              {"session_*/questionnaires", &questionnaire_columns()},
                              {"session_*/questions", &question_columns()},

@@ -111,6 +111,12 @@ struct QuestionAnswerCells {
   const core::SessionRow& session;
   const ExportedAnswer& answer;
 };
+struct MarkerCells {
+  const core::SessionRow& session;
+  std::int64_t code = 0;
+  double monotonic_s = 0.0, uncertainty_s = 0.0;
+  const core::EventRow* event = nullptr;  ///< nullptr: the end.
+};
 struct GapCells {
   const core::SessionRow& session;
   core::TickRange gap;
@@ -282,6 +288,59 @@ const Columns<QuestionAnswerCells>& question_table() {
   return kColumns;
 }
 
+const Columns<MarkerCells>& marker_table() {
+  static const Columns<MarkerCells> kColumns = owned(Columns<MarkerCells>{
+      {{"code", "", "Of the pulse, as the study file has it for each kind of event", kCount},
+       [](auto& to, const auto& it) { to.cell(it.code); }},
+      {{"monotonic_s", "s",
+        "When the pulse began, at the earliest: by CLOCK_MONOTONIC, as monotonic_s of samples",
+        kReal},
+       [](auto& to, const auto& it) { to.cell(it.monotonic_s); }},
+      {{"uncertainty_s", "s", "By which it can have begun later", kReal},
+       [](auto& to, const auto& it) { to.cell(it.uncertainty_s); }},
+      {{"event", "", "Sequence of the event that it tells of; empty: the end of the session",
+        kReal},
+       [](auto& to, const auto& it) {
+         to.cell(it.event == nullptr ? std::nullopt : std::optional(it.event->sequence));
+       }},
+      {{"kind", "", "Of that event; empty: the end of the session"},
+       [](auto& to, const auto& it) {
+         to.cell(it.event == nullptr ? std::string() : it.event->kind);
+       }},
+      {{"trial", "", "Running number in the session; empty: of none", kReal},
+       [](auto& to, const auto& it) {
+         to.cell(it.event == nullptr ? std::nullopt : it.event->trial);
+       }},
+      {{"attempt", "", "1 is the first", kReal},
+       [](auto& to, const auto& it) {
+         to.cell(it.event == nullptr ? std::nullopt : it.event->attempt);
+       }},
+  });
+  return kColumns;
+}
+
+/// What an event `markers_sent` holds; nothing of a damaged one.
+std::vector<MarkerCells> pulses_in(const core::SessionRow& session, const core::EventRow& row,
+                                   const std::vector<core::EventRow>& events) {
+  std::vector<MarkerCells> pulses;
+  const auto data = nlohmann::json::parse(row.data, nullptr, false);
+  if (!data.is_object() || !data.contains("pulses")) return pulses;
+  for (const nlohmann::json& one : data["pulses"]) {
+    if (!one.is_array() || one.size() != 4 || !one[0].is_number_integer() ||
+        !one[1].is_number_integer() || !one[2].is_number() || !one[3].is_number()) {
+      continue;
+    }
+    const auto told =
+        std::ranges::find(events, one[0].get<std::int64_t>(), &core::EventRow::sequence);
+    pulses.push_back({.session = session,
+                      .code = one[1].get<std::int64_t>(),
+                      .monotonic_s = one[2].get<double>(),
+                      .uncertainty_s = one[3].get<double>(),
+                      .event = told == events.end() ? nullptr : &*told});
+  }
+  return pulses;
+}
+
 const Columns<GapCells>& gap_table() {
   static const Columns<GapCells> kColumns = owned(Columns<GapCells>{
       {{"first_tick", "tick", "First tick without a sample", kCount},
@@ -334,6 +393,11 @@ const std::vector<CsvColumn>& questionnaire_columns() {
 
 const std::vector<CsvColumn>& question_columns() {
   static const std::vector<CsvColumn> kColumns = told(question_table());
+  return kColumns;
+}
+
+const std::vector<CsvColumn>& marker_columns() {
+  static const std::vector<CsvColumn> kColumns = told(marker_table());
   return kColumns;
 }
 
@@ -454,6 +518,16 @@ void write_questions(TableWriter& table, const core::SessionRow& session,
 void write_question_cells(TableWriter& table, const core::SessionRow& session,
                           const ExportedAnswer& answer) {
   put(table, question_table(), {session, answer}, kNumTrialOwners);
+}
+
+void write_markers(TableWriter& table, const core::SessionRow& session,
+                   const std::vector<core::EventRow>& events) {
+  for (const core::EventRow& row : events) {
+    if (row.kind != "markers_sent") continue;
+    for (const MarkerCells& pulse : pulses_in(session, row, events)) {
+      put(table, marker_table(), pulse).end_row();
+    }
+  }
 }
 
 void write_gaps(TableWriter& table, const core::SessionRow& session,

@@ -23,6 +23,7 @@ namespace jnd::analysis {
 [[nodiscard]] const std::vector<CsvColumn>& answer_columns();
 [[nodiscard]] const std::vector<CsvColumn>& questionnaire_columns();
 [[nodiscard]] const std::vector<CsvColumn>& question_columns();
+[[nodiscard]] const std::vector<CsvColumn>& marker_columns();
 [[nodiscard]] const std::vector<CsvColumn>& gap_columns();
 [[nodiscard]] const std::vector<CsvColumn>& codebook_columns();
 [[nodiscard]] const std::vector<CsvColumn>& deviation_columns();
@@ -58,6 +59,9 @@ void write_questions(TableWriter& table, const core::SessionRow& session,
 /// The cells of such an answer after those of its owner, the row not ended.
 void write_question_cells(TableWriter& table, const core::SessionRow& session,
                           const ExportedAnswer& answer);
+/// Pulses that were sent to another recorder, a row each, with the event that each tells of.
+void write_markers(TableWriter& table, const core::SessionRow& session,
+                   const std::vector<core::EventRow>& events);
 void write_gaps(TableWriter& table, const core::SessionRow& session,
                 const ExportedRecording& recording);
 

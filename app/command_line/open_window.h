@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "core/markers/marker_port.h"
 #include "core/streams/wanted_streams.h"
 
 namespace jnd::app {
@@ -29,8 +30,11 @@ struct WindowRequest {
   /// "F10", "F11" or "F12": a key, pedal or button of the participant's; "": none. See
   /// `gui::ParticipantStop`.
   std::string participant_stop;
-  bool participant_holds = false;  ///< Force only while it is held.
-  core::WantedStreams streams;     ///< To and of other recorders, of every session.
+  bool participant_holds = false;     ///< Force only while it is held.
+  core::WantedStreams streams;        ///< To and of other recorders, of every session.
+  core::WantedMarkers markers;        ///< To another recorder by pulses, of every session.
+  std::filesystem::path answer_port;  ///< Of a box that answers by bytes; "": none.
+  int answer_baud = 9600;
   /// A session to go on with.
   std::optional<std::int64_t> resume_session;
 };

@@ -11,6 +11,7 @@
 #include "app/command_line/json_text.h"
 #include "app/command_line/usage_message.h"
 #include "app/profile/profile_choice.h"
+#include "app/session/found_ports.h"
 #include "core/error.h"
 #include "device/plugin/driver_description.h"
 #include "device/plugin/plugin_device.h"
@@ -128,10 +129,26 @@ int run_devices(const DevicesOptions& options) {
     plugins.push_back(file.string());
     if (!json) fmt::print("plugin:{:<5} {}\n", file.stem().string(), file.string());
   }
+  auto ports = nlohmann::ordered_json::array();
+  for (const FoundPort& port : found_ports()) {
+    ports.push_back({{"kind", kind_words(port.kind)},
+                     {"path", port.path.string()},
+                     {"name", port.name},
+                     {"may_use", port.may_use},
+                     {"group", group_of(port.kind)}});
+    if (!json) {
+      fmt::print("{:<12} {}{}{}\n", kind_words(port.kind), port.path.string(),
+                 port.name.empty() ? "" : ": " + port.name,
+                 port.may_use
+                     ? ""
+                     : fmt::format(" (not allowed; the group {} may)", group_of(port.kind)));
+    }
+  }
   if (json) {
-    fmt::print("{}\n",
-               json_text(nlohmann::ordered_json{
-                   {"devices", list}, {"plugins", plugins}, {"tried_on_hardware", false}}));
+    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"devices", list},
+                                                        {"plugins", plugins},
+                                                        {"ports", ports},
+                                                        {"tried_on_hardware", false}}));
   } else {
     fmt::print("All of this was tried with simulations alone, and not tried on hardware.\n");
   }
@@ -142,7 +159,8 @@ int run_devices(const DevicesOptions& options) {
 
 void add_devices(CLI::App& program, Invocation& invocation) {
   auto options = std::make_shared<DevicesOptions>();
-  CLI::App* command = program.add_subcommand("devices", "The devices that can be used here");
+  CLI::App* command = program.add_subcommand(
+      "devices", "The devices that can be used here, with the pedals and ports beside them");
   command->add_option("--device", options->device,
                       "plugin:PATH: what its driver says of it, without opening it");
   command->add_flag("--json", options->json, "Print one JSON document");

@@ -18,6 +18,7 @@
 #include "app/command_line/usage_message.h"
 #include "app/commands/field_options.h"
 #include "app/commands/fitting_option.h"
+#include "app/commands/marker_options.h"
 #include "app/commands/profile_option.h"
 #include "app/commands/stream_options.h"
 #include "app/profile/profile_choice.h"
@@ -59,6 +60,7 @@ struct RunOptions {
   std::vector<std::string> fitting;  ///< "glove=M"
   double wait_s = 0.0;               ///< For a device that is elsewhere.
   StreamOptions streams;
+  MarkerOptions markers;
   std::string participant_stop;  ///< A key; "": none.
   bool participant_holds = false;
 };
@@ -133,6 +135,14 @@ void tell_guards(const core::GuardCounts& guards) {
   }
 }
 
+/// A port that fails is told, and the session goes on.
+void tell_of_markers(const core::EventRow& row) {
+  if (row.kind != "markers_failed") return;
+  const experiments::Event event = experiments::event_from_row(row);
+  std::fprintf(stderr, "jnd: markers: %s; the session goes on without them\n",
+               std::get<experiments::MarkersFailed>(event.data).problem.c_str());
+}
+
 int run_session(const RunOptions& options, core::StudyStore& store,
                 const experiments::Study& study, const experiments::Laboratory& laboratory,
                 std::int64_t session) {
@@ -156,9 +166,11 @@ int run_session(const RunOptions& options, core::StudyStore& store,
          .language = options.language,
          .fitting = fitting_given(options.fitting),
          .streams = streams_given(options.streams),
+         .markers = markers_given(options.markers),
          .on_event =
              [&](const core::EventRow& event) {
                has_begun = true;
+               tell_of_markers(event);
                acknowledgements.tell(event);
              },
          .on_progress = [&](double done) { bar.show(done); },
@@ -250,6 +262,7 @@ int run_run(RunOptions options) {
   const WantedStreams streams = streams_given(options.streams);
   if (!options.headless) {
     require_streams_fit(streams, /*is_realtime=*/true, study, options.folder);
+    require_markers_fit(options.markers, /*is_realtime=*/true, /*has_window=*/true);
     return open_window({.study_folder = options.folder,
                         .study_file = file,
                         .participant = options.participant,
@@ -263,7 +276,10 @@ int run_run(RunOptions options) {
                         .fitting = fitting_given(options.fitting),
                         .participant_stop = options.participant_stop,
                         .participant_holds = options.participant_holds,
-                        .streams = streams});
+                        .streams = streams,
+                        .markers = markers_given(options.markers),
+                        .answer_port = options.markers.answer_port,
+                        .answer_baud = options.markers.answer_baud});
   }
   experiments::FieldValues fields = fields_given(study, options.fields);
   require_device_moves_by_itself(options.device, "--device " + options.device);
@@ -274,6 +290,7 @@ int run_run(RunOptions options) {
       profile_for(options.device, options.profile, study);
   options.realtime |= has_own_clock(options.device);
   require_streams_fit(streams, options.realtime, study, options.folder);
+  require_markers_fit(options.markers, options.realtime, /*has_window=*/false);
   const experiments::Laboratory laboratory = experiments::read_laboratory(user_or_shipped(
       options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
       "data/laboratories"));
@@ -370,6 +387,7 @@ int resume_headless(RunOptions options, core::StudyStore& store, const core::Ses
   require_device_moves_by_itself(row.device, "session " + std::to_string(row.session));
   options.realtime |= has_own_clock(row.device);
   require_streams_fit(streams_given(options.streams), options.realtime, study, options.folder);
+  require_markers_fit(options.markers, options.realtime, /*has_window=*/false);
   if (const std::string remark = changed_study_remark(store, row); !remark.empty()) {
     std::fprintf(stderr, "jnd: %s\n", remark.c_str());
   }
@@ -391,12 +409,16 @@ int resume(const RunOptions& options) {
   const WantedStreams streams = streams_given(options.streams);
   require_streams_fit(streams, /*is_realtime=*/true, stored_study(*store, row->session),
                       options.folder);
+  require_markers_fit(options.markers, /*is_realtime=*/true, /*has_window=*/true);
   store.reset();  // The window opens it itself.
   return open_window({.study_folder = options.folder,
                       .device_profile = options.profile,
                       .participant_stop = options.participant_stop,
                       .participant_holds = options.participant_holds,
                       .streams = streams,
+                      .markers = markers_given(options.markers),
+                      .answer_port = options.markers.answer_port,
+                      .answer_baud = options.markers.answer_baud,
                       .resume_session = row->session});
 }
 
@@ -451,6 +473,7 @@ void add_run(CLI::App& program, Invocation& invocation) {
   add_headless_options(*command, *options);
   add_participant_stop(*command, *options);
   add_stream_options(*command, options->streams);
+  add_marker_options(*command, options->markers);
   command->add_option("--laboratory", options->laboratory,
                       "Of the simulated participant; default: thesis, or thesis_exoskeleton "
                       "with that device");
@@ -489,6 +512,7 @@ void add_resume(CLI::App& program, Invocation& invocation) {
   add_headless_options(*command, *options);
   add_participant_stop(*command, *options);
   add_stream_options(*command, options->streams);
+  add_marker_options(*command, options->markers);
   command->add_option("--laboratory", options->laboratory,
                       "Of the simulated participant; default: the session's own");
   command->add_flag("--realtime", options->realtime, "Paced by the clock");

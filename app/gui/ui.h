@@ -63,6 +63,8 @@ struct ButtonStyle {
   bool large = false;     ///< The answers: larger letters.
   bool at_once = false;   ///< Answers when the mouse goes down: the emergency stop.
   bool selected = false;  ///< One of several, and the one that holds: tabs, steps of a scale.
+  /// Drawn small below the label, where there is room: the pedal that does the same.
+  std::string_view note{};
   /// Its key counts once it has been let go for a moment: a key that is held is one press, also
   /// where the system tells it as many.
   bool fresh = false;

@@ -113,13 +113,23 @@ void Ui::draw_button(const Rect& place, std::string_view label, const ButtonStyl
   const std::string shown = shorten(label, room + 1, measure);
   const float width = measure(shown);
   float x = place.x + (place.width - width - cap) / 2;
-  draw_line_of_text(x, place.y + (place.height - line_height(font)) / 2, shown, font,
+  const float note_height = line_height(Font::kSmall);
+  const bool has_note = !style.note.empty() && place.height >= line_height(font) + note_height;
+  const float middle = place.y + (place.height - (has_note ? note_height : 0)) / 2;
+  draw_line_of_text(x, middle - line_height(font) / 2, shown, font,
                     rgba(letters, style.enabled ? 1.0f : 0.7f));
+  const bool is_on_fill = is_filled && style.enabled;
+  if (has_note) {
+    const Rect below{place.x + 6, middle + line_height(font) / 2, place.width - 12,
+                     note_height};
+    text(below, style.note,
+         {.font = Font::kSmall,
+          .colour = is_on_fill ? letters : Colour::kSoft,
+          .align = Align::kCentre});
+  }
   if (!has_key) return;
   x += width + kKeyCapGap;
-  const bool is_on_fill = is_filled && style.enabled;
-  key_cap(x, place.y + (place.height - kKeyCapHeight) / 2, style.key,
-          is_on_fill ? letters : Colour::kSoft);
+  key_cap(x, middle - kKeyCapHeight / 2, style.key, is_on_fill ? letters : Colour::kSoft);
 }
 
 Ui::Drag Ui::dragged(std::string_view name, const Rect& place) {

@@ -28,7 +28,8 @@ bool is_urgent(const OperatorRequest& request) {
 }
 
 bool is_answer(const OperatorRequest& request) {
-  return std::holds_alternative<operate::Answer>(request);
+  return std::holds_alternative<operate::Answer>(request) ||
+         std::holds_alternative<operate::UseControl>(request);
 }
 
 Apparatus::Parameters apparatus_parameters(const OperatedSession::Parameters& parameters,
@@ -62,7 +63,8 @@ OperatedSession::OperatedSession(const Parameters& parameters)
                 .study = parameters.study,
                 .apparatus = apparatus_parameters(parameters, row_, hides_levels_),
                 .laboratory = parameters.laboratory,
-                .streams = parameters.streams}),
+                .streams = parameters.streams,
+                .markers = parameters.markers}),
       session_(running_.session()),
       presenter_(running_.apparatus(), session_, parameters.study.device) {
   running_.apparatus().render(core::free_space());
@@ -160,6 +162,10 @@ void OperatedSession::carry_out_requests() {
 
 bool OperatedSession::must_wait(const OperatorRequest& request) const {
   if (state().paused || known_fault_ != core::Fault::kNone) return false;
+  if (const auto* use = std::get_if<operate::UseControl>(&request)) {
+    const std::optional<OperatorRequest> meant = meaning_of(*use);
+    return meant && must_wait(*meant);
+  }
   if (std::holds_alternative<operate::Present>(request)) {
     return step() == Step::kRest || presenter_.waits_for_ramp();
   }

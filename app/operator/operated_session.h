@@ -49,6 +49,9 @@ class OperatedSession {
     std::filesystem::path stops;
     std::vector<device::ScheduledFault> injected_faults;  ///< For tests and rehearsals.
     WantedStreams streams{};  ///< To and of other recorders, in real time.
+    WantedMarkers markers{};  ///< To another recorder by pulses, in real time.
+    /// What the participant's controls are called, by their actions; see `operate::UseControl`.
+    std::map<std::string, std::string> controls{};
     /// Gets every sample as `trace` does, from the thread that stores it; may be empty.
     std::function<void(const core::Sample&)> on_sample;
     /// Asks about an unlikely answer before it is stored; see answer_doubts.h.
@@ -84,6 +87,11 @@ class OperatedSession {
     std::vector<AnswerDoubt> doubts;
   };
 
+  /// What a control that was pressed asks for; none where it asks for nothing now.
+  [[nodiscard]] std::optional<OperatorRequest> meaning_of(const operate::UseControl& use) const;
+  /// How long before the end of the loop's newest tick an answer was given; 0 for one that was
+  /// given in the window.
+  [[nodiscard]] double given_before_s(const operate::Answer& answer) const;
   void carry_out_requests();
   void carry_out(const OperatorRequest& request);
   [[nodiscard]] bool must_wait(const OperatorRequest& request) const;
@@ -119,7 +127,8 @@ class OperatedSession {
   /// A stimulus is under way, and not free space in a trial.
   [[nodiscard]] bool feels_stimulus() const;
   /// Of the stimulus under way, that it has to be felt yet; 0 where there is none.
-  [[nodiscard]] double least_left_s() const;
+  /// `before_s`: as it was so long before.
+  [[nodiscard]] double least_left_s(double before_s = 0.0) const;
   /// To answer the trial under way; none where no answer can be given yet, or at any time.
   [[nodiscard]] std::optional<double> deadline_left_s() const;
   /// The last stimulus came to its longest time, and nothing has followed.

@@ -156,21 +156,28 @@ struct OperatedSession::Act {
       refuse(tr("the fluid to adjust is not being felt"));
     }
     my.session_.require_answer(answer.value);
-    require_felt();
+    const double before_s = my.given_before_s(answer);
+    require_felt(before_s);
     if (my.doubt_stands()) refuse(tr("the answer before waits to be confirmed"));
-    require_in_time(given_words(answer));
+    require_in_time(given_words(answer), before_s);
     double response_time_s = my.presenter_.felt_s();
     if (is_over) {
       const std::int64_t now_tick = my.running_.apparatus().next_tick() - 1;
       const auto since = static_cast<double>(now_tick - trial.presentations.back().first_tick);
       response_time_s = since / my.parameters_.study.device.rate_hz;
     }
+    response_time_s -= before_s;
+    if (!(response_time_s >= 0.0)) return;  // Pressed before there was anything to answer.
     std::vector<AnswerDoubt> doubts =
         my.parameters_.asks_about_answers
             ? doubts_about(my.given_answer(trial, form.answer, answer.value))
             : std::vector<AnswerDoubt>();
     if (doubts.empty()) return store(answer, response_time_s);
     my.doubted_ = Doubted{answer, trial.attempt, response_time_s, std::move(doubts)};
+  }
+
+  void operator()(const operate::UseControl& use) const {
+    if (const std::optional<OperatorRequest> meant = my.meaning_of(use)) my.carry_out(*meant);
   }
 
   void operator()(const operate::StoreDoubted& confirmed) const {
@@ -343,25 +350,39 @@ struct OperatedSession::Act {
 
   /// With what was felt up to now; the time is until it was given.
   void store(const operate::Answer& answer, double response_time_s) const {
+    core::AnswerMeasures measures{.response_time_s = response_time_s,
+                                  .answered_by = who_gave(answer),
+                                  .control = answer.control};
+    if (answer.pressed_ns != 0) {
+      measures.control_monotonic_s = 1e-9 * static_cast<double>(answer.pressed_ns);
+    }
     if (!my.presenter_.under_way()) {
-      return my.session_.answer(answer.value, {.response_time_s = response_time_s},
+      return my.session_.answer(answer.value, measures,
                                 my.running_.apparatus().next_tick() - 1);
     }
     const Presenter::Felt felt = my.presenter_.end(Presenter::Afterwards::kFreeSpace);
     require_ticks(felt, given_words(answer));
-    my.session_.answer(answer.value, {.response_time_s = response_time_s}, felt.last_tick);
+    my.session_.answer(answer.value, measures, felt.last_tick);
+  }
+
+  /// The window is the experimenter's, but where somebody is alone with it; a control is whose
+  /// the study says.
+  [[nodiscard]] std::string who_gave(const operate::Answer& answer) const {
+    const bool is_theirs = !answer.control.empty() && my.block()->participant_answers;
+    return my.is_alone() || is_theirs ? as_is("participant") : as_is("experimenter");
   }
 
   /// Nobody goes on from a stimulus that was not felt for as long as the study asks.
-  void require_felt() const {
-    if (const double left_s = my.least_left_s(); left_s > 0.0) {
+  /// `before_s`: so long ago somebody wanted to.
+  void require_felt(double before_s = 0.0) const {
+    if (const double left_s = my.least_left_s(before_s); left_s > 0.0) {
       refuse(tr("it has to be felt for {:.1f} s more", left_s));
     }
   }
 
   /// The deadline has passed, and nobody has seen it yet.
-  void require_in_time(const std::string& given = "") const {
-    if (my.deadline_left_s().value_or(1.0) > 0.0) return;
+  void require_in_time(const std::string& given = "", double before_s = 0.0) const {
+    if (my.deadline_left_s().value_or(1.0) + before_s > 0.0) return;
     miss_deadline(given);
     refuse(tr("that was too late, and the trial comes again"));
   }

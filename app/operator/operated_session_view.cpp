@@ -334,6 +334,8 @@ SessionView OperatedSession::view() const {
                    .is_alone = is_alone()};
   view.step = step();
   view.stage = state().stage;
+  view.participant_answers = block() != nullptr && block()->participant_answers;
+  view.controls = parameters_.controls;
   view.last_sequence = state().last_sequence;
   if (begun_ && state().stage_open && !state().ended) {
     view.item = item_view();
@@ -381,6 +383,7 @@ SessionView OperatedSession::view() const {
   view.remark = remark_;
   view.advice = limit_advice(parameters_.study.session_limits,
                              num_answers_since_break(session_.stages(), state()), visit_s());
+  if (view.advice.empty()) view.advice = running_.markers_problem();
   if (const std::string over =
           exposure_words(parameters_.study.session_limits, state().exposure);
       !over.empty()) {

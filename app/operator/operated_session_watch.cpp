@@ -12,6 +12,7 @@ void OperatedSession::watch_apparatus() {
   if (begun_ && !state().ended && failure_.empty()) {
     running_.keep_arming(as_is("armed by the experimenter"));
     running_.follow_streams();
+    if (!presenter_.under_way() && !feeling_) running_.follow_markers();
   }
   watch_for_loose_points();
 }
@@ -86,8 +87,9 @@ bool OperatedSession::feels_stimulus() const {
          state().trial(*trial).presentations.back().interval != "free_space";
 }
 
-double OperatedSession::least_left_s() const {
-  return feels_stimulus() ? std::max(0.0, block()->min_stimulus_s - presenter_.felt_s()) : 0.0;
+double OperatedSession::least_left_s(double before_s) const {
+  if (!feels_stimulus() || block()->min_stimulus_s <= 0.0) return 0.0;
+  return std::max(0.0, block()->min_stimulus_s - presenter_.felt_s() + before_s);
 }
 
 std::optional<double> OperatedSession::deadline_left_s() const {

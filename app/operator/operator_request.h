@@ -49,6 +49,16 @@ struct Present {
 struct Answer {
   std::int64_t trial = 0;
   std::optional<double> value = 0.0;
+  std::string control{};        ///< That it was given by; "": in the window.
+  std::int64_t pressed_ns = 0;  ///< When, of CLOCK_MONOTONIC; 0: in the window, so now.
+};
+
+/// A mapped pedal or button was pressed. What it means follows from what the session waits for
+/// then; nothing where that is something else.
+struct UseControl {
+  std::string action;  ///< One of `core::kControlActions`.
+  std::string control;
+  std::int64_t pressed_ns = 0;  ///< Of CLOCK_MONOTONIC, as the kernel has it.
 };
 
 /// Of an answer that was asked about (`SessionView::doubt`): it is stored as it was given, with
@@ -126,8 +136,8 @@ struct Leave {
 using OperatorRequest =
     std::variant<operate::Begin, operate::AnswerItem, operate::FeelMedium,
                  operate::FinishMedium, operate::FinishStage, operate::Present, operate::Answer,
-                 operate::StoreDoubted, operate::GoBack, operate::Adjust, operate::Undo,
-                 operate::RunAgain, operate::Correct, operate::AddNote,
+                 operate::UseControl, operate::StoreDoubted, operate::GoBack, operate::Adjust,
+                 operate::Undo, operate::RunAgain, operate::Correct, operate::AddNote,
                  operate::ReportAdverseEvent, operate::Pause, operate::ExplainPause,
                  operate::GoOn, operate::GoOnWithout, operate::ReleaseStop, operate::Rearm,
                  operate::EndEarly, operate::Leave>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/results/block_words.h"
+#include "experiments/procedures/practice.h"
 #include "experiments/procedures/procedure_registry.h"
 
 namespace jnd::app {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -195,7 +196,10 @@ struct SessionView {
   std::optional<ItemView> item;
   /// Of a questionnaire under way; answering one of them again supersedes.
   std::vector<ItemView> answered_items;
-  std::optional<TrialView> trial;  ///< In a block, once it is drawn.
+  std::optional<TrialView> trial;    ///< In a block, once it is drawn.
+  bool participant_answers = false;  ///< The block's trials, by a control of theirs.
+  /// What mapped controls are called, by what they do: "first" is "FootSwitch: B".
+  std::map<std::string, std::string> controls;
   std::optional<MediumView> medium;
   double break_left_s = 0.0, break_s = 0.0;
   std::optional<DoubtView> doubt;      ///< Waits for `StoreDoubted` or `GoBack`.

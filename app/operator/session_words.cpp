@@ -67,6 +67,18 @@ constexpr TrialSentences kForTwo = {
     .over_rating = tr_later("Ask for a step of the scale:"),
     .over_choice = tr_later("Ask:"),
 };
+/// The same where the participant answers by a control: what is not asked by the experimenter.
+constexpr TrialSentences for_a_participant_who_answers() {
+  TrialSentences sentences = kForTwo;
+  sentences.comparison = tr_later("The participant answers:");
+  sentences.while_feeling_second = sentences.comparison;
+  sentences.while_feeling_third = sentences.comparison;
+  sentences.rating = sentences.comparison;
+  sentences.over_rating = sentences.comparison;
+  sentences.over_choice = sentences.comparison;
+  return sentences;
+}
+constexpr TrialSentences kForAnswering = for_a_participant_who_answers();
 constexpr TrialSentences kForOne = {
     .present_reference = tr_later("Present the reference."),
     .present_fluid = tr_later("Present the fluid."),
@@ -128,7 +140,9 @@ void add_words_of_over(SessionView& view, const TrialSentences& sentences) {
 
 void add_trial_words(SessionView& view, std::string_view instruction) {
   const TrialView& trial = *view.trial;
-  const TrialSentences& sentences = view.is_alone ? kForOne : kForTwo;
+  const TrialSentences& sentences = view.is_alone              ? kForOne
+                                    : view.participant_answers ? kForAnswering
+                                                               : kForTwo;
   const bool first = trial.in_block == 1;
   const std::string target = trial.target_percent ? tr("It should feel like {} %.",
                                                        number_words(*trial.target_percent))

@@ -99,7 +99,9 @@ void SessionWorker::work() {
                            .fitting = parameters_.fitting,
                            .allow_no_realtime = parameters_.allow_no_realtime,
                            .stops = parameters_.stops,
-                           .streams = parameters_.streams});
+                           .streams = parameters_.streams,
+                           .markers = parameters_.markers,
+                           .controls = parameters_.controls});
   auto next_picture = std::chrono::steady_clock::now();
   while (!session.over()) {
     const std::vector<OperatorRequest> requests = wait_for_requests();

@@ -17,6 +17,7 @@
 #include "app/operator/scope_trace.h"
 #include "app/operator/session_view.h"
 #include "app/session/operator_exchange.h"
+#include "app/session/session_pulses.h"
 #include "app/session/session_streams.h"
 #include "core/storage/study_store.h"
 #include "experiments/participants/laboratory.h"
@@ -38,8 +39,10 @@ class SessionWorker {
     std::string language;
     std::map<std::string, std::string> fitting{};  ///< As `OperatedSession::Parameters`.
     bool allow_no_realtime = false;
-    std::filesystem::path stops;  ///< As `OperatedSession::Parameters`.
-    WantedStreams streams{};      ///< Likewise.
+    std::filesystem::path stops;                    ///< As `OperatedSession::Parameters`.
+    WantedStreams streams{};                        ///< Likewise.
+    WantedMarkers markers{};                        ///< Likewise.
+    std::map<std::string, std::string> controls{};  ///< Likewise.
     /// Called from the thread whenever there is a newer picture; may be empty.
     std::function<void()> wake;
   };

@@ -39,7 +39,8 @@ class SimulatedSession {
                   .laboratory = &run.laboratory,
                   .on_event = run.on_event,
                   .only_ends = run.choice == "end",
-                  .streams = run.streams}),
+                  .streams = run.streams,
+                  .markers = run.markers}),
         session_(running_.session()),
         player_(run, running_.apparatus(), session_, participant_) {}
 
@@ -63,6 +64,7 @@ class SimulatedSession {
         running_.keep_arming(kArmedBy);
         running_.keep_timing();
         running_.follow_streams();
+        running_.follow_markers();
       }
       running_.close_streams();
       if (!session_.state().ended) session_.complete();
@@ -154,6 +156,7 @@ class SimulatedSession {
       player_.run_trial(block);
       player_.answer_questions(block);
       running_.follow_streams();
+      running_.follow_markers();
       trial_progress();
     }
     for (const std::int64_t index : session_.current_stages()) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/session/session_pulses.h"
 #include "app/session/session_streams.h"
 #include "core/safety/guard.h"
 #include "core/storage/study_store.h"
@@ -35,6 +36,7 @@ struct LaboratoryRun {
   /// How the device was fitted, where the session begins; see `RunningSession::keep_fitting`.
   std::map<std::string, std::string> fitting{};
   WantedStreams streams{};  ///< To and of other recorders, in real time.
+  WantedMarkers markers{};  ///< To another recorder by pulses, in real time.
   std::function<void(const core::EventRow&)> on_event;  ///< After its commit; may be empty.
   std::function<void(double)> on_progress;              ///< 0 to 1; may be empty.
   std::function<bool()> is_cancelled;                   ///< Ends resumably; may be empty.

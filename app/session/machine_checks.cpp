@@ -16,6 +16,7 @@
 #include <set>
 #include <thread>
 
+#include "app/session/found_ports.h"
 #include "app/session/shipped_files.h"
 #include "app/session/sleep_inhibitor.h"
 
@@ -135,6 +136,35 @@ MachineCheck shipped_files() {
           ok ? "" : "set JND_SHARE to the folder that holds protocols/ and data/"};
 }
 
+/// Of where pulses go, and of what answers by a press. Of input devices nobody knows here which
+/// is a pedal: a keyboard that nobody else may read is as it should be.
+MachineCheck ports() {
+  int num_ports = 0, num_inputs = 0, num_read = 0;
+  std::string closed, groups;
+  for (const FoundPort& port : found_ports()) {
+    if (port.kind == FoundPort::Kind::kInput) {
+      ++num_inputs;
+      num_read += port.may_use ? 1 : 0;
+      continue;
+    }
+    ++num_ports;
+    if (port.may_use) continue;
+    closed += (closed.empty() ? "" : ", ") + port.path.string();
+    const std::string group = group_of(port.kind);
+    if (groups.find(group) == std::string::npos)
+      groups += (groups.empty() ? "" : " and ") + group;
+  }
+  char text[96];
+  std::snprintf(text, sizeof text, "%d ports; %d of %d input devices may be read", num_ports,
+                num_read, num_inputs);
+  return {"ports and pedals", closed.empty(),
+          text + (closed.empty() ? std::string() : "; not allowed: " + closed),
+          closed.empty() ? ""
+                         : "`jnd doctor --fix` lets who sits at the machine use them; from "
+                           "elsewhere, join the group " +
+                               groups};
+}
+
 }  // namespace
 
 MachineCheck check_realtime_priority() {
@@ -177,6 +207,7 @@ std::vector<MachineCheck> machine_checks() {
           processors(),
           disk_space(),
           display(),
+          ports(),
           shipped_files()};
 }
 

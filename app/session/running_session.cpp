@@ -63,6 +63,7 @@ void RunningSession::StoredLog::append(const core::Commit& commit) {
   } catch (const core::Error& error) {
     throw StorageError(error.what());
   }
+  if (running_.pulses_) running_.pulses_->tell(commit.event);
   if (running_.streams_) running_.streams_->tell(commit.event);
   if (running_.parameters_.on_event) running_.parameters_.on_event(commit.event);
 }
@@ -73,6 +74,7 @@ RunningSession::RunningSession(const Parameters& parameters)
       history_(parameters.store.events(parameters.session)),
       recorded_tick_(last_recorded_tick(parameters.store, parameters.session)),
       streams_(streams_asked_for()),
+      pulses_(pulses_asked_for()),
       apparatus_(parameters.laboratory != nullptr
                      ? Apparatus(apparatus_parameters(), *parameters.laboratory)
                      : Apparatus(apparatus_parameters())),
@@ -134,6 +136,12 @@ std::unique_ptr<SessionStreams> RunningSession::streams_asked_for() const {
       .recording = store.recording_file(parameters_.session)});
 }
 
+std::unique_ptr<SessionPulses> RunningSession::pulses_asked_for() const {
+  if (!parameters_.markers.any() || !parameters_.apparatus.realtime) return nullptr;
+  return std::make_unique<SessionPulses>(SessionPulses::Parameters{
+      .wanted = parameters_.markers, .codes = parameters_.study.markers});
+}
+
 void RunningSession::begin(const std::string& choice, const std::string& language) {
   if (session_.state().started) {
     const std::int64_t last_known = session_.state().last_tick;
@@ -142,6 +150,7 @@ void RunningSession::begin(const std::string& choice, const std::string& languag
     session_.start(language);
   }
   follow_streams();
+  follow_markers();
   const device::RealtimeThread* thread = apparatus_.realtime_thread();
   if (thread == nullptr || session_.state().ended) return;
   const device::RealtimeReport& given = thread->report();
@@ -198,10 +207,20 @@ void RunningSession::follow_streams() {
   }
 }
 
-void RunningSession::close_streams() {
-  if (streams_ && session_.state().started && !session_.state().ended) {
-    streams_->close(session_);
+void RunningSession::follow_markers() {
+  if (pulses_ && session_.state().started && !session_.state().ended) {
+    pulses_->follow(session_);
   }
+}
+
+std::string RunningSession::markers_problem() const {
+  return pulses_ ? pulses_->problem() : "";
+}
+
+void RunningSession::close_streams() {
+  if (!session_.state().started || session_.state().ended) return;
+  if (pulses_) pulses_->close(session_);
+  if (streams_) streams_->close(session_);
 }
 
 void RunningSession::keep_fault() {

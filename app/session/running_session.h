@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/session/apparatus.h"
+#include "app/session/session_pulses.h"
 #include "app/session/session_streams.h"
 #include "core/safety/fault.h"
 #include "core/storage/study_store.h"
@@ -35,6 +36,7 @@ class RunningSession {
     std::function<void(const core::EventRow&)> on_event;  ///< After its commit; may be empty.
     bool only_ends = false;   ///< It is resumed to be ended: nothing is felt any more.
     WantedStreams streams{};  ///< To and of other recorders, in real time; none unless asked.
+    WantedMarkers markers{};  ///< To another recorder by pulses, likewise.
   };
 
   /// Replays the log and starts the apparatus, by the profile of the device that the session
@@ -65,7 +67,12 @@ class RunningSession {
   /// Stores what there is to say of streams; every now and then. Nothing where none was asked
   /// for.
   void follow_streams();
-  /// Ends what is recorded of others: before the session ends, or its program leaves it.
+  /// The same of pulses, whose times are stored while nothing is felt.
+  void follow_markers();
+  /// Why there are no pulses any more; "" as long as there are, and where none were asked for.
+  [[nodiscard]] std::string markers_problem() const;
+  /// Ends what is recorded of others, and pulses: before the session ends, or its program
+  /// leaves it.
   void close_streams();
 
  private:
@@ -81,12 +88,14 @@ class RunningSession {
 
   [[nodiscard]] Apparatus::Parameters apparatus_parameters() const;
   [[nodiscard]] std::unique_ptr<SessionStreams> streams_asked_for() const;
+  [[nodiscard]] std::unique_ptr<SessionPulses> pulses_asked_for() const;
 
   Parameters parameters_;
   bool recorded_samples_;
   std::vector<core::EventRow> history_;
   std::int64_t recorded_tick_;
   std::unique_ptr<SessionStreams> streams_;  ///< nullptr where none was asked for.
+  std::unique_ptr<SessionPulses> pulses_;    ///< Likewise.
   Apparatus apparatus_;
   std::optional<core::Arming> told_arming_;
   StoredLog log_{*this};

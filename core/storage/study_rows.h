@@ -157,6 +157,9 @@ inline constexpr auto kColumns<PresentationRow> = std::tuple{
 struct AnswerMeasures {
   std::optional<double> response_time_s;
   std::optional<std::int64_t> chosen_interval{};
+  std::string answered_by{};  ///< "participant" or "experimenter"; "" of a simulated person.
+  std::string control{};      ///< By which: "0c45:7403 FootSwitch/KEY_B"; "": in the window.
+  std::optional<double> control_monotonic_s{};  ///< When it was pressed.
 };
 template <>
 inline constexpr auto kColumns<AnswerMeasures> = std::tuple{
@@ -165,7 +168,17 @@ inline constexpr auto kColumns<AnswerMeasures> = std::tuple{
     StoredColumn{&AnswerMeasures::response_time_s, "response_time_s", "s",
                  "From the start of the last stimulus to the answer; where one is adjusted, "
                  "from the start of that",
-                 EventKey::kAlways}};
+                 EventKey::kAlways},
+    StoredColumn{&AnswerMeasures::answered_by, "answered_by", "",
+                 "Who gave it to the program: participant or experimenter; empty: a simulated "
+                 "participant, or an older program"},
+    StoredColumn{
+        &AnswerMeasures::control, "control", "",
+        "The pedal or button that it was given by, its device before the slash; empty: "
+        "the window's keys and buttons"},
+    StoredColumn{&AnswerMeasures::control_monotonic_s, "control_monotonic_s", "s",
+                 "When that was pressed, as the kernel has it: by CLOCK_MONOTONIC, as "
+                 "monotonic_s of samples. response_time_s then counts to it"}};
 
 /// One answered trial.
 struct TrialRow {

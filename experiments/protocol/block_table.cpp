@@ -168,6 +168,17 @@ const ParameterTable& block_table() {
                    .required = false,
                    .unit = "s",
                    .range = {0.0, 3600.0, true}});
+    own.push_back({.key = "answered_by",
+                   .kind = ValueKind::kString,
+                   .meaning =
+                       "Who gives the answers to trials. `experimenter`: the participant shows "
+                       "or says them, and the experimenter enters them. `participant`: they "
+                       "press a pedal or a button of their own, and the time of the press is "
+                       "that of the answer; an answer that the experimenter enters for them is "
+                       "stored as the experimenter's.",
+                   .required = false,
+                   .default_json = R"("experimenter")",
+                   .allowed = {"experimenter", "participant"}});
     own.push_back(
         {.key = "expected_trial_s",
          .kind = ValueKind::kNumber,

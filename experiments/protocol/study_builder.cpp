@@ -273,6 +273,7 @@ Block block(const ObjectReader& in) {
   block.feedback = in.boolean("feedback");
   block.cannot_tell = in.boolean("cannot_tell");
   if (in.has("practice")) block.practice = practice(in.object("practice"));
+  block.participant_answers = in.string("answered_by") == "participant";
   block.levels = in.names("levels");
   block.questions = questions(in, "questions");
   return block;
@@ -461,6 +462,10 @@ Study build_study(const LocatedJson& file, std::string text) {
   study.session_limits.max_under_force_s = limits.optional_number("max_under_force_s");
   if (limits.has("max_trials_without_break")) {
     study.session_limits.max_trials_without_break = limits.integer("max_trials_without_break");
+  }
+  const ObjectReader markers = in.object("markers");
+  for (std::size_t kind = 0; kind < core::kNumMarkerKinds; ++kind) {
+    study.markers.codes[kind] = markers.integer(std::string(core::kMarkerNames[kind]));
   }
   in.each_object("participant_fields", [&](const ObjectReader& field, std::size_t) {
     study.participant_fields.push_back({.name = field.string("name"),

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/marker.h"
 #include "core/media/force_map.h"
 #include "experiments/protocol/design_rules.h"
 #include "experiments/protocol/interleaved_rules.h"
@@ -43,6 +44,7 @@ class Rules : StudyCheck {
     check_num_trials();
     check_wall();
     check_force_map();
+    check_markers();
   }
 
  private:
@@ -135,6 +137,23 @@ class Rules : StudyCheck {
       const core::ForceMap map(std::move(rows));
     } catch (const core::Error& error) {
       report(pointer, error.what());
+    }
+  }
+
+  /// Who reads the recorder's channel tells the kinds apart.
+  void check_markers() {
+    const json& markers = object_at(file_.root(), "markers");
+    std::map<double, std::string_view> known;  // Code to the kind that has it.
+    for (std::size_t kind = 0; kind < core::kNumMarkerKinds; ++kind) {
+      const std::string name(core::kMarkerNames[kind]);
+      const double code = number_or(markers, name.c_str(), core::MarkerCodes{}.codes[kind]);
+      if (code == 0.0) continue;
+      const auto [first, is_new] = known.emplace(code, core::kMarkerNames[kind]);
+      if (is_new) continue;
+      // Of two the one that is written is told of; the other has its default.
+      report("/markers/" + (markers.contains(name) ? name : std::string(first->second)),
+             "expected a code of its own, found " + plain_number(code) + ", that of `" +
+                 (markers.contains(name) ? std::string(first->second) : name) + "` already");
     }
   }
 

@@ -1,5 +1,8 @@
 #include "experiments/protocol/study_table.h"
 
+#include <array>
+
+#include "core/marker.h"
 #include "experiments/protocol/design_tables.h"
 #include "experiments/protocol/stage_tables.h"
 
@@ -188,6 +191,38 @@ const ParameterTable& session_limits_table() {
   return kTable;
 }
 
+const ParameterTable& markers_table() {
+  static const ParameterTable kTable = [] {
+    constexpr std::array<const char*, core::kNumMarkerKinds> kMeanings = {
+        "A stage was entered.",
+        "A trial began, or began again.",
+        "The medium is about to be switched: to a stimulus, or to free space within a trial.",
+        "A trial was answered, whatever the answer.",
+        "The device or the loop had a fault; the emergency stop is one.",
+        "The session ended, or was left to go on later."};
+    ParameterTable table{
+        .name = "markers",
+        .meaning =
+            "The codes of the pulses that a session sends to another recorder, such as an EEG "
+            "amplifier, where `jnd run --marker-port` names a port. 0: no pulse. No two kinds "
+            "have one code. What was presented and what was answered has no code, so that "
+            "pulses unblind nobody: the exported table `markers` says which event each pulse "
+            "belongs to.",
+        .example = R"({"presentation": 10, "answer": 20, "stage": 0})"};
+    for (std::size_t kind = 0; kind < core::kNumMarkerKinds; ++kind) {
+      table.parameters.push_back(
+          {.key = std::string(core::kMarkerNames[kind]),
+           .kind = ValueKind::kInteger,
+           .meaning = kMeanings[kind],
+           .required = false,
+           .default_json = std::to_string(core::MarkerCodes{}.codes[kind]),
+           .range = {0, 255}});
+    }
+    return table;
+  }();
+  return kTable;
+}
+
 }  // namespace
 
 const ParameterTable& study_table() {
@@ -243,6 +278,11 @@ const ParameterTable& study_table() {
            .meaning = "What can be asked of a participant in one session.",
            .required = false,
            .nested = &session_limits_table()},
+          {.key = "markers",
+           .kind = ValueKind::kObject,
+           .meaning = "The codes of pulses to another recorder. Absent: those of the table.",
+           .required = false,
+           .nested = &markers_table()},
           {.key = "participant_fields",
            .kind = ValueKind::kObjects,
            .meaning =
@@ -292,6 +332,7 @@ const std::vector<const ParameterTable*>& all_tables() {
                                                  &force_map_row_table(),
                                                  &participant_field_table(),
                                                  &session_limits_table(),
+                                                 &markers_table(),
                                                  &factor_table(),
                                                  &contrast_table(),
                                                  &sequential_table()};

@@ -25,7 +25,9 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "arming_changed",     "exposure_told",        "guard_noticed",
     "fitting_kept",       "question_answered",    "turn_taken",
     "pause_explained",    "stream_opened",        "stream_closed",
-    "stream_failed",      "session_completed",    "session_ended_early"};
+    "stream_failed",      "markers_opened",       "markers_sent",
+    "markers_closed",     "markers_failed",       "session_completed",
+    "session_ended_early"};
 
 json exposure_json(const core::Exposure& exposure) {
   return {{"force_time_n_s", exposure.force_time_n_s},
@@ -254,6 +256,22 @@ struct Writer {
   void operator()(const StreamFailed& e) const {
     data = {{"direction", e.direction}, {"name", e.name}, {"problem", e.problem}};
   }
+  void operator()(const MarkersOpened& e) const {
+    data = {{"port", e.port}, {"way", e.way}, {"width_s", e.width_s}, {"codes", e.codes}};
+  }
+  void operator()(const MarkersSent& e) const {
+    data["pulses"] = json::array();
+    for (const core::MarkerPulse& pulse : e.pulses) {
+      data["pulses"].push_back(
+          {pulse.event, pulse.code, pulse.monotonic_s, pulse.uncertainty_s});
+    }
+  }
+  void operator()(const MarkersClosed& e) const {
+    data = {{"port", e.port}, {"num_sent", e.num_sent}, {"num_dropped", e.num_dropped}};
+  }
+  void operator()(const MarkersFailed& e) const {
+    data = {{"port", e.port}, {"problem", e.problem}};
+  }
   void operator()(const SessionCompleted&) const {}
   void operator()(const SessionEndedEarly& e) const { data = {{"reason", e.reason}}; }
 
@@ -445,6 +463,31 @@ struct Reader {
   void operator()(StreamFailed& e) const {
     data.at("direction").get_to(e.direction);
     data.at("name").get_to(e.name);
+    data.at("problem").get_to(e.problem);
+  }
+  void operator()(MarkersOpened& e) const {
+    data.at("port").get_to(e.port);
+    data.at("way").get_to(e.way);
+    e.width_s = data.at("width_s").get<double>();
+    for (const auto& [name, code] : data.at("codes").items()) {
+      e.codes[name] = whole_number<int>(code, "codes");
+    }
+  }
+  void operator()(MarkersSent& e) const {
+    for (const json& pulse : list_at(data, "pulses")) {
+      e.pulses.push_back({.event = whole_number(pulse.at(0), "pulses"),
+                          .code = whole_number<int>(pulse.at(1), "pulses"),
+                          .monotonic_s = pulse.at(2).get<double>(),
+                          .uncertainty_s = pulse.at(3).get<double>()});
+    }
+  }
+  void operator()(MarkersClosed& e) const {
+    data.at("port").get_to(e.port);
+    e.num_sent = whole_number(data.at("num_sent"), "num_sent");
+    e.num_dropped = whole_number(data.at("num_dropped"), "num_dropped");
+  }
+  void operator()(MarkersFailed& e) const {
+    data.at("port").get_to(e.port);
     data.at("problem").get_to(e.problem);
   }
   void operator()(SessionCompleted&) const {}

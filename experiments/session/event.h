@@ -9,6 +9,7 @@
 
 #include "core/clock_comparison.h"
 #include "core/exposure.h"
+#include "core/marker.h"
 #include "core/storage/study_store.h"
 #include "experiments/procedures/procedure.h"
 
@@ -264,20 +265,44 @@ struct StreamFailed {
   std::string problem;  ///< A sentence.
 };
 
+/// The port by which another recorder is told of what happens: it is open.
+struct MarkersOpened {
+  std::string port;  ///< "/dev/ttyUSB0"
+  std::string way;   ///< "bytes", "rts", "dtr" or "parallel".
+  double width_s = 0.0;
+  std::map<std::string, int> codes{};  ///< By the names of `core::kMarkerNames`.
+};
+
+/// Pulses that were written since this was told last, in their order.
+struct MarkersSent {
+  std::vector<core::MarkerPulse> pulses;
+};
+
+/// What became of the port: how many pulses were written, and how many were not.
+struct MarkersClosed {
+  std::string port;
+  std::int64_t num_sent = 0, num_dropped = 0;
+};
+
+/// A port that was asked for and does not do what it should: the session goes on without.
+struct MarkersFailed {
+  std::string port;
+  std::string problem;  ///< A sentence.
+};
+
 /// Ended before its last stage; not resumable.
 struct SessionEndedEarly {
   std::string reason;
 };
 
-using EventData =
-    std::variant<SessionStarted, StageEntered, ItemAnswered, MediumExplored, StageFinished,
-                 TrialsDrawn, TrialStarted, PresentationStarted, PresentationEnded,
-                 IntensityAdjusted, TrialAnswered, AnswerUndone, AnswerCorrected,
-                 AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded, Paused, Continued,
-                 FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
-                 ArmingChanged, ExposureTold, GuardNoticed, FittingKept, QuestionAnswered,
-                 TurnTaken, PauseExplained, StreamOpened, StreamClosed, StreamFailed,
-                 SessionCompleted, SessionEndedEarly>;
+using EventData = std::variant<
+    SessionStarted, StageEntered, ItemAnswered, MediumExplored, StageFinished, TrialsDrawn,
+    TrialStarted, PresentationStarted, PresentationEnded, IntensityAdjusted, TrialAnswered,
+    AnswerUndone, AnswerCorrected, AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded,
+    Paused, Continued, FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
+    ArmingChanged, ExposureTold, GuardNoticed, FittingKept, QuestionAnswered, TurnTaken,
+    PauseExplained, StreamOpened, StreamClosed, StreamFailed, MarkersOpened, MarkersSent,
+    MarkersClosed, MarkersFailed, SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

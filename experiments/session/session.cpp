@@ -560,6 +560,14 @@ void Session::stream_closed(const StreamClosed& stream) { commit(stream); }
 
 void Session::stream_failed(const StreamFailed& stream) { commit(stream); }
 
+void Session::markers_opened(const MarkersOpened& port) { commit(port); }
+
+void Session::markers_sent(const MarkersSent& sent) { commit(sent); }
+
+void Session::markers_closed(const MarkersClosed& port) { commit(port); }
+
+void Session::markers_failed(const MarkersFailed& port) { commit(port); }
+
 void Session::require_exposure_left() const {
   if (const std::string over = exposure_words(parameters_.limits, state_.exposure);
       !over.empty()) {

@@ -164,6 +164,10 @@ class Session {
   void stream_opened(const StreamOpened& stream);
   void stream_closed(const StreamClosed& stream);
   void stream_failed(const StreamFailed& stream);
+  void markers_opened(const MarkersOpened& port);
+  void markers_sent(const MarkersSent& sent);
+  void markers_closed(const MarkersClosed& port);
+  void markers_failed(const MarkersFailed& port);
   /// Throws `Error` where the hand was exposed to all that the study allows.
   void require_exposure_left() const;
   void loop_measured(const LoopMeasured& timing);

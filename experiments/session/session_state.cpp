@@ -172,6 +172,10 @@ struct Fold {
   void operator()(const StreamOpened&) const {}
   void operator()(const StreamClosed&) const {}
   void operator()(const StreamFailed&) const {}
+  void operator()(const MarkersOpened&) const {}
+  void operator()(const MarkersSent&) const {}
+  void operator()(const MarkersClosed&) const {}
+  void operator()(const MarkersFailed&) const {}
   void operator()(const FittingKept&) const {}
   void operator()(const ExposureTold& e) const { state.exposure += e.exposure; }
   void operator()(const SessionCompleted&) const {

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/marker.h"
 #include "core/media/force_map.h"
 #include "core/media/immersion.h"
 #include "core/media/viscous_drag.h"
@@ -136,6 +137,7 @@ struct Block {
   bool cannot_tell = false;                 ///< "Cannot tell" is an answer, too.
   std::optional<Practice> practice;         ///< The block is practice, and no data.
   Levels levels;                            ///< Of the study's factors; may be empty.
+  bool participant_answers = false;         ///< By a control of theirs, not by telling.
   /// Asked after the answer to every trial, in this order, before the next one may begin.
   std::vector<QuestionnaireItem> questions;
   Settings settings;  ///< The procedure's own keys, all of them.
@@ -260,6 +262,7 @@ struct Study {
   DeviceNeeds device;
   Blinding blinding = Blinding::kNone;
   SessionLimits session_limits;
+  core::MarkerCodes markers;  ///< Of the pulses that tell another recorder of a session.
   std::vector<ParticipantField> participant_fields;
   std::vector<DesignFactor> factors;
   std::vector<PlannedContrast> contrasts;

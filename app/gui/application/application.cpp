@@ -7,6 +7,7 @@
 #include "app/gui/views/keys_dialog.h"
 #include "app/gui/views/participant_view.h"
 #include "app/language/words.h"
+#include "app/operator/kept_controls.h"
 #include "core/clock.h"
 #include "core/error.h"
 
@@ -16,15 +17,26 @@ namespace fs = std::filesystem;
 
 constexpr float kZoomStep = 1.1f;
 
+/// A box that answers by bytes, where the command line names one.
+static std::vector<core::ControlReader::SerialBoxPort> serial_boxes_of(
+    const WindowRequest& request) {
+  if (request.answer_port.empty()) return {};
+  return {{.path = request.answer_port, .baud = request.answer_baud}};
+}
+
 Application::Application(WindowRequest request, std::function<void()> wake)
     : request_(std::move(request)),
       wake_(std::move(wake)),
+      controls_({.file = kept_controls_file(),
+                 .reader = {.serial_boxes = serial_boxes_of(request_)},
+                 .press_stop = [this] { session_.press_stop(); },
+                 .wake = wake_}),
       study_(wake_),
       start_(*this, recent_, request_),
-      prepare_(*this, study_, request_),
+      prepare_(*this, study_, request_, controls_),
       session_(*this, study_, request_.allow_no_realtime,
                request_.resume_session ? request_.device_profile.string() : "",
-               request_.streams),
+               request_.streams, request_.markers, controls_),
       sessions_(*this, study_),
       results_(*this, study_),
       study_screen_(*this, study_),
@@ -78,9 +90,9 @@ void Application::key_changed(Key key, bool is_down) noexcept {
 
 /// Released by the experimenter while nobody holds the participant's switch.
 void Application::keep_stopped() noexcept {
-  if (session_.is_live() && participant_stop_.is_let_go() && !session_.stop_is_pressed()) {
-    escape();
-  }
+  const bool is_let_go = participant_stop_.is_let_go() || controls_.is_let_go();
+  if (session_.is_live() && is_let_go && !session_.stop_is_pressed()) escape();
+  if (controls_.take_stop()) escape();
 }
 
 void Application::mouse_pressed(float x, float y) noexcept {

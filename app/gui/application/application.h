@@ -18,6 +18,7 @@
 #include "app/gui/application/study_screen.h"
 #include "app/gui/participant_stop.h"
 #include "app/gui/ui.h"
+#include "app/operator/answer_controls.h"
 #include "app/operator/recent_studies.h"
 
 namespace jnd::app::gui {
@@ -103,6 +104,7 @@ class Application final : private ScreenHost {
   WindowRequest request_;
   std::function<void()> wake_;
   RecentStudies recent_;
+  AnswerControls controls_;  ///< Before what it presses the stop of, and is told to end by.
   OpenStudy study_;
   StartScreen start_;
   PrepareScreen prepare_;

@@ -10,6 +10,7 @@
 #include "device/registry/device_registry.h"
 #include "experiments/order/counterbalance.h"
 #include "experiments/session/plan.h"
+#include "experiments/study/stage_walk.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -30,10 +31,21 @@ std::vector<PrepareModel::Device> devices_to_choose(const std::string& asked, do
   return all;
 }
 
+bool has_participant_answers(const experiments::Study& study) {
+  bool any = false;
+  experiments::for_each_stage(study.stages, [&](const experiments::Stage& stage) {
+    const auto* block = std::get_if<experiments::Block>(&stage.content);
+    any |= block != nullptr && block->participant_answers;
+  });
+  return any;
+}
+
 }  // namespace
 
 void PrepareScreen::show() {
   study_.reload();
+  mapping_ = {};
+  controls_.prepare(true);
   const core::StudyStore store(study_.folder().folder, core::StudyStore::Mode::kReadOnly);
   taken_.clear();
   for (const core::SessionRow& row : store.sessions()) taken_.push_back(row.participant);
@@ -95,13 +107,47 @@ PrepareModel PrepareScreen::model() const {
                      .seed = seed_};
   if (preflight_ == nullptr) return model;
   model.lines = preflight_->lines();
+  if (auto line = controls_line(controls_.map(), controls_.devices(),
+                                has_participant_answers(study_.study()))) {
+    model.lines.push_back(std::move(*line));
+  }
   model.looking = preflight_->running();
   model.progress = preflight_->progress();
   return model;
 }
 
+void PrepareScreen::forget_study() {
+  state_ = {};
+  mapping_ = {};
+  controls_.listen_to_all(false);
+  controls_.prepare(false);
+}
+
+void PrepareScreen::draw_controls(Ui& ui) {
+  const std::vector<core::ControlReader::DeviceState> devices = controls_.devices();
+  const std::optional<core::Control> pressed =
+      take_presses(mapping_, controls_.take_events(), devices);
+  const ControlsResult result =
+      draw_controls_dialog(ui, controls_.map(), devices, pressed, mapping_);
+  host_.attempt(tr("The pedals and buttons cannot be kept"), [&] {
+    if (result.mapped) controls_.set(result.mapped->first, result.mapped->second);
+    if (result.forgotten) controls_.forget(*result.forgotten);
+  });
+  if (result.mapped || result.forgotten) host_.wake()();  // This frame was drawn before it.
+  if (!result.is_closed) return;
+  mapping_ = {};
+  controls_.listen_to_all(false);
+}
+
 void PrepareScreen::draw(Ui& ui) {
   const PrepareViewResult result = draw_prepare_view(ui, model(), state_);
+  if (result.map_controls) {
+    mapping_ = {.is_open = true};
+    (void)controls_.take_events();  // Pressed before anybody mapped.
+    controls_.listen_to_all(true);
+  } else if (mapping_.is_open) {
+    return draw_controls(ui);
+  }
   if (result.look_again) {
     look_before();
   } else if (result.fields_changed) {
@@ -112,6 +158,7 @@ void PrepareScreen::draw(Ui& ui) {
   if (!result.start && result.tab == StudyTab::kNone) return;
   // The device is the session's, or nobody's.
   preflight_.reset();
+  controls_.prepare(false);
   if (result.start) {
     host_.attempt(tr("The session cannot be started"), [this] {
       host_.start_session({.participant = state_.participant,
@@ -128,7 +175,9 @@ void PrepareScreen::draw(Ui& ui) {
   } else {
     host_.go_to(result.tab);
   }
-  if (host_.shows(*this)) look_before();
+  if (!host_.shows(*this)) return;
+  controls_.prepare(true);
+  look_before();
 }
 
 }  // namespace jnd::app::gui

@@ -111,8 +111,12 @@ void SessionScreen::run(std::unique_ptr<core::StudyStore> store, std::int64_t se
                                 .allow_no_realtime = allow_no_realtime_,
                                 .stops = stops_folder(),
                                 .streams = streams_,
+                                .markers = markers_,
+                                .controls = controls_.words(),
                                 .wake = host_.wake()},
       exchange_);
+  controls_.begin_session(
+      [worker = worker_.get()](const operate::UseControl& use) { worker->request(use); });
 }
 
 bool SessionScreen::works() const noexcept {
@@ -220,6 +224,7 @@ ApparatusSources SessionScreen::apparatus_sources() {
 /// The session is over and its folder closed: left, failed, or finished.
 void SessionScreen::close_session() {
   const std::string failure = worker_->failure();
+  controls_.end_session();
   worker_.reset();
   run_state_.pad = {};
   finished_ = view_ && view_->step == Step::kFinished;

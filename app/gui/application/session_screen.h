@@ -13,6 +13,7 @@
 #include "app/gui/application/screen.h"
 #include "app/gui/views/apparatus_view.h"
 #include "app/gui/views/run_view.h"
+#include "app/operator/answer_controls.h"
 #include "app/operator/background_task.h"
 #include "app/operator/session_worker.h"
 #include "app/session/operator_exchange.h"
@@ -23,14 +24,20 @@ namespace jnd::app::gui {
 class SessionScreen final : public Screen {
  public:
   /// `device_profile`: that of sessions that are resumed, a file; "": looked for. `streams`: to
-  /// and of other recorders, of every session.
+  /// and of other recorders, of every session, as `markers`.
   SessionScreen(ScreenHost& host, OpenStudy& study, bool allow_no_realtime,
-                std::string device_profile, WantedStreams streams)
+                std::string device_profile, WantedStreams streams, WantedMarkers markers,
+                AnswerControls& controls)
       : host_(host),
         study_(study),
         allow_no_realtime_(allow_no_realtime),
         device_profile_(std::move(device_profile)),
-        streams_(std::move(streams)) {}
+        streams_(std::move(streams)),
+        markers_(std::move(markers)),
+        controls_(controls) {}
+  ~SessionScreen() override { controls_.end_session(); }
+  SessionScreen(const SessionScreen&) = delete;
+  SessionScreen& operator=(const SessionScreen&) = delete;
 
   /// Adds a session to the study that is open, and begins it. Throws `Error`.
   void start(const NewSession& session);
@@ -85,6 +92,8 @@ class SessionScreen final : public Screen {
   bool allow_no_realtime_;
   std::string device_profile_;
   WantedStreams streams_;
+  WantedMarkers markers_;
+  AnswerControls& controls_;
   OperatorExchange exchange_;
   std::unique_ptr<SessionWorker> worker_;
   std::shared_ptr<const SessionView> view_;

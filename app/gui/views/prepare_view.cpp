@@ -251,6 +251,12 @@ void draw_lines(Ui& ui, const Rect& place, const PrepareModel& model, PrepareVie
                 tr("Look again"), style)) {
     result.look_again = true;
   }
+  const ButtonStyle map{.key = {Key::kF7}};
+  if (ui.button("map_controls",
+                bottom.take_left(ui.button_width(tr("Pedals and buttons"), map), 20),
+                tr("Pedals and buttons"), map)) {
+    result.map_controls = true;
+  }
   if (model.looking) ui.progress(bottom.middle(bottom.width, 8), model.progress);
   Rect lines = ui.begin_scroll("lines", inside, state.lines_height);
   const float top = lines.y;

@@ -50,6 +50,7 @@ struct PrepareViewResult {
   bool start = false;       ///< With what the state holds.
   bool look_again = false;  ///< Also after the device was changed.
   bool fields_changed = false;
+  bool map_controls = false;  ///< Which pedal does what is to be seen, or changed.
 };
 
 /// A session on a simulated device is a pilot, one on a real device is not, unless a person has

@@ -158,6 +158,21 @@ class TrialCard {
  private:
   /// What is felt has been felt for as long as the study asks.
   [[nodiscard]] bool may_go_on() const noexcept { return trial_.least_left_s <= 0.0; }
+  /// The pedal or button that does the same; "" for none.
+  [[nodiscard]] std::string_view control_of(const std::string& action) const {
+    const auto found = view_.controls.find(action);
+    return found == view_.controls.end() ? std::string_view() : found->second;
+  }
+  /// One of two actions may be mapped to it.
+  [[nodiscard]] std::string_view control_of(const std::string& action,
+                                            const std::string& other) const {
+    const std::string_view found = control_of(action);
+    return found.empty() ? control_of(other) : found;
+  }
+  /// What is done next stands out where the experimenter does it.
+  [[nodiscard]] Tone answer_tone() const noexcept {
+    return view_.participant_answers ? Tone::kPlain : Tone::kPrimary;
+  }
   void present(const char* interval) {
     result_.requests.emplace_back(operate::Present{trial_.trial, interval});
   }
@@ -172,7 +187,10 @@ class TrialCard {
                       trial_.has_reference ? tr(first.present)
                       : trial_.is_solid    ? tr("Present the surface")
                                            : tr("Present the fluid"),
-                      {.tone = Tone::kPrimary, .key = {Key::kSpace}, .large = true},
+                      {.tone = Tone::kPrimary,
+                       .key = {Key::kSpace},
+                       .large = true,
+                       .note = control_of("present")},
                       [&] { present(first.name); }}},
                     320);
     // What it is called elsewhere does the same.
@@ -186,28 +204,37 @@ class TrialCard {
     const Interval& next = is_in_order ? interval_named(trial_.next_interval)
                            : to_first  ? first_of(trial_)
                                        : last_of(trial_);
-    draw_button_row(
-        ui_, place,
-        {{"present",
-          tr(next.present),
-          {.tone = Tone::kPrimary, .key = {Key::kSpace}, .enabled = may_go_on(), .large = true},
-          [&] { present(next.name); }}},
-        320);
+    draw_button_row(ui_, place,
+                    {{"present",
+                      tr(next.present),
+                      {.tone = Tone::kPrimary,
+                       .key = {Key::kSpace},
+                       .enabled = may_go_on(),
+                       .large = true,
+                       .note = control_of("present")},
+                      [&] { present(next.name); }}},
+                    320);
     // As it is called everywhere else.
     if (!to_first && may_go_on() && ui_.pressed({next.key})) present(next.name);
   }
 
   void draw_yes_no(const Rect& place) {
-    draw_answers(
-        place,
-        {{"answer_yes",
-          trial_.yes_label,
-          {.tone = Tone::kPrimary, .key = {letter('Y')}, .enabled = may_go_on(), .large = true},
-          [&] { answer(1.0); }},
-         {"answer_no",
-          trial_.no_label,
-          {.tone = Tone::kPrimary, .key = {letter('N')}, .enabled = may_go_on(), .large = true},
-          [&] { answer(0.0); }}});
+    draw_answers(place, {{"answer_yes",
+                          trial_.yes_label,
+                          {.tone = answer_tone(),
+                           .key = {letter('Y')},
+                           .enabled = may_go_on(),
+                           .large = true,
+                           .note = control_of("yes", "first")},
+                          [&] { answer(1.0); }},
+                         {"answer_no",
+                          trial_.no_label,
+                          {.tone = answer_tone(),
+                           .key = {letter('N')},
+                           .enabled = may_go_on(),
+                           .large = true,
+                           .note = control_of("no", "second")},
+                          [&] { answer(0.0); }}});
   }
 
   /// Of a choice; behind them "cannot tell", where that is an answer.
@@ -215,7 +242,10 @@ class TrialCard {
     if (trial_.takes_cannot_tell) {
       buttons.push_back({"answer_cannot_tell",
                          tr("Cannot tell"),
-                         {.key = {letter('C')}, .enabled = may_go_on(), .large = true},
+                         {.key = {letter('C')},
+                          .enabled = may_go_on(),
+                          .large = true,
+                          .note = control_of("cannot_tell")},
                          [this] { answer(std::nullopt); }});
     }
     const auto count = static_cast<float>(buttons.size());
@@ -224,15 +254,17 @@ class TrialCard {
 
   void draw_choice(const Rect& place) {
     constexpr const char* kNames[] = {"answer_first", "answer_second", "answer_third"};
+    constexpr const char* kActions[] = {"first", "second", "third"};
     std::vector<RowButton> buttons;
     for (const TrialView::Choice& choice : trial_.choices) {
       const auto number = static_cast<char>('0' + choice.interval);
       buttons.push_back({kNames[choice.interval - 1],
                          choice.label.c_str(),
-                         {.tone = Tone::kPrimary,
+                         {.tone = answer_tone(),
                           .key = {letter(number)},
                           .enabled = may_go_on(),
-                          .large = true},
+                          .large = true,
+                          .note = control_of(kActions[choice.interval - 1])},
                          [this, interval = choice.interval] { answer(interval); }});
     }
     draw_answers(place, std::move(buttons));
@@ -267,9 +299,12 @@ class TrialCard {
 
   RowButton step_button(const char* name, const char* label, Key key, Direction direction,
                         StepSize size) {
+    const bool is_fine = size == StepSize::kFine;
+    const char* action = direction == Direction::kLower ? (is_fine ? "lower_fine" : "lower")
+                                                        : (is_fine ? "raise_fine" : "raise");
     return {name,
             label,
-            {.key = {key}, .enabled = may_go_on(), .repeats = true},
+            {.key = {key}, .enabled = may_go_on(), .repeats = true, .note = control_of(action)},
             [this, direction, size] {
               result_.requests.emplace_back(
                   operate::Adjust{trial_.trial, direction, size, ui_.was_held()});
@@ -278,11 +313,14 @@ class TrialCard {
 
   /// In one row with "Matches" in the middle; on a narrow card below it.
   void add_steps(Stack& stack) {
-    const RowButton matches{
-        "matches",
-        tr("Matches"),
-        {.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = may_go_on(), .large = true},
-        [this] { answer(0.0); }};
+    const RowButton matches{"matches",
+                            tr("Matches"),
+                            {.tone = answer_tone(),
+                             .key = {Key::kEnter},
+                             .enabled = may_go_on(),
+                             .large = true,
+                             .note = control_of("matches")},
+                            [this] { answer(0.0); }};
     std::vector<RowButton> steps = {step_button("lower_coarse", tr("Lower"), Key::kLeft,
                                                 Direction::kLower, StepSize::kCoarse),
                                     step_button("lower_fine", tr("A bit lower"), Key::kDown,

@@ -71,7 +71,8 @@ constexpr const char* kTables[] = {"sessions.csv", "trials.csv", "presentations.
                                    "events.csv", "answers.csv"};
 // Worked out of several tables, or of the study file.
 constexpr const char* kMadeTables[] = {"participants.csv", "questionnaires.csv",
-                                       "questions.csv", "codebook.csv", "session_values.csv"};
+                                       "questions.csv",    "codebook.csv",
+                                       "markers.csv",      "session_values.csv"};
 
 TEST_F(CsvExportTest, TheCodebookHasEveryColumnOfEveryTableAndNoOther) {
   export_csv(study_.store(), out(), {});
@@ -120,6 +121,29 @@ TEST_F(CsvExportTest, ColumnsHaveTheNamesOfTheDatabase) {
           << name << ' ' << column;
     }
   }
+}
+
+TEST_F(CsvExportTest, EachPulseHasItsTimeAndTheEventThatItTellsOf) {
+  HandMadeStudy study;
+  study.add("P01");
+  study.happen("session_started");
+  study.happen("fault_raised", {}, R"({"fault":"force_limit"})");
+  study.happen("markers_sent", {},
+               R"({"pulses":[[2,16,12345.6789,0.00025],[0,32,12350.5,0.0]]})");
+  study.happen("markers_sent", {}, R"({"pulses":[[1],"x",[1,2,"3",4]]})");
+  study.happen("markers_sent", {}, "[]");
+  export_csv(study.store(), out(), {});
+  const CsvTable markers = table("markers.csv");
+  ASSERT_EQ(markers.num_rows(), 2U) << "what is damaged is left out";
+  EXPECT_EQ(cell(markers, 0, "code"), "16");
+  EXPECT_EQ(cell(markers, 0, "monotonic_s"), "12345.6789");
+  EXPECT_EQ(cell(markers, 0, "uncertainty_s"), "0.00025");
+  EXPECT_EQ(cell(markers, 0, "event"), "2");
+  EXPECT_EQ(cell(markers, 0, "kind"), "fault_raised");
+  EXPECT_EQ(cell(markers, 0, "trial"), "");
+  EXPECT_EQ(cell(markers, 1, "code"), "32");
+  EXPECT_EQ(cell(markers, 1, "event"), "") << "the end";
+  EXPECT_EQ(cell(markers, 1, "kind"), "");
 }
 
 TEST_F(CsvExportTest, LinesEndInLfAndNumbersHaveAPoint) {

@@ -129,6 +129,18 @@ TEST_F(DoctorFixTest, WhatAnAdministratorWroteInstead) {
             std::string::npos);
 }
 
+// Ports and pedals came later than the group.
+TEST_F(DoctorFixTest, RulesOfAnOlderVersionAreReplaced) {
+  write("etc/udev/rules.d/60-jnd.rules",
+        "KERNEL==\"cpu_dma_latency\", GROUP=\"jnd\", MODE=\"0660\"\n");
+  EXPECT_NE(fix({"--user", "anna", "--dry-run"}).out.find("no rule of udev lets the group"),
+            std::string::npos);
+  fs::copy_file(test_support::source_folder() / "data/system/60-jnd.rules",
+                root() / "etc/udev/rules.d/60-jnd.rules", fs::copy_options::overwrite_existing);
+  EXPECT_NE(fix({"--user", "anna", "--dry-run"}).out.find("the rules are in"),
+            std::string::npos);
+}
+
 TEST_F(DoctorFixTest, AFileThatIsThereIsKeptBesideTheNewOne) {
   if (!has_tools()) GTEST_SKIP() << "needs root and groupadd";
   write("etc/security/limits.d/jnd.conf", "@jnd - rtprio 50\n");

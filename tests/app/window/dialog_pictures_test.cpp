@@ -1,5 +1,6 @@
 #include "app/window/pictures_fixture.h"
 #include "app/window/window_studies.h"
+#include "support/pseudo_terminal.h"
 
 namespace jnd::app {
 namespace dialog_pictures_test {
@@ -62,6 +63,49 @@ TEST_F(DialogPicturesTest, OfAnAnswerThatIsDoubtedTakenBackAndSetRight) {
   window_->press("n");
   window_->wait_for("reason");
   take("dialog-correct-why");
+  window_->kill();
+}
+
+TEST_F(DialogPicturesTest, OfPedalsThatAreMapped) {
+  const test_support::PseudoTerminal box;
+  const std::string study = path("pedals.json").string();
+  write_file(study, replaced(study_of(kComparison), "\"procedure\"",
+                             "\"answered_by\": \"participant\", \"procedure\""));
+  window_->start({"run", study, "--study", path("pedals.study").string(), "--participant",
+                  "P01", "--answer-port", box.path()});
+  window_->wait_for_view("prepare");
+  window_->use("map_controls");
+  window_->wait_for("control_map");
+  window_->wait_for_text("listened to");
+  window_->press("Return");
+  window_->wait_for("control_cancel");
+  take("dialog-controls-waits");
+  box.send({49});
+  window_->wait_for_text("byte 49");
+  window_->press("Down");
+  window_->press("Return");
+  window_->wait_for("control_cancel");
+  box.send({50});
+  window_->wait_for_text("byte 50");
+  take("dialog-controls");
+  window_->press("F2");
+  window_->wait_until("the dialog's end",
+                      [](const Screen& now) { return !now.find("control_map"); });
+  window_->wait_for("start_session");
+  take("prepare-controls");
+  window_->wait_until("the look is over", [](const Screen& now) {
+    const auto* start = now.find("start_session");
+    return start != nullptr && start->enabled;
+  });
+  window_->use("start_session");
+  window_->use("begin");
+  window_->use("present");
+  window_->wait_for_text("felt for");
+  window_->use("present");
+  window_->wait_for("answer_yes");
+  take("session-participant-answers");
+  box.send({49});
+  wait_for_trial(2);
   window_->kill();
 }
 

@@ -92,6 +92,13 @@ std::vector<EventData> one_of_each() {
                        .num_dropped = 1,
                        .sha256 = "ab"},
           StreamFailed{"in", "type=EEG", "expected a stream, found none"},
+          MarkersOpened{.port = "/dev/ttyUSB0",
+                        .way = "bytes",
+                        .width_s = 0.005,
+                        .codes = {{"answer", 8}, {"end", 0}}},
+          MarkersSent{.pulses = {{17, 4, 12345.6789012, 1.0 / 3e5}, {0, 32, 12346.0, 0.0}}},
+          MarkersClosed{.port = "/dev/ttyUSB0", .num_sent = 100, .num_dropped = 1},
+          MarkersFailed{"/dev/ttyUSB0", "expected a port, found none"},
           SessionCompleted{},
           SessionEndedEarly{"why"}};
 }
