@@ -7,6 +7,7 @@
 
 #include "analysis/data/stored_studies.h"
 #include "analysis/report/method_words.h"
+#include "analysis/report/report_sound.h"
 #include "analysis/results/number_words.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/summary.h"
@@ -277,6 +278,9 @@ void write_methods(HtmlText& html, const ChapterSource& source) {
     html.paragraph_about("Interleaved blocks", mixed);
   }
   html.paragraph_about("Apparatus", apparatus_words(source));
+  if (const std::string sound = sound_words(source); !sound.empty()) {
+    html.paragraph_about("Sound", sound);
+  }
   for (const auto& [topic, text] : method_words(source.report).topics) {
     html.paragraph_about(topic, text);
   }

@@ -35,6 +35,7 @@ struct WindowRequest {
   core::WantedMarkers markers;        ///< To another recorder by pulses, of every session.
   std::filesystem::path answer_port;  ///< Of a box that answers by bytes; "": none.
   int answer_baud = 9600;
+  std::string sound_output;  ///< Of every session; "": this machine's own; or "off".
   /// A session to go on with.
   std::optional<std::int64_t> resume_session;
 };

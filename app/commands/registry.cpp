@@ -20,7 +20,7 @@
   /* The apparatus. */                                                     \
   ADD(force) ADD(loop) ADD(devices) ADD(device_check) ADD(commission)       \
   ADD(doctor) ADD(stability) ADD(characterize) ADD(device_simulator)        \
-  ADD(device_server) ADD(device_key)                                        \
+  ADD(device_server) ADD(device_key) ADD(sound)                             \
   /* The program itself. */                                                \
   ADD(completions) ADD(man_pages)
 // clang-format on

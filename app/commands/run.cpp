@@ -20,6 +20,7 @@
 #include "app/commands/fitting_option.h"
 #include "app/commands/marker_options.h"
 #include "app/commands/profile_option.h"
+#include "app/commands/sound_option.h"
 #include "app/commands/stream_options.h"
 #include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
@@ -61,6 +62,7 @@ struct RunOptions {
   double wait_s = 0.0;               ///< For a device that is elsewhere.
   StreamOptions streams;
   MarkerOptions markers;
+  std::string sound;             ///< "": this machine's own output.
   std::string participant_stop;  ///< A key; "": none.
   bool participant_holds = false;
 };
@@ -261,6 +263,7 @@ int run_run(RunOptions options) {
   require_language(study, options.language);
   const WantedStreams streams = streams_given(options.streams);
   if (!options.headless) {
+    require_sound_fits(study, options.sound);
     require_streams_fit(streams, /*is_realtime=*/true, study, options.folder);
     require_markers_fit(options.markers, /*is_realtime=*/true, /*has_window=*/true);
     return open_window({.study_folder = options.folder,
@@ -279,7 +282,8 @@ int run_run(RunOptions options) {
                         .streams = streams,
                         .markers = markers_given(options.markers),
                         .answer_port = options.markers.answer_port,
-                        .answer_baud = options.markers.answer_baud});
+                        .answer_baud = options.markers.answer_baud,
+                        .sound_output = options.sound});
   }
   experiments::FieldValues fields = fields_given(study, options.fields);
   require_device_moves_by_itself(options.device, "--device " + options.device);
@@ -407,6 +411,7 @@ int resume(const RunOptions& options) {
   }
   if (options.headless) return resume_headless(options, *store, *row);
   const WantedStreams streams = streams_given(options.streams);
+  require_sound_fits(stored_study(*store, row->session), options.sound);
   require_streams_fit(streams, /*is_realtime=*/true, stored_study(*store, row->session),
                       options.folder);
   require_markers_fit(options.markers, /*is_realtime=*/true, /*has_window=*/true);
@@ -419,6 +424,7 @@ int resume(const RunOptions& options) {
                       .markers = markers_given(options.markers),
                       .answer_port = options.markers.answer_port,
                       .answer_baud = options.markers.answer_baud,
+                      .sound_output = options.sound,
                       .resume_session = row->session});
 }
 
@@ -473,6 +479,7 @@ void add_run(CLI::App& program, Invocation& invocation) {
   add_headless_options(*command, *options);
   add_participant_stop(*command, *options);
   add_stream_options(*command, options->streams);
+  add_sound_option(*command, options->sound)->excludes("--headless");
   add_marker_options(*command, options->markers);
   command->add_option("--laboratory", options->laboratory,
                       "Of the simulated participant; default: thesis, or thesis_exoskeleton "
@@ -512,6 +519,7 @@ void add_resume(CLI::App& program, Invocation& invocation) {
   add_headless_options(*command, *options);
   add_participant_stop(*command, *options);
   add_stream_options(*command, options->streams);
+  add_sound_option(*command, options->sound)->excludes("--headless");
   add_marker_options(*command, options->markers);
   command->add_option("--laboratory", options->laboratory,
                       "Of the simulated participant; default: the session's own");

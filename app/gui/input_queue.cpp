@@ -3,31 +3,30 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/language/words.h"
+
 namespace jnd::app::gui {
 namespace {
 
 bool is_press(const KeyEvent& event) { return event.action != KeyEvent::Action::kRelease; }
 
-/// What is printed on the key.
-std::string key_name(Key key) {
-  if (key >= Key::kF1 && key <= Key::kF12) {
-    return "F" + std::to_string(static_cast<int>(key) - static_cast<int>(Key::kF1) + 1);
-  }
+/// What is printed on the key; nullptr where it is the letter itself, or F and a number.
+const char* key_name(Key key) {
   switch (key) {
     case Key::kNone:
       return "";
     case Key::kSpace:
-      return "Space";
+      return tr_later("Space");
     case Key::kEscape:
-      return "Esc";
+      return tr_later("Esc");
     case Key::kEnter:
-      return "Enter";
+      return tr_later("Enter");
     case Key::kTab:
-      return "Tab";
+      return tr_later("Tab");
     case Key::kBackspace:
-      return "Backspace";
+      return tr_later("Backspace");
     case Key::kDelete:
-      return "Del";
+      return tr_later("Del");
     case Key::kLeft:
       return "←";
     case Key::kRight:
@@ -37,26 +36,42 @@ std::string key_name(Key key) {
     case Key::kDown:
       return "↓";
     case Key::kPageUp:
-      return "Page ↑";
+      return tr_later("Page ↑");
     case Key::kPageDown:
-      return "Page ↓";
+      return tr_later("Page ↓");
     case Key::kHome:
-      return "Home";
+      return tr_later("Home");
     case Key::kEnd:
-      return "End";
+      return tr_later("End key");  // "End" is what a button does.
     default:
-      return std::string(1, static_cast<char>(key));
+      return nullptr;
   }
+}
+
+std::string letter_of(Key key) {
+  if (key >= Key::kF1 && key <= Key::kF12) {
+    return "F" + std::to_string(static_cast<int>(key) - static_cast<int>(Key::kF1) + 1);
+  }
+  return std::string(1, static_cast<char>(key));
+}
+
+template <typename Say>
+std::string chord_words(const Chord& chord, const Say& say) {
+  if (chord.key == Key::kNone) return "";
+  std::string text;
+  // Translators: keys, as they are printed on the keyboards of your country.
+  if (chord.control) text += std::string(say(tr_later("Ctrl"))) + ' ';
+  if (chord.shift) text += std::string(say(tr_later("Shift"))) + ' ';
+  const char* name = key_name(chord.key);
+  return text + (name == nullptr ? letter_of(chord.key) : say(name));
 }
 
 }  // namespace
 
-std::string words(const Chord& chord) {
-  if (chord.key == Key::kNone) return "";
-  std::string text;
-  if (chord.control) text += "Ctrl ";
-  if (chord.shift) text += "Shift ";
-  return text + key_name(chord.key);
+std::string words(const Chord& chord) { return chord_words(chord, as_is); }
+
+std::string printed_words(const Chord& chord) {
+  return chord_words(chord, [](const char* name) { return tr(name); });
 }
 
 bool answers(const Chord& pressed, const Chord& wanted) noexcept {

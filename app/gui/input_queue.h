@@ -59,8 +59,11 @@ struct Chord {
   friend bool operator==(const Chord&, const Chord&) = default;
 };
 
-/// "Ctrl Z", "Esc", "Y", "↑".
+/// "Ctrl Z", "Esc", "Y", "↑": the same in every language, for the log of tests.
 [[nodiscard]] std::string words(const Chord& chord);
+/// The same as it is printed on the keyboards of those who speak the window's language:
+/// "Strg Z".
+[[nodiscard]] std::string printed_words(const Chord& chord);
 
 /// Whether `pressed` answers a control that asks for `wanted`. Shift makes no difference to a
 /// printing key, for who holds it by chance still means the letter; it does beside Control.

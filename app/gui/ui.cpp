@@ -176,9 +176,19 @@ void Ui::log_widget(std::string_view name, std::string_view label, const Chord& 
   my_->drawn.widgets.push_back({.name = std::string(name),
                                 .label = std::string(label),
                                 .key = words(key),
+                                .key_cap = printed_words(key),
                                 .place = my_->visible(place),
-                                .enabled = enabled && !my_->is_blocked()});
+                                .enabled = enabled && !my_->is_blocked(),
+                                .is_covered = my_->is_blocked()});
   log_text(label);
+}
+
+void Ui::log_line(const Rect& letters, Drawn::Line line) {
+  line.place = my_->visible(letters);
+  if (line.words.empty() || line.place.width * line.place.height <= 0) return;
+  line.is_cut |= line.place.width < letters.width - 1;
+  line.is_covered = my_->is_blocked();
+  my_->drawn.lines.push_back(std::move(line));
 }
 
 void Ui::log_text(std::string_view words) {

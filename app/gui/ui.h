@@ -75,16 +75,27 @@ struct Drawn {
   struct Widget {
     std::string name;  ///< "answer_yes", as given to the call that drew it.
     std::string label;
-    std::string key;      ///< "Y", "Ctrl Z"
-    Rect place;           ///< Logical pixels; what can be seen of it, so maybe nothing.
-    bool enabled = true;  ///< False also below a dialog.
+    std::string key;          ///< "Y", "Ctrl Z", in every language.
+    std::string key_cap;      ///< The same as it is printed: "Strg Z".
+    Rect place;               ///< Logical pixels; what can be seen of it, so maybe nothing.
+    bool enabled = true;      ///< False also below a dialog.
+    bool is_covered = false;  ///< Below a dialog.
 
     friend bool operator==(const Widget&, const Widget&) = default;
+  };
+  /// A line of letters, labels and keys included, where any of it can be seen.
+  struct Line {
+    std::string words;  ///< As they stand there: with an ellipsis where they were cut.
+    Rect place;         ///< What of its letters can be seen, as high as a line of their font.
+    Rect box;  ///< Where it was to be drawn; lower than its lines where they spill over.
+    bool is_cut = false;  ///< For want of width: with an ellipsis, within a word, or clipped.
+    bool is_covered = false;  ///< Below a dialog.
   };
   std::string view;         ///< As the application calls what is on screen.
   std::uint64_t frame = 0;  ///< Counts up.
   std::vector<Widget> widgets;
   std::vector<std::string> texts;  ///< Every text, labels included, in order.
+  std::vector<Line> lines;         ///< The same as they came to stand.
   /// Keys that more than one control of the screen, or of its dialog, asked for: only the first
   /// of them gets the key, so that what the other one says is not what the key does.
   std::vector<std::string> shared_keys;
@@ -212,6 +223,9 @@ class Ui {
   /// Returns where the content's top left is; `content_height` as measured in the frame before.
   Rect begin_scroll(std::string_view name, const Rect& place, float content_height);
   void end_scroll();
+  /// What lies so far below the top of its content can be seen from the next frame on, as a row
+  /// that arrow keys have come to.
+  void scroll_into_view(std::string_view name, float below_top, float height);
 
   /// Darkens everything drawn so far and takes its keys and clicks away; returns the dialog's
   /// inner rectangle. One at a time.
@@ -231,8 +245,10 @@ class Ui {
   void log_widget(std::string_view name, std::string_view label, const Chord& key,
                   const Rect& place, bool enabled);
   void log_text(std::string_view words);
-  void draw_line_of_text(float x, float y, std::string_view words, Font font,
+  /// `line`: its words, the box that it belongs in, and whether they were cut.
+  void draw_line_of_text(float x, float y, const Drawn::Line& line, Font font,
                          std::uint32_t colour);
+  void log_line(const Rect& letters, Drawn::Line line);
   void draw_button(const Rect& place, std::string_view label, const ButtonStyle& style,
                    const Press& press);
   bool begin_field(std::string_view name, const Rect& place, const std::string& value,

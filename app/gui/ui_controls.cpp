@@ -105,10 +105,15 @@ void Ui::draw_button(const Rect& place, std::string_view label, const ButtonStyl
   }
   if (!style.enabled) letters = Colour::kSoft;
 
-  const Font font = font_of(style);
   const bool has_key = style.key.key != Key::kNone;
   const float cap = has_key ? key_cap_width(style.key) + kKeyCapGap : 0;
   const float room = place.width - cap - 12;
+  // Words that are longer in another language are smaller before they are cut.
+  Font font = font_of(style);
+  for (const Font smaller : {Font::kStrong, Font::kSmallStrong}) {
+    if (text_width(label, font) <= room + 1) break;
+    if (theme_.size(smaller) < theme_.size(font)) font = smaller;
+  }
   const Measure measure = [&](std::string_view part) { return text_width(part, font); };
   const std::string shown = shorten(label, room + 1, measure);
   const float width = measure(shown);
@@ -116,7 +121,8 @@ void Ui::draw_button(const Rect& place, std::string_view label, const ButtonStyl
   const float note_height = line_height(Font::kSmall);
   const bool has_note = !style.note.empty() && place.height >= line_height(font) + note_height;
   const float middle = place.y + (place.height - (has_note ? note_height : 0)) / 2;
-  draw_line_of_text(x, middle - line_height(font) / 2, shown, font,
+  draw_line_of_text(x, middle - line_height(font) / 2,
+                    {.words = shown, .box = place, .is_cut = shown != label}, font,
                     rgba(letters, style.enabled ? 1.0f : 0.7f));
   const bool is_on_fill = is_filled && style.enabled;
   if (has_note) {

@@ -136,7 +136,13 @@ bool Ui::text_field(std::string_view name, const Rect& place, std::string& value
          {.colour = value.empty() ? Colour::kSoft : Colour::kInk});
     return false;
   }
-  if (value.empty()) log_text(hint);
+  if (value.empty()) {
+    log_text(hint);
+    // ImGui draws it, and clips it at the field's end.
+    const float width = text_width(hint, Font::kBody), room = place.width - 2 * kPadding;
+    log_line({place.x + kPadding, place.y, std::min(width, room), place.height},
+             {.words = std::string(hint), .box = place, .is_cut = width > room + 1});
+  }
   const float free = px(place.height) - ImGui::GetFontSize();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                       ImVec2(px(kPadding), std::round(std::max(0.0f, free / 2))));

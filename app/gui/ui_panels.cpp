@@ -77,6 +77,15 @@ void Ui::end_scroll() {
   fill(thumb.place, Colour::kSoft, kBarWidth / 2, is_used ? 0.75f : 0.35f);
 }
 
+void Ui::scroll_into_view(std::string_view name, float below_top, float height) {
+  const auto found = my_->scrolls.find(name);
+  if (found == my_->scrolls.end()) return;
+  auto& scroll = found->second;
+  const float last = below_top + height - scroll.place.height;
+  if (scroll.offset > below_top) scroll.offset = below_top;
+  if (scroll.offset < last) scroll.offset = last;
+}
+
 Rect Ui::begin_dialog(std::string_view name, float width, float height) {
   Implementation& my = *my_;
   my.dialog = name;

@@ -54,9 +54,11 @@ float Ui::text_height(float width, std::string_view words, const TextStyle& styl
 /// Every glyph on a whole pixel, as FreeType drew it, while the pen between them keeps the
 /// font's own fractions: sharp letters in lines of the right length. `y` is the top of the
 /// line.
-void Ui::draw_line_of_text(float x, float y, std::string_view words, Font font_role,
+void Ui::draw_line_of_text(float x, float y, const Drawn::Line& line, Font font_role,
                            std::uint32_t colour) {
+  const std::string_view words = line.words;
   const ImFont& font = *theme_.font(font_role);
+  log_line({x, y, run_width_px(font, words) / theme_.scale(), line_height(font_role)}, line);
   ImDrawList& list = draw_list();
   const float space = px(line_height(font_role)) - font.FontSize;
   const float top = std::round(px(y) + space / 2);
@@ -87,23 +89,28 @@ float Ui::text(const Rect& place, std::string_view words, const TextStyle& style
   log_text(words);
   const Measure measure = measure_of(*theme_.font(style.font));
   const float height = line_height(style.font);
-  const auto draw = [&](std::string_view line, float y) {
+  const auto draw = [&](std::string_view line, float y, bool is_cut) {
     const float free = place.width - measure(line) / theme_.scale();
     float x = place.x;
     if (style.align == Align::kCentre) x += free / 2;
     if (style.align == Align::kRight) x += free;
-    draw_line_of_text(x, y, line, style.font, rgba(style.colour));
+    draw_line_of_text(x, y, {.words = std::string(line), .box = place, .is_cut = is_cut},
+                      style.font, rgba(style.colour));
   };
   if (!style.wrap) {
     const float room = std::max(0.0f, place.height - height);
     // A rounding error is no reason for an ellipsis.
-    draw(shorten(words, px(place.width) + 1, measure), place.y + room / 2);
+    const std::string shown = shorten(words, px(place.width) + 1, measure);
+    draw(shown, place.y + room / 2, shown != words);
     return height;
   }
   const auto lines =
       break_lines(words, px(place.width), measure, style.align == Align::kCentre);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    draw(lines[i], place.y + static_cast<float>(i) * height);
+    // The next line begins where this one ends only if there was no space to break at.
+    const bool is_within_word =
+        i + 1 < lines.size() && lines[i].data() + lines[i].size() == lines[i + 1].data();
+    draw(lines[i], place.y + static_cast<float>(i) * height, is_within_word);
   }
   return static_cast<float>(lines.size()) * height;
 }
@@ -121,13 +128,14 @@ void Ui::heading(const Rect& place, std::string_view words, std::string_view uni
   if (align == Align::kCentre) x += (place.width - width - unit_width) / 2;
   if (align == Align::kRight) x += place.width - width - unit_width;
   const float y = place.y + std::max(0.0f, place.height - line_height(Font::kCaps)) / 2;
-  draw_line_of_text(x, y, shown, Font::kCaps, rgba(Colour::kSoft));
+  draw_line_of_text(x, y, {.words = shown, .box = place, .is_cut = shown != capitals},
+                    Font::kCaps, rgba(Colour::kSoft));
   if (unit.empty()) return;
   log_text(unit);
   // On one base line with the capitals, whose letters are smaller.
   const float lift = (line_height(Font::kSmall) - line_height(Font::kCaps)) / 2;
-  draw_line_of_text(x + width, y - lift, " · " + std::string(unit), Font::kSmall,
-                    rgba(Colour::kSoft));
+  draw_line_of_text(x + width, y - lift, {.words = " · " + std::string(unit), .box = place},
+                    Font::kSmall, rgba(Colour::kSoft));
 }
 
 float Ui::chip_width(std::string_view words) const {
@@ -146,12 +154,13 @@ float Ui::chip(float x, float y, std::string_view words, Colour colour) {
 }
 
 float Ui::key_cap_width(const Chord& key) const {
-  return std::max(kKeyCapHeight, text_width(gui::words(key), Font::kKeyCap) + 13);
+  return std::max(kKeyCapHeight, text_width(printed_words(key), Font::kKeyCap) + 13);
 }
 
 float Ui::key_cap(float x, float y, const Chord& key, Colour colour) {
+  const std::string words = printed_words(key);
   const Rect place = {x, y, key_cap_width(key), kKeyCapHeight};
-  log_text(gui::words(key));
+  log_text(words);
   // On a filled button the cap is drawn in the colour of its letters, on a card in that of
   // lines.
   const bool is_on_filled = colour == Colour::kOnFilled || colour == Colour::kOnStop;
@@ -164,10 +173,10 @@ float Ui::key_cap(float x, float y, const Chord& key, Colour colour) {
   // A key is seen from the front: its lower edge is thicker.
   draw_list().AddRectFilled(ImVec2(low.x + px(3), high.y - 2 * pixel),
                             ImVec2(high.x - px(3), high.y - pixel), border);
-  const float width = run_width_px(*theme_.font(Font::kKeyCap), gui::words(key));
+  const float width = run_width_px(*theme_.font(Font::kKeyCap), words);
   const float left = place.x + (place.width - width / theme_.scale()) / 2;
   const float top = place.y + (kKeyCapHeight - line_height(Font::kKeyCap)) / 2 - 0.5f;
-  draw_line_of_text(left, top, gui::words(key), Font::kKeyCap, rgba(colour));
+  draw_line_of_text(left, top, {.words = words, .box = place}, Font::kKeyCap, rgba(colour));
   return place.width;
 }
 

@@ -4,17 +4,25 @@
 #include <libintl.h>
 
 #include <algorithm>
+#include <cctype>
 #include <clocale>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <iterator>
+#include <system_error>
 
 namespace jnd::app {
 namespace {
 
-constexpr const char* kDomain = "jnd";
+namespace fs = std::filesystem;
 
-/// Set before there is a second thread.
+constexpr const char* kDomain = "jnd";
+constexpr const char* kEnglish = "en";
+
+// Set while there is no second thread.
 bool is_spoken = false;
+std::string spoken = kEnglish;
 
 /// The value of the first of these variables that has any; "" for none.
 template <typename... Names>
@@ -28,7 +36,14 @@ std::string first_set(Names... names) {
 
 /// With the locale "C" nothing is looked up. C.UTF-8 is one of every machine, and with it
 /// LANGUAGE alone says which catalogue is read.
-void choose_messages() {
+void choose_messages(const std::string& chosen) {
+  if (!chosen.empty()) {
+    // Only a locale that changes has gettext look for catalogues anew.
+    std::setlocale(LC_MESSAGES, "C");
+    setenv("LANGUAGE", chosen.c_str(), /*overwrite=*/1);
+    if (chosen != kEnglish) std::setlocale(LC_MESSAGES, "C.UTF-8");
+    return;
+  }
   const std::string asked = first_set("LC_ALL", "LC_MESSAGES", "LANG");
   const bool is_installed = std::setlocale(LC_MESSAGES, "") != nullptr;
   if (is_installed && !asked.empty()) return;
@@ -36,19 +51,73 @@ void choose_messages() {
   if (!asked.empty()) setenv("LANGUAGE", asked.c_str(), /*overwrite=*/0);
 }
 
+/// The value of a line "NAME: VALUE" of a catalogue's description; "" where there is none.
+std::string field_of(std::string_view description, std::string_view name) {
+  while (!description.empty()) {
+    const std::string_view line = description.substr(0, description.find('\n'));
+    description.remove_prefix(std::min(line.size() + 1, description.size()));
+    if (!line.starts_with(name) || !line.substr(name.size()).starts_with(": ")) continue;
+    return std::string(line.substr(name.size() + 2));
+  }
+  return "";
+}
+
+/// Of a compiled catalogue: it stands in place of the empty text, which is the first of all.
+/// "" for any other file. gettext's manual, "The Format of GNU MO Files".
+std::string description_of(const fs::path& catalogue) {
+  std::ifstream stream(catalogue, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const auto number_at = [&](std::size_t place) -> std::size_t {
+    std::uint32_t number = 0;
+    if (place + sizeof number <= bytes.size()) {
+      std::memcpy(&number, bytes.data() + place, sizeof number);
+    }
+    return number;
+  };
+  constexpr std::size_t kMagic = 0x950412de;
+  if (number_at(0) != kMagic) return "";
+  const std::size_t translations = number_at(16);
+  const std::size_t length = number_at(translations), place = number_at(translations + 4);
+  if (place > bytes.size() || length > bytes.size() - place) return "";
+  return bytes.substr(place, length);
+}
+
+std::string_view language_of(std::string_view locale) {
+  return locale.substr(0, locale.find_first_of("_.@"));
+}
+
 }  // namespace
 
-bool begin_language(const std::filesystem::path& folder) {
-  choose_messages();
+bool begin_language(const fs::path& folder, const std::string& chosen) {
+  choose_messages(chosen);
   bindtextdomain(kDomain, folder.c_str());
   // Letters stay UTF-8 whatever the locale's are.
   bind_textdomain_codeset(kDomain, "UTF-8");
   // Under "" stands a catalogue's own description, without which there is none.
-  is_spoken = *dgettext(kDomain, "") != '\0';
+  const std::string description = dgettext(kDomain, "");
+  is_spoken = !description.empty();
+  spoken = is_spoken ? field_of(description, "Language") : kEnglish;
   // The system's own sentences then stay English, too.
   if (!is_spoken) std::setlocale(LC_MESSAGES, "C");
   return is_spoken;
 }
+
+std::vector<Language> languages_in(const fs::path& folder) {
+  std::vector<Language> all = {{kEnglish, "English"}};
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string description =
+        description_of(entry.path() / "LC_MESSAGES" / (std::string(kDomain) + ".mo"));
+    if (description.empty()) continue;
+    const std::string code = entry.path().filename().string();
+    const std::string name = field_of(description, "X-Language-Name");
+    all.push_back({code, name.empty() ? code : name});
+  }
+  std::ranges::sort(all, {}, &Language::name);
+  return all;
+}
+
+std::string spoken_language() { return spoken; }
 
 bool writes_decimal_comma(std::string_view locale) noexcept {
   // Of the languages of Europe and Latin America that write one. Switzerland and Mexico do not.
@@ -56,19 +125,35 @@ bool writes_decimal_comma(std::string_view locale) noexcept {
       "af", "bg", "ca", "cs", "da", "de", "el", "es", "et", "eu", "fi", "fr",
       "gl", "hr", "hu", "id", "is", "it", "lt", "lv", "nb", "nl", "nn", "no",
       "pl", "pt", "ro", "ru", "sk", "sl", "sr", "sv", "tr", "uk", "vi"};
-  const std::string_view language = locale.substr(0, locale.find_first_of("_.@"));
+  const std::string_view language = language_of(locale);
   const std::string_view whole = locale.substr(0, locale.find_first_of(".@"));
   if (whole.ends_with("_CH") || whole.ends_with("_MX")) return false;
   return std::ranges::find(kLanguages, language) != std::end(kLanguages);
 }
 
 bool writes_decimal_comma() noexcept {
+  std::string_view locale;
   for (const char* name : {"LC_ALL", "LC_NUMERIC", "LANG"}) {
     const char* value = std::getenv(name);
-    if (value != nullptr && *value != '\0')
-      return writes_decimal_comma(std::string_view(value));
+    if (value == nullptr || *value == '\0') continue;
+    locale = value;
+    break;
   }
-  return false;
+  if (writes_decimal_comma(locale)) return true;
+  // In Switzerland numbers have a point, and the window's words are German.
+  return is_spoken && language_of(locale) != language_of(spoken) &&
+         writes_decimal_comma(spoken);
+}
+
+std::string with_decimal_points(std::string typed, bool takes_comma) {
+  if (!takes_comma || typed.find('.') != std::string::npos) return typed;
+  const auto is_digit_at = [&](std::size_t place) {
+    return place < typed.size() && std::isdigit(static_cast<unsigned char>(typed[place])) != 0;
+  };
+  for (std::size_t i = 1; i < typed.size(); ++i) {
+    if (typed[i] == ',' && is_digit_at(i - 1) && is_digit_at(i + 1)) typed[i] = '.';
+  }
+  return typed;
 }
 
 const char* tr(const char* english) noexcept {

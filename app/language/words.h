@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace jnd::app {
 
@@ -54,18 +55,42 @@ template <typename... Rest>
   return language_details::counted(one, many, count, fmt::make_format_args(count, rest...));
 }
 
-/// Chooses the language of all that follows by LC_ALL, LC_MESSAGES, LANG and LANGUAGE, as every
-/// program does, among the catalogues FOLDER/LANGUAGE/LC_MESSAGES/jnd.mo. Needs no locale of
-/// that language to be installed. Numbers stay as they are: of the locale, messages alone are
-/// set. Returns whether there are words of another language than English. Before there is a
-/// second thread.
-bool begin_language(const std::filesystem::path& folder);
+/// Chooses the language of all that follows among the catalogues
+/// FOLDER/LANGUAGE/LC_MESSAGES/jnd.mo: the one of this code ("de"; "en" is English), or, where
+/// it is "", by LC_ALL, LC_MESSAGES, LANG and LANGUAGE, as every program does. Needs no locale
+/// of that language to be installed. Numbers stay as they are: of the locale, messages alone
+/// are set. Returns whether there are words of another language than English. It may be called
+/// again, while no other thread of the program runs; words that `tr` gave before stay valid.
+bool begin_language(const std::filesystem::path& folder, const std::string& chosen = "");
+
+/// A language of the window.
+struct Language {
+  std::string code;  ///< "de"
+  std::string name;  ///< As those who speak it call it: "Deutsch".
+
+  friend bool operator==(const Language&, const Language&) = default;
+};
+
+/// English, and each language that has a catalogue in this folder, by their names. A catalogue
+/// says the name of its language as `X-Language-Name`; one that does not is called by its code.
+[[nodiscard]] std::vector<Language> languages_in(const std::filesystem::path& folder);
+
+/// The code of the language that is spoken since `begin_language`: "en" where there are no
+/// other words.
+[[nodiscard]] std::string spoken_language();
 
 /// Who writes numbers by this locale ("de_DE.UTF-8") writes half as "0,5". Needs no locale of
 /// that name to be installed.
 [[nodiscard]] bool writes_decimal_comma(std::string_view locale) noexcept;
-/// The same by LC_ALL, LC_NUMERIC or LANG, the first of them that says anything: how numbers
-/// that are typed are read.
+/// The same by LC_ALL, LC_NUMERIC or LANG, the first of them that says anything, and besides by
+/// the language that is spoken, where that is another one than theirs: how numbers that are
+/// typed are read.
 [[nodiscard]] bool writes_decimal_comma() noexcept;
+
+/// What is typed, with points for decimal commas ("0,5" is "0.5"), where half is written so. A
+/// comma between two digits is one, unless a point stands in the text: then commas are between
+/// numbers.
+[[nodiscard]] std::string with_decimal_points(std::string typed,
+                                              bool takes_comma = writes_decimal_comma());
 
 }  // namespace jnd::app

@@ -76,4 +76,6 @@ std::string stored_doubts(const std::vector<AnswerDoubt>& doubts) {
   return joined_doubts(doubts, &AnswerDoubt::stored);
 }
 
+bool is_note_of_doubt(std::string_view note) noexcept { return note.starts_with(kNoteOfDoubt); }
+
 }  // namespace jnd::app

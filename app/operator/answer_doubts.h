@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "app/language/words.h"
 #include "experiments/procedures/procedure.h"
 
 namespace jnd::app {
@@ -46,5 +48,10 @@ struct AnswerDoubt {
 [[nodiscard]] std::string shown_doubts(const std::vector<AnswerDoubt>& doubts);
 /// The same for the log.
 [[nodiscard]] std::string stored_doubts(const std::vector<AnswerDoubt>& doubts);
+
+/// What every note begins with that tells what became of such an answer.
+inline constexpr const char* kNoteOfDoubt = as_is("asked about the answer ");
+/// Whether nobody wrote this note: it is one of those.
+[[nodiscard]] bool is_note_of_doubt(std::string_view note) noexcept;
 
 }  // namespace jnd::app

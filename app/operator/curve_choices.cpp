@@ -89,7 +89,8 @@ CurveRequest with_task(CurveRequest request, const std::string& task) {
 }
 
 TypedRequest with_typed_guess(const CurveRequest& request, const std::string& typed) {
-  const std::optional<double> rate = rate_of(analysis::without_spaces(typed));
+  const std::optional<double> rate =
+      rate_of(analysis::without_spaces(with_decimal_points(typed)));
   if (!rate) return {request, rate_problem(typed)};
   TypedRequest done{request, ""};
   done.request.task.clear();
@@ -98,7 +99,8 @@ TypedRequest with_typed_guess(const CurveRequest& request, const std::string& ty
 }
 
 TypedRequest with_typed_lapse(const CurveRequest& request, const std::string& typed) {
-  const std::optional<double> rate = rate_of(analysis::without_spaces(typed));
+  const std::optional<double> rate =
+      rate_of(analysis::without_spaces(with_decimal_points(typed)));
   if (!rate) return {request, rate_problem(typed)};
   TypedRequest done{request, ""};
   done.request.lapse = fmt::format("{}", *rate);
@@ -108,7 +110,7 @@ TypedRequest with_typed_lapse(const CurveRequest& request, const std::string& ty
 TypedRequest with_typed_levels(const CurveRequest& request, const std::string& typed) {
   TypedRequest done{request, ""};
   done.request.at.clear();
-  std::string words = typed;
+  std::string words = with_decimal_points(typed);
   std::ranges::replace_if(
       words, [](char c) { return c == ',' || c == ';'; }, ' ');
   std::string_view rest = words;

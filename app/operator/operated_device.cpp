@@ -361,7 +361,7 @@ void OperatedDevice::watch() {
         view_.live = std::move(live);
       }
       if (wake_) wake_();
-      if (core::is_failure(found)) throw core::Error(std::string(core::words(found)));
+      if (core::is_failure(found)) throw core::Error(tr(core::words(found).data()));
       // A simulated device runs as fast as it can.
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }

@@ -64,9 +64,10 @@ OperatedSession::OperatedSession(const Parameters& parameters)
                 .apparatus = apparatus_parameters(parameters, row_, hides_levels_),
                 .laboratory = parameters.laboratory,
                 .streams = parameters.streams,
+                .sound = parameters.sound,
                 .markers = parameters.markers}),
       session_(running_.session()),
-      presenter_(running_.apparatus(), session_, parameters.study.device) {
+      presenter_(running_.apparatus(), session_, parameters.study.device, running_.sound()) {
   running_.apparatus().render(core::free_space());
   if (is_stop_remembered(parameters_.stops, row_.device)) {
     parameters_.exchange.emergency_stop.press();
@@ -115,6 +116,7 @@ void OperatedSession::advance(double duration_s) {
     carry_out_requests();
     watch_times();
     follow_session();
+    watch_sound();
   } catch (const core::Error& error) {
     give_up(error.what());
   }
@@ -205,6 +207,7 @@ void OperatedSession::follow_session() {
     if (stage() == nullptr) {
       running_.keep_timing();
       running_.close_streams();
+      running_.close_sound();
       session_.complete();
       return;
     }
@@ -234,6 +237,7 @@ void OperatedSession::rest_before_trial() {
   if (!trial || state().trial(*trial).under_way || resting_for_trial_ == *trial) return;
   if (session_.open_question()) return;  // The rest begins when it is answered.
   resting_for_trial_ = *trial;
+  is_ready_told_ = false;
   rest_until_s_ = now_s() + block()->free_space_between_s;
   running_.apparatus().go_home();
 }

@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "app/operator/answer_doubts.h"
+#include "app/operator/answer_forms.h"
 #include "app/operator/operator_request.h"
 #include "app/operator/session_view.h"
 #include "app/session/attachment_watch.h"
 #include "app/session/operator_exchange.h"
 #include "app/session/presenter.h"
 #include "app/session/running_session.h"
+#include "app/sound/session_sound.h"
 #include "core/storage/study_store.h"
 #include "experiments/participants/laboratory.h"
 #include "experiments/study/study.h"
@@ -49,6 +51,7 @@ class OperatedSession {
     std::filesystem::path stops;
     std::vector<device::ScheduledFault> injected_faults;  ///< For tests and rehearsals.
     WantedStreams streams{};  ///< To and of other recorders, in real time.
+    SoundChoice sound{};      ///< Where the study's sound goes to.
     WantedMarkers markers{};  ///< To another recorder by pulses, in real time.
     /// What the participant's controls are called, by their actions; see `operate::UseControl`.
     std::map<std::string, std::string> controls{};
@@ -100,6 +103,7 @@ class OperatedSession {
   void arming_succeeded();
   void watch_for_loose_points();
   void watch_times();
+  void watch_sound();
   [[nodiscard]] std::uint8_t loose_bits() const;
   void follow_session();
   void enter_stage();
@@ -107,10 +111,6 @@ class OperatedSession {
   void rest_before_trial();
   void abandon_presentation();
   void end_feeling(bool counts);
-  [[nodiscard]] std::optional<double> magnitude_before(
-      const experiments::TrialState& trial) const;
-  [[nodiscard]] std::map<std::string, std::int64_t> strokes_in(
-      const experiments::TrialState& trial) const;
   [[nodiscard]] GivenAnswer given_answer(const experiments::TrialState& trial,
                                          experiments::AnswerKind kind,
                                          const std::optional<double>& value) const;
@@ -145,6 +145,7 @@ class OperatedSession {
   [[nodiscard]] Step step() const;
   [[nodiscard]] Step step_in_stage() const;
 
+  [[nodiscard]] AnswerForms answer_forms() const;
   [[nodiscard]] std::string words(const experiments::Text& text) const;
   [[nodiscard]] std::string title_of(std::size_t stage) const;
   [[nodiscard]] std::optional<ItemView> item_view() const;
@@ -166,7 +167,6 @@ class OperatedSession {
       const experiments::Block& block) const;
   /// As it was given: percent, 1 and 0, the interval chosen; none is "cannot tell".
   [[nodiscard]] std::string answer_in_words(const experiments::Block& block,
-                                            experiments::AnswerKind kind,
                                             const std::optional<double>& given) const;
   [[nodiscard]] AnswerForm form_of(const experiments::Block& block) const;
   [[nodiscard]] std::string level_of(const experiments::TrialState& trial) const;
@@ -199,6 +199,7 @@ class OperatedSession {
   double begun_s_ = 0.0;
   double rest_until_s_ = 0.0;
   std::int64_t resting_for_trial_ = 0;
+  bool is_ready_told_ = false;  ///< That the trial can begin, after the rest before it.
   double break_until_s_ = 0.0;
   std::optional<double> first_felt_s_;  ///< The trial's reference, or first interval.
   std::optional<Doubted> doubted_;      ///< See `doubt_stands`.

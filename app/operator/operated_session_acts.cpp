@@ -6,6 +6,7 @@
 
 #include "app/language/words.h"
 #include "app/operator/operated_session.h"
+#include "app/operator/session_words.h"
 #include "app/operator/trial_intervals.h"
 #include "core/clock.h"
 #include "core/error.h"
@@ -61,6 +62,7 @@ struct OperatedSession::Act {
 
   void operator()(const operate::Begin& begin) const {
     if (my.begun_) refuse(tr("the session has begun already"));
+    require_sound(begin.choice);
     const bool is_new = !my.state().started;
     my.running_.begin(begin.choice, my.language_);
     my.begun_ = true;
@@ -209,7 +211,7 @@ struct OperatedSession::Act {
     my.doubted_.reset();
     end_presentation();
     my.session_.adjust(adjust.direction, adjust.size);
-    my.presenter_.begin(*my.block(), "test");
+    my.presenter_.begin(*my.block(), "test", Presenter::Beginning::kStep);
   }
 
   void operator()(const operate::Undo& undo) const {
@@ -269,6 +271,7 @@ struct OperatedSession::Act {
   void operator()(const operate::GoOn&) const {
     require_begun_and_armed();
     require_held();
+    if (my.running_.sound() != nullptr) my.running_.sound()->try_again();
     go_on();
   }
 
@@ -316,6 +319,7 @@ struct OperatedSession::Act {
     my.abandon_presentation();
     my.running_.keep_timing();
     my.running_.close_streams();
+    my.running_.close_sound();
     my.session_.end_early(end.reason);
   }
 
@@ -325,6 +329,7 @@ struct OperatedSession::Act {
     if (!my.begun_ || my.state().ended) return;
     my.running_.keep_timing();
     my.running_.close_streams();
+    my.running_.close_sound();
     my.session_.pause(leave.reason.empty() ? as_is("left by the operator") : leave.reason);
   }
 
@@ -394,6 +399,15 @@ struct OperatedSession::Act {
     }
   }
 
+  /// Where the study says that nobody takes part without it. A session that is only to be ended
+  /// needs none.
+  void require_sound(const std::string& choice) const {
+    SessionSound* sound = my.running_.sound();
+    if (sound == nullptr || choice == "end") return;
+    sound->try_again();
+    sound->require_heard();
+  }
+
   void require_begun_and_armed() const {
     if (!my.begun_) refuse(tr("the session has not begun yet"));
     if (my.state().ended) refuse(tr("the session is over"));
@@ -417,7 +431,7 @@ struct OperatedSession::Act {
     if (loose == 0) return;
     my.running_.apparatus().put_fingers_back();
     refuse(tr("{} came off: put back what came off first, or go on without it",
-              words_of_points(loose)));
+              told_points(loose)));
   }
 
   void begin_feeling() const {
@@ -460,6 +474,7 @@ struct OperatedSession::Act {
     const std::string reason = my.presenter_.missed_reason(felt);
     if (reason.empty()) return;
     my.running_.apparatus().render(core::free_space());
+    my.presenter_.abandon();
     my.session_.put_off_attempt(reason + answer);
     my.resting_for_trial_ = 0;
     refuse(

@@ -147,7 +147,7 @@ std::vector<AnswerLine> OperatedSession::answer_lines() const {
     if (trial.response) {
       given = answer_of(kind, trial.planned, *trial.response, trial.measures.chosen_interval);
     }
-    line.answer = answer_in_words(its_block, kind, given);
+    line.answer = answer_in_words(its_block, given);
     line.can_undo = last == line.trial && state().is_under_way(trial.stage) && !state().ended;
     line.can_run_again = session_.can_run_again(line.trial) && !state().ended;
     lines.push_back(std::move(line));

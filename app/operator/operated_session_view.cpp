@@ -40,14 +40,6 @@ const TrialState* current_state(const SessionState& state) {
 
 }  // namespace
 
-std::string OperatedSession::words(const Text& text) const {
-  if (text.empty()) return "";
-  const auto chosen = text.find(language_);
-  if (chosen != text.end()) return chosen->second;
-  const auto first = text.find(parameters_.study.languages.front());
-  return first != text.end() ? first->second : text.begin()->second;
-}
-
 std::string OperatedSession::title_of(std::size_t stage) const {
   return shown_titles(session_.stages(), language_, hides_levels_).at(stage);
 }
@@ -368,21 +360,22 @@ SessionView OperatedSession::view() const {
     view.fault = failure_;
     view.fault_name = "storage_failed";
   } else if (known_fault_ != core::Fault::kNone) {
-    view.fault = std::string(core::words(known_fault_));
+    view.fault = tr(core::words(known_fault_).data());
     view.fault_name = std::string(core::name(known_fault_));
     view.is_disarmed = known_fault_ == core::Fault::kNotArmed;
   }
   view.loose_bits = loose_bits();
-  view.loose_points = words_of_points(view.loose_bits);
-  view.came_off_points = words_of_points(paused_for_bits_);
+  view.loose_points = told_points(view.loose_bits);
+  view.came_off_points = told_points(paused_for_bits_);
   view.asks_why_paused = state().unexplained_pause != 0 && !state().ended;
   const core::Telemetry& now = running_.apparatus().telemetry();
-  if (now.num_ticks > 0) view.absent_points = words_of_points(attachment_.absent_bits(now));
+  if (now.num_ticks > 0) view.absent_points = told_points(attachment_.absent_bits(now));
   view.refusal = refusal_;
   view.num_refusals = num_refusals_;
   view.remark = remark_;
   view.advice = limit_advice(parameters_.study.session_limits,
                              num_answers_since_break(session_.stages(), state()), visit_s());
+  if (running_.sound() != nullptr) view.sound_warning = running_.sound()->warning();
   if (view.advice.empty()) view.advice = running_.markers_problem();
   if (const std::string over =
           exposure_words(parameters_.study.session_limits, state().exposure);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "app/language/words.h"
 #include "app/operator/operated_session.h"
@@ -6,6 +7,8 @@
 #include "experiments/session/trial_course.h"
 
 namespace jnd::app {
+
+using experiments::CueMoment;
 
 void OperatedSession::watch_apparatus() {
   watch_for_faults();
@@ -79,6 +82,19 @@ void OperatedSession::watch_for_loose_points() {
   session_.pause(reason);
   paused_for_bits_ = came_off;
   running_.apparatus().put_fingers_back();
+}
+
+/// The noise of the block, the cue that a trial can begin, and what there is to store of both,
+/// which waits until nothing is felt.
+void OperatedSession::watch_sound() {
+  SessionSound* sound = running_.sound();
+  if (sound == nullptr || !begun_ || state().ended || !failure_.empty() || left_) return;
+  sound->play(state().stage_open ? block() : nullptr);
+  if (step() == Step::kReady && !std::exchange(is_ready_told_, true)) {
+    const std::int64_t trial = *state().current_trial();
+    sound->cue(CueMoment::kReady, trial, state().trial(trial).attempt + 1, 0);
+  }
+  if (!presenter_.under_way() && !feeling_) running_.follow_sound();
 }
 
 bool OperatedSession::feels_stimulus() const {

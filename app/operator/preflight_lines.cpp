@@ -253,7 +253,7 @@ LoopTest test_loop(const PreflightRequest& request, double rate_hz,
   test.link = device->link();
   run.stop();
   const core::Fault fault = run.telemetry().fault;
-  if (core::is_failure(fault)) test.fault = std::string(core::words(fault));
+  if (core::is_failure(fault)) test.fault = tr(core::words(fault).data());
   const device::LoopTiming& timing = run.thread().timing();
   test.missed_ticks = timing.missed_ticks();
   test.lateness_p99_us = 1e-3 * static_cast<double>(timing.lateness().percentile_ns(0.99));

@@ -238,8 +238,9 @@ struct SessionView {
   bool is_disarmed = false;            ///< Nobody has armed the device yet: no fault.
   std::string refusal;             ///< Why the last request was not carried out; "" otherwise.
   std::uint64_t num_refusals = 0;  ///< So that the same sentence twice is seen twice.
-  std::string advice;  ///< "62 trials without a break, of at most 60"; "" otherwise.
-  std::string remark;  ///< "the study file has changed since ..."; "" otherwise.
+  std::string advice;         ///< "62 trials without a break, of at most 60"; "" otherwise.
+  std::string sound_warning;  ///< "default, 2 gaps", or why it is not heard; "" otherwise.
+  std::string remark;         ///< "the study file has changed since ..."; "" otherwise.
 };
 
 }  // namespace jnd::app

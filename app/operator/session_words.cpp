@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <vector>
 
 #include "app/language/words.h"
+#include "app/session/attachment_watch.h"
 #include "experiments/study/media.h"
 
 namespace jnd::app {
@@ -272,6 +274,22 @@ std::string number_words(double value) {
   char text[32];
   std::snprintf(text, sizeof text, std::abs(value) >= 1000.0 ? "%.0f" : "%.3g", value);
   return text;
+}
+
+std::string told_points(std::uint8_t bits) {
+  const std::vector<std::string> points = names_of_points(bits);
+  std::string words;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const char* point = tr(points[i].c_str());
+    if (i == 0) {
+      words = point;
+    } else if (i + 1 < points.size()) {
+      words += std::string(", ") + point;
+    } else {
+      words = tr("{} and {}", words, std::string(point));
+    }
+  }
+  return words;
 }
 
 std::string level_words(const std::string& quantity, double intensity) {

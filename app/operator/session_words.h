@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,10 @@ void add_words(SessionView& view, std::string_view stage_title, std::string_view
 
 /// "yes", "120 %", "2.4", "first": an answer as it is shown.
 [[nodiscard]] std::string answer_words(experiments::AnswerKind kind, double answer);
+
+/// "the index finger", "the inner palm and the thumb": contact points by their bits; "" for
+/// none.
+[[nodiscard]] std::string told_points(std::uint8_t bits);
 
 /// A number for people: up to three significant digits after rounding, no trailing zeros.
 [[nodiscard]] std::string number_words(double value);

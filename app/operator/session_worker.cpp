@@ -100,6 +100,7 @@ void SessionWorker::work() {
                            .allow_no_realtime = parameters_.allow_no_realtime,
                            .stops = parameters_.stops,
                            .streams = parameters_.streams,
+                           .sound = parameters_.sound,
                            .markers = parameters_.markers,
                            .controls = parameters_.controls});
   auto next_picture = std::chrono::steady_clock::now();

@@ -19,6 +19,7 @@
 #include "app/session/operator_exchange.h"
 #include "app/session/session_pulses.h"
 #include "app/session/session_streams.h"
+#include "app/sound/session_sound.h"
 #include "core/storage/study_store.h"
 #include "experiments/participants/laboratory.h"
 #include "experiments/study/study.h"
@@ -41,6 +42,7 @@ class SessionWorker {
     bool allow_no_realtime = false;
     std::filesystem::path stops;                    ///< As `OperatedSession::Parameters`.
     WantedStreams streams{};                        ///< Likewise.
+    SoundChoice sound{};                            ///< Likewise.
     WantedMarkers markers{};                        ///< Likewise.
     std::map<std::string, std::string> controls{};  ///< Likewise.
     /// Called from the thread whenever there is a newer picture; may be empty.

@@ -39,12 +39,6 @@ std::tm local(std::int64_t time_ns) {
   return parts;
 }
 
-/// " at 16:05"
-std::string hour_in_words(std::int64_t time_ns) {
-  const std::tm then = local(time_ns);
-  return tr(" at {}:{:02}", then.tm_hour, then.tm_min);
-}
-
 /// Days since some day, for counting from one to another.
 std::int64_t day_number(std::tm parts) {
   constexpr std::int64_t kSecondsPerDay = 86'400;
@@ -77,7 +71,7 @@ class Interruption {
   void describe(const core::SessionRow& row, InterruptedSession& session) const {
     const experiments::SessionState state = state_of(row);
     const std::vector<std::string> titles = shown_titles(
-        stages_of_session(study_, row.cells), study_.languages.front(), hides_levels_);
+        stages_of_session(study_, row.cells), shown_language(study_.languages), hides_levels_);
     const auto stage = static_cast<std::size_t>(state.stage);
     session.stage = stage < titles.size() ? titles[stage] : "";
     if (state.current_trial() || state.turn_is_due) {
@@ -128,7 +122,7 @@ class Interruption {
 };
 
 std::string cells_in_words(const experiments::Study& study, const std::string& cells) try {
-  return cell_words(experiments::cell_from_text(study, cells));
+  return cell_words(study, experiments::cell_from_text(study, cells));
 } catch (const core::Error&) {
   return "";
 }
@@ -302,6 +296,11 @@ fs::path default_study_folder(const std::string& name) {
   return folder;
 }
 
+std::string hour_in_words(std::int64_t time_ns) {
+  const std::tm then = local(time_ns);
+  return tr(" at {}:{:02}", then.tm_hour, then.tm_min);
+}
+
 std::string day_in_words(std::int64_t time_ns, std::int64_t now_ns) {
   constexpr std::int64_t kYear2000_s = 946'684'800;
   if (time_ns / kNsPerS < kYear2000_s) return "";
@@ -310,6 +309,7 @@ std::string day_in_words(std::int64_t time_ns, std::int64_t now_ns) {
   const std::int64_t days = day_number(now) - day_number(then);
   if (days == 0) return tr("today");
   if (days == 1) return tr("yesterday");
+  if (days == -1) return tr("tomorrow");
   constexpr std::array kMonths = {
       tr_later("January"),   tr_later("February"), tr_later("March"),    tr_later("April"),
       tr_later("May"),       tr_later("June"),     tr_later("July"),     tr_later("August"),

@@ -95,8 +95,11 @@ void create_study_folder(const std::filesystem::path& study_file,
 /// where that is set, in ~/jnd else.
 [[nodiscard]] std::filesystem::path default_study_folder(const std::string& name);
 
-/// "today", "yesterday", "12 November", "12 November 2023": a day seen from another, where the
-/// machine is. "" for a time before 2000: simulated sessions count from 1970.
+/// "today", "yesterday", "tomorrow", "12 November", "12 November 2023": a day seen from
+/// another, where the machine is. "" for a time before 2000: simulated sessions count from
+/// 1970.
 [[nodiscard]] std::string day_in_words(std::int64_t time_ns, std::int64_t now_ns);
+/// " at 16:05", where the machine is.
+[[nodiscard]] std::string hour_in_words(std::int64_t time_ns);
 
 }  // namespace jnd::app

@@ -21,6 +21,12 @@ namespace {
 
 using namespace experiments;
 
+/// A number without a unit is told with what it is: "scale 0.5, 2".
+std::string of_quantity(const std::string& quantity, const std::string& values) {
+  if (!experiments::quantity_unit(quantity).empty()) return values;
+  return quantity == "scale" ? tr("scale {}", values) : name_words(quantity) + " " + values;
+}
+
 std::string starting_values(std::size_t count) {
   return trn("{} starting value", "{} starting values", static_cast<std::int64_t>(count));
 }
@@ -33,7 +39,7 @@ std::string questions_words(std::size_t count) {
 class Outliner {
  public:
   Outliner(const Study& study, StudyOutline& outline)
-      : language_(study.languages.front()),
+      : language_(shown_language(study.languages)),
         hides_(outline.hides_levels),
         stages_(outline.stages) {}
 
@@ -176,7 +182,7 @@ class Outliner {
     }
   }
   void describe(const Block& block, OutlineStage& line) const {
-    line.kind = name_words(block.procedure, /*as_title=*/true);
+    line.kind = procedure_words(block.procedure);
     const Procedure& procedure = procedure_named(block.procedure);
     const int num_trials = expected_trials(block);
     const bool adjusts = procedure.form(block).adjustable;
@@ -211,30 +217,35 @@ class Outliner {
                                  "{} more questions after each trial",
                                  static_cast<std::int64_t>(block.questions.size())));
     }
+    if (block.masking_noise || block.cues) {
+      line.details.emplace_back(tr("with noise or cues of its own"));
+    }
     if (hides_) {
       line.details.emplace_back(tr("levels hidden: double-blind"));
       return;
     }
     const std::string unit = experiments::quantity_unit(block.quantity);
-    const std::string name = unit.empty() ? name_words(block.quantity) + " " : "";
     if (analysis::length_is_expected(block)) {
       for (const std::string& words : analysis::adaptive_level_words(block, unit)) {
-        line.details.push_back(name_words(block.medium, false) + ", " + name + words);
+        line.details.push_back(medium_words(block.medium) + ", " +
+                               of_quantity(block.quantity, words));
       }
     } else {
-      line.details.push_back(name_words(block.medium, false) + ", " + name +
-                             analysis::list_of(block.intensities, unit));
+      line.details.push_back(
+          medium_words(block.medium) + ", " +
+          of_quantity(block.quantity, analysis::list_of(block.intensities, unit)));
     }
     if (block.reference_intensity) {
-      line.details.push_back(
-          tr("reference {}", name + analysis::list_of({*block.reference_intensity}, unit)));
+      line.details.push_back(tr(
+          "reference {}",
+          of_quantity(block.quantity, analysis::list_of({*block.reference_intensity}, unit))));
     }
     if (!block.standards.empty()) {
       const std::string quantity = quantity_of(block.standard_medium);
       const std::string its_unit = experiments::quantity_unit(quantity);
-      line.details.push_back(tr("standard {}, {}", name_words(block.standard_medium, false),
-                                (its_unit.empty() ? name_words(quantity) + " " : "") +
-                                    analysis::list_of(block.standards, its_unit)));
+      line.details.push_back(
+          tr("standard {}, {}", medium_words(block.standard_medium),
+             of_quantity(quantity, analysis::list_of(block.standards, its_unit))));
     }
     if (!block.target_percent.empty()) {
       line.details.push_back(tr("targets {}", analysis::list_of(block.target_percent, "%")));
@@ -337,16 +348,20 @@ std::string group_line(const PlannedGroup& group, const std::string& language) {
 }  // namespace
 
 StudyOutline outline_of(const Study& study, bool shows_levels) {
-  const std::string& language = study.languages.front();
+  const std::string& language = shown_language(study.languages);
   StudyOutline outline{.name = study.name,
                        .title = title_of(study),
                        .description = in_language(study.description, language),
                        .authors = joined(study.authors),
                        .languages = joined(study.languages),
-                       .blinding = blinding_words(study.blinding)};
+                       .blinding = blinding_words(study.blinding),
+                       .citation = study.citation};
   outline.device =
       trn("{} point of the hand or more, {:g} Hz", "{} points of the hand or more, {:g} Hz",
           study.device.min_contact_points, study.device.rate_hz);
+  outline.sound = !has_sound(study)       ? tr("nothing is played")
+                  : requires_sound(study) ? tr("noise or cues, without which no session begins")
+                                          : tr("noise or cues");
   outline.hides_levels = study.blinding == Blinding::kDouble && !shows_levels;
   Outliner(study, outline).add(study.stages, 0);
   bool first = true;
@@ -390,13 +405,13 @@ std::vector<PlannedOrder> planned_orders(const Study& study, const OrdersRequest
   std::vector<PlannedOrder> orders;
   for (const ParticipantPlan& planned : plan_participants(study, plan)) {
     PlannedOrder order{.participant = planned.participant,
-                       .cells = cell_words(planned.cell),
+                       .cells = cell_words(study, planned.cell),
                        .duration_s = planned.duration_s};
     for (const PlannedBlock& block : planned.blocks) {
-      order.blocks.push_back(order_line(block, study.languages.front()));
+      order.blocks.push_back(order_line(block, shown_language(study.languages)));
     }
     for (const PlannedGroup& group : planned.groups) {
-      order.blocks.push_back(group_line(group, study.languages.front()));
+      order.blocks.push_back(group_line(group, shown_language(study.languages)));
     }
     orders.push_back(std::move(order));
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/operator/file_excerpt.h"
 #include "app/operator/study_words.h"
 #include "experiments/study/study.h"
 #include "experiments/study/study_problem.h"
@@ -29,13 +30,20 @@ struct OutlineStage {
 struct StudyOutline {
   std::filesystem::path file;
   std::string name, title, description;
-  std::string authors, languages, blinding, device;  ///< In words.
+  std::string authors, languages, blinding, device, sound;  ///< In words.
+  std::string citation;  ///< Of the study it follows; may be empty.
   bool hides_levels = false;
   std::vector<OutlineStage> stages;
   int num_trials = 0;                        ///< Trials of the participant with the most.
   double shortest_s = 0.0, longest_s = 0.0;  ///< Expected, over all cells.
   /// Every problem, as the file has them; the rest is empty if there is one.
   std::vector<experiments::StudyProblem> problems;
+  /// What a sound study may not mean, as `jnd validate` warns of it; none where levels are
+  /// hidden.
+  std::vector<experiments::StudyProblem> doubts;
+  /// The text around each of these: the problems' first, then the doubts'. Empty ones where the
+  /// file cannot be read, or where its text is hidden.
+  std::vector<FileExcerpt> excerpts;
 };
 
 /// `shows_levels`: somebody unblinded the folder it is read for.
@@ -71,8 +79,9 @@ struct OrdersRequest {
 class StudyWatch {
  public:
   /// Reads it at once. Never throws for what is wrong with the file. `shows_levels` as in
-  /// `outline_of`.
-  explicit StudyWatch(std::filesystem::path file, bool shows_levels = false);
+  /// `outline_of`; `shows_text`: whoever looks may read the file.
+  explicit StudyWatch(std::filesystem::path file, bool shows_levels = false,
+                      bool shows_text = true);
 
   /// Looks whether the file changed, twice a second at most. True if there is a new outline.
   /// `now_s`: seconds on any clock that goes forward.
@@ -97,6 +106,7 @@ class StudyWatch {
 
   std::filesystem::path file_;
   bool shows_levels_;
+  bool shows_text_;
   std::optional<Stamp> stamp_;
   std::optional<double> looked_s_, missing_since_s_;
   StudyOutline outline_;

@@ -1,6 +1,8 @@
 #include <sys/stat.h>
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "app/operator/study_outline.h"
 #include "core/error.h"
@@ -8,8 +10,11 @@
 
 namespace jnd::app {
 
-StudyWatch::StudyWatch(std::filesystem::path file, bool shows_levels)
-    : file_(std::move(file)), shows_levels_(shows_levels), stamp_(stamp()) {
+StudyWatch::StudyWatch(std::filesystem::path file, bool shows_levels, bool shows_text)
+    : file_(std::move(file)),
+      shows_levels_(shows_levels),
+      shows_text_(shows_text),
+      stamp_(stamp()) {
   read();
 }
 
@@ -47,12 +52,20 @@ void StudyWatch::read() {
   try {
     study_ = experiments::read_study(file_);
     outline_ = outline_of(*study_, shows_levels_);
+    if (!outline_.hides_levels) outline_.doubts = experiments::study_doubts(file_);
   } catch (const experiments::ProtocolError& error) {
     outline_.problems = error.problems();
   } catch (const core::Error& error) {
     outline_.problems = {{.file = file_.string(), .message = error.what()}};
   }
   outline_.file = file_;
+  const std::vector<std::string> lines =
+      shows_text_ ? lines_of_file(file_) : std::vector<std::string>{};
+  for (const auto* told : {&outline_.problems, &outline_.doubts}) {
+    for (const experiments::StudyProblem& problem : *told) {
+      outline_.excerpts.push_back(excerpt_at(lines, problem.line, problem.column));
+    }
+  }
 }
 
 }  // namespace jnd::app

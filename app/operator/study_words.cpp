@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -14,6 +16,26 @@ namespace jnd::app {
 namespace {
 
 using namespace experiments;
+
+/// Names of media and procedures as `medium_words` and `procedure_words` look them up: for the
+/// catalogue alone, which a test holds to the names that there are.
+[[maybe_unused]] constexpr const char* kLookedUp[] = {tr_later("free space"),
+                                                      tr_later("water"),
+                                                      tr_later("viscous"),
+                                                      tr_later("viscous stokes"),
+                                                      tr_later("viscous sphere"),
+                                                      tr_later("water map"),
+                                                      tr_later("viscous schiller naumann"),
+                                                      tr_later("viscous ellipsoid"),
+                                                      tr_later("solid"),
+                                                      tr_later("Constant stimuli"),
+                                                      tr_later("Limits"),
+                                                      tr_later("Magnitude estimation"),
+                                                      tr_later("Magnitude production"),
+                                                      tr_later("Matching"),
+                                                      tr_later("Quest plus"),
+                                                      tr_later("Rating"),
+                                                      tr_later("Staircase")};
 
 const Stage* block_named(const Study& study, const std::string& name) {
   const Stage* found = nullptr;
@@ -39,6 +61,12 @@ std::string name_words(std::string name, bool as_title) {
     name[0] = static_cast<char>(name[0] - 'a' + 'A');
   }
   return name;
+}
+
+const std::string& shown_language(const std::vector<std::string>& languages) {
+  const std::string spoken = spoken_language();
+  const auto found = std::ranges::find(languages, spoken);
+  return spoken == "en" || found == languages.end() ? languages.front() : *found;
 }
 
 /// In this language or another; in words of the name where there is none.
@@ -82,7 +110,7 @@ std::vector<std::string> shown_titles(const std::vector<const Stage*>& stages,
 }
 
 std::string title_of(const Study& study) {
-  const std::string& title = in_language(study.title, study.languages.front());
+  const std::string& title = in_language(study.title, shown_language(study.languages));
   return title.empty() ? name_words(study.name, /*as_title=*/true) : title;
 }
 
@@ -93,8 +121,16 @@ std::string block_title(const Study& study, const std::string& block) {
   return stage == nullptr ? block : title_of(*stage, study.languages.front());
 }
 
+std::string medium_words(const std::string& medium) {
+  return tr(name_words(medium, /*as_title=*/false).c_str());
+}
+
+std::string procedure_words(const std::string& procedure) {
+  return tr(name_words(procedure, /*as_title=*/true).c_str());
+}
+
 std::string words_of(const MediumSetting& setting) {
-  std::string medium = name_words(setting.medium, false);
+  std::string medium = medium_words(setting.medium);
   if (setting.quantity.empty()) return medium;
   return medium + ", " + level_words(setting.quantity, setting.intensity);
 }
@@ -108,16 +144,54 @@ std::string duration_words(double duration_s) {
                            : tr("{} h {} min", minutes / 60, minutes % 60);
 }
 
-std::string cell_words(const Cell& cell) {
+/// By what each arm is called, counterbalance by counterbalance; else by its name.
+using ArmTitles = std::map<std::string, std::map<std::string, std::string>>;
+
+static std::string cell_words_by(const ArmTitles& titles, const Cell& cell) {
   std::string words;
   for (const Assignment& assignment : cell) {
     if (!words.empty()) words += "; ";
+    const auto its = titles.find(assignment.counterbalance);
     for (std::size_t i = 0; i < assignment.arms.size(); ++i) {
-      const std::string arm = name_words(assignment.arms[i], false);
+      const std::string& name = assignment.arms[i];
+      const std::string arm =
+          its == titles.end() ? name_words(name, false) : its->second.at(name);
       words += i == 0 ? arm : tr(", then {}", arm);
     }
   }
   return words;
+}
+
+/// Nothing where an arm has no block or several, or two arms would be called the same.
+static std::map<std::string, std::string> titles_of_arms(const Counterbalance& counterbalance,
+                                                         const std::string& language) {
+  std::map<std::string, std::string> titles;
+  std::set<std::string> known;
+  for (const Counterbalance::Arm& arm : counterbalance.arms) {
+    std::string title;
+    int num_blocks = 0;
+    for_each_stage(arm.stages, [&](const Stage& stage) {
+      if (!std::holds_alternative<Block>(stage.content)) return;
+      ++num_blocks;
+      if (!stage.title.empty()) title = short_title(title_of(stage, language));
+    });
+    if (num_blocks != 1 || title.empty() || !known.insert(title).second) return {};
+    titles[arm.name] = title;
+  }
+  return titles;
+}
+
+std::string cell_words(const Cell& cell) { return cell_words_by({}, cell); }
+
+std::string cell_words(const Study& study, const Cell& cell) {
+  ArmTitles titles;
+  for_each_stage(study.stages, [&](const Stage& stage) {
+    const auto* counterbalance = std::get_if<Counterbalance>(&stage.content);
+    if (counterbalance == nullptr) return;
+    auto its = titles_of_arms(*counterbalance, study.languages.front());
+    if (!its.empty()) titles[stage.name] = std::move(its);
+  });
+  return cell_words_by(titles, cell);
 }
 
 }  // namespace jnd::app

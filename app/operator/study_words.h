@@ -14,6 +14,10 @@ namespace jnd::app {
 [[nodiscard]] const std::string& in_language(const experiments::Text& text,
                                              const std::string& language);
 
+/// Of these languages of a study, the one that the window speaks; the first where it speaks
+/// none of them, or English, which nobody may have chosen.
+[[nodiscard]] const std::string& shown_language(const std::vector<std::string>& languages);
+
 /// As the study has it, in this language or another; in words of its name where it has none.
 [[nodiscard]] std::string title_of(const experiments::Stage& stage,
                                    const std::string& language);
@@ -27,14 +31,19 @@ namespace jnd::app {
     const std::vector<const experiments::Stage*>& stages, const std::string& language,
     bool hides_levels);
 
-/// In its first language; its name where it has none.
+/// In the language that is shown; its name where it has none.
 [[nodiscard]] std::string title_of(const experiments::Study& study);
 /// Up to its colon: "Group D" of "Group D: low viscosities".
 [[nodiscard]] std::string short_title(const std::string& title);
-/// Of the block of this name, wherever it stands in the study; the name itself if nowhere.
+/// Of the block of this name, wherever it stands in the study, in its first language, as charts
+/// have it; the name itself if nowhere.
 [[nodiscard]] std::string block_title(const experiments::Study& study,
                                       const std::string& block);
 
+/// What a study file calls a medium ("free_space") or a procedure ("magnitude_estimation"), in
+/// the window's language: "free space", and "Magnitude estimation" as a title.
+[[nodiscard]] std::string medium_words(const std::string& medium);
+[[nodiscard]] std::string procedure_words(const std::string& procedure);
 /// "water, scale 2", "free space", "viscous, 8 Pa s".
 [[nodiscard]] std::string words_of(const experiments::MediumSetting& setting);
 /// "1 h 5 min", "25 min", "40 s".
@@ -42,5 +51,9 @@ namespace jnd::app {
 
 /// "estimation, then production; primed" of a cell; "" for one that assigns nothing.
 [[nodiscard]] std::string cell_words(const experiments::Cell& cell);
+/// The same by the titles of blocks, where every arm of a counterbalance holds one block that
+/// has a title: "Group E, then Group D".
+[[nodiscard]] std::string cell_words(const experiments::Study& study,
+                                     const experiments::Cell& cell);
 
 }  // namespace jnd::app

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "core/for_people.h"
 #include "core/hand.h"
 
 namespace jnd::app {
@@ -10,7 +11,9 @@ namespace {
 
 /// In the order of `core::ContactPoint`.
 constexpr std::array<const char*, core::kNumContactPoints> kWords = {
-    "the inner palm", "the outer palm", "the thumb", "the index finger", "the middle finger"};
+    core::for_people("the inner palm"), core::for_people("the outer palm"),
+    core::for_people("the thumb"), core::for_people("the index finger"),
+    core::for_people("the middle finger")};
 
 template <typename Names>
 std::vector<std::string> chosen(std::uint8_t bits, const Names& names) {
@@ -54,8 +57,10 @@ void AttachmentWatch::give_up(std::uint8_t given_up) noexcept {
   held_bits_ = bits(held_bits_ & ~unsigned{given_up});
 }
 
+std::vector<std::string> names_of_points(std::uint8_t bits) { return chosen(bits, kWords); }
+
 std::string words_of_points(std::uint8_t bits) {
-  const std::vector<std::string> points = chosen(bits, kWords);
+  const std::vector<std::string> points = names_of_points(bits);
   std::string words;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i > 0) words += i + 1 == points.size() ? " and " : ", ";

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/exchange/telemetry.h"
 
@@ -29,6 +30,8 @@ class AttachmentWatch {
 
 /// "the index finger", "the inner palm and the thumb": for people. "" for no bits.
 [[nodiscard]] std::string words_of_points(std::uint8_t bits);
+/// The same one by one.
+[[nodiscard]] std::vector<std::string> names_of_points(std::uint8_t bits);
 /// "came off: index, thumb": as events say why a session paused.
 [[nodiscard]] std::string came_off_reason(std::uint8_t bits);
 

@@ -15,12 +15,30 @@ const PresentationState& Presenter::presentation() const {
   return session_.state().trial(*session_.state().current_trial()).presentations.back();
 }
 
-void Presenter::begin(const Block& block, const std::string& interval) {
+/// The same whatever the stimulus holds: of an interval its name is looked at, never its level.
+void Presenter::give_cue(CueMoment moment) {
+  const std::optional<std::int64_t> number = session_.state().current_trial();
+  if (sound_ == nullptr || !number) return;
+  const TrialState& trial = session_.state().trial(*number);
+  sound_->cue(moment, *number, trial.attempt,
+              static_cast<std::int64_t>(trial.presentations.size()));
+}
+
+void Presenter::stimulus_is_gone() {
+  if (std::exchange(is_in_stimulus_, false)) give_cue(CueMoment::kEnd);
+}
+
+void Presenter::begin(const Block& block, const std::string& interval, Beginning beginning) {
   session_.begin_presentation(interval, apparatus_.next_tick());
   amounts_ = amounts_of(setting_of(block, interval, presentation().intensity));
   missed_before_ = apparatus_.telemetry().num_missed_ticks;
   limited_before_ = static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks);
   apparatus_.render(amounts_);
+  if (interval == "free_space") {
+    stimulus_is_gone();
+  } else if (!std::exchange(is_in_stimulus_, true) || beginning == Beginning::kStimulus) {
+    give_cue(CueMoment::kBegin);
+  }
   // The disk may have taken its time: what is felt begins here.
   switched_tick_ = apparatus_.next_tick();
   under_way_ = true;
@@ -48,7 +66,10 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
   const core::Telemetry last = apparatus_.telemetry();
   felt.last_tick = apparatus_.next_tick() - 1;
   felt.duration_s = static_cast<double>(felt.last_tick - switched_tick_) / needs_.rate_hz;
-  if (afterwards == Afterwards::kFreeSpace) apparatus_.render(core::free_space());
+  if (afterwards == Afterwards::kFreeSpace) {
+    apparatus_.render(core::free_space());
+    stimulus_is_gone();
+  }
   if (measuring_) {
     core::ContactSums sums = last.contact_sums - sums_before_;
     const core::PresentationMeasures moved = apparatus_.finish_strokes();
@@ -94,6 +115,7 @@ std::string Presenter::missed_reason(const Felt& felt) const {
 }
 
 void Presenter::abandon() {
+  stimulus_is_gone();
   const bool metered = std::exchange(measuring_, false);
   under_way_ = false;
   if (metered) (void)apparatus_.finish_strokes();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/session/apparatus.h"
+#include "app/sound/session_sound.h"
 #include "experiments/session/session.h"
 #include "experiments/study/study.h"
 
@@ -14,15 +15,22 @@ namespace jnd::app {
 /// how the hand moved in between. Whoever uses it lets the time pass. Not real time.
 class Presenter {
  public:
-  /// The references must outlive it.
+  /// The references must outlive it. `sound`: gives the cues of the moments of a stimulus;
+  /// nullptr: nobody listens.
   Presenter(Apparatus& apparatus, experiments::Session& session,
-            const experiments::DeviceNeeds& needs)
-      : apparatus_(apparatus), session_(session), needs_(needs) {}
+            const experiments::DeviceNeeds& needs, SessionSound* sound = nullptr)
+      : apparatus_(apparatus), session_(session), needs_(needs), sound_(sound) {}
 
   /// What is rendered once a presentation has ended.
   enum class Afterwards {
     kSameMedium,  ///< Until the next begins.
     kFreeSpace,   ///< At once: no hand stays in a medium for as long as a disk takes.
+  };
+
+  /// What a presentation is to the participant.
+  enum class Beginning {
+    kStimulus,  ///< One of its own, or free space.
+    kStep,      ///< A step of the stimulus before, which goes on: no cue tells of it.
   };
 
   /// What one presentation came to.
@@ -40,7 +48,8 @@ class Presenter {
 
   /// Stores the presentation's beginning, then switches the medium: "test", "reference" or
   /// "free_space" of the current trial.
-  void begin(const experiments::Block& block, const std::string& interval);
+  void begin(const experiments::Block& block, const std::string& interval,
+             Beginning beginning = Beginning::kStimulus);
   /// Whether `ramp_is_over` is still to come, and whether it is due: the loop renders the
   /// medium in full.
   [[nodiscard]] bool waits_for_ramp() const;
@@ -67,12 +76,16 @@ class Presenter {
  private:
   [[nodiscard]] std::optional<core::Exposure> exposure_since_last();
   void tell_guards();
+  void give_cue(experiments::CueMoment moment);
+  void stimulus_is_gone();
 
   [[nodiscard]] const experiments::PresentationState& presentation() const;
 
   Apparatus& apparatus_;
   experiments::Session& session_;
   const experiments::DeviceNeeds& needs_;
+  SessionSound* sound_;
+  bool is_in_stimulus_ = false;  ///< As the participant has it: from cue to cue.
   bool under_way_ = false;
   bool measuring_ = false;
   std::int64_t switched_tick_ = 0;  ///< The first that can have been in the medium.

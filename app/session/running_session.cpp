@@ -74,6 +74,7 @@ RunningSession::RunningSession(const Parameters& parameters)
       history_(parameters.store.events(parameters.session)),
       recorded_tick_(last_recorded_tick(parameters.store, parameters.session)),
       streams_(streams_asked_for()),
+      sound_(sound_asked_for()),
       pulses_(pulses_asked_for()),
       apparatus_(parameters.laboratory != nullptr
                      ? Apparatus(apparatus_parameters(), *parameters.laboratory)
@@ -136,6 +137,14 @@ std::unique_ptr<SessionStreams> RunningSession::streams_asked_for() const {
       .recording = store.recording_file(parameters_.session)});
 }
 
+std::unique_ptr<SessionSound> RunningSession::sound_asked_for() const {
+  if (!parameters_.sound || parameters_.only_ends) return nullptr;
+  return std::make_unique<SessionSound>(
+      SessionSound::Parameters{.study = parameters_.study,
+                               .choice = *parameters_.sound,
+                               .seed = parameters_.store.session(parameters_.session).seed});
+}
+
 std::unique_ptr<SessionPulses> RunningSession::pulses_asked_for() const {
   if (!parameters_.markers.any() || !parameters_.apparatus.realtime) return nullptr;
   return std::make_unique<SessionPulses>(SessionPulses::Parameters{
@@ -176,6 +185,7 @@ void RunningSession::keep_fitting(const std::map<std::string, std::string>& fitt
 }
 
 void RunningSession::keep_timing() {
+  if (sound_) sound_->measure(session_);
   const device::RealtimeThread* thread = apparatus_.realtime_thread();
   if (thread == nullptr) return;
   const device::LoopTimingSummary timing = device::summary_of(thread->timing());
@@ -211,6 +221,14 @@ void RunningSession::follow_markers() {
   if (pulses_ && session_.state().started && !session_.state().ended) {
     pulses_->follow(session_);
   }
+}
+
+void RunningSession::follow_sound() {
+  if (sound_ && session_.state().started && !session_.state().ended) sound_->follow(session_);
+}
+
+void RunningSession::close_sound() {
+  if (sound_ && session_.state().started && !session_.state().ended) sound_->close(session_);
 }
 
 std::string RunningSession::markers_problem() const {

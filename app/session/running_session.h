@@ -11,6 +11,7 @@
 #include "app/session/apparatus.h"
 #include "app/session/session_pulses.h"
 #include "app/session/session_streams.h"
+#include "app/sound/session_sound.h"
 #include "core/safety/fault.h"
 #include "core/storage/study_store.h"
 #include "experiments/session/session.h"
@@ -36,6 +37,8 @@ class RunningSession {
     std::function<void(const core::EventRow&)> on_event;  ///< After its commit; may be empty.
     bool only_ends = false;   ///< It is resumed to be ended: nothing is felt any more.
     WantedStreams streams{};  ///< To and of other recorders, in real time; none unless asked.
+    /// Where the study's sound goes to; none: nobody listens, and nothing is played or stored.
+    std::optional<SoundChoice> sound{};
     WantedMarkers markers{};  ///< To another recorder by pulses, likewise.
   };
 
@@ -74,6 +77,13 @@ class RunningSession {
   /// Ends what is recorded of others, and pulses: before the session ends, or its program
   /// leaves it.
   void close_streams();
+  /// What the participant hears; nullptr where nobody listens.
+  [[nodiscard]] SessionSound* sound() noexcept { return sound_.get(); }
+  [[nodiscard]] const SessionSound* sound() const noexcept { return sound_.get(); }
+  /// Stores what there is to say of the sound; every now and then, while nothing is felt.
+  void follow_sound();
+  /// Fades the sound out, and stores the last of it: as `close_streams`.
+  void close_sound();
 
  private:
   /// Events go through the apparatus, which syncs the recording first.
@@ -88,6 +98,7 @@ class RunningSession {
 
   [[nodiscard]] Apparatus::Parameters apparatus_parameters() const;
   [[nodiscard]] std::unique_ptr<SessionStreams> streams_asked_for() const;
+  [[nodiscard]] std::unique_ptr<SessionSound> sound_asked_for() const;
   [[nodiscard]] std::unique_ptr<SessionPulses> pulses_asked_for() const;
 
   Parameters parameters_;
@@ -95,6 +106,7 @@ class RunningSession {
   std::vector<core::EventRow> history_;
   std::int64_t recorded_tick_;
   std::unique_ptr<SessionStreams> streams_;  ///< nullptr where none was asked for.
+  std::unique_ptr<SessionSound> sound_;      ///< nullptr where nobody listens.
   std::unique_ptr<SessionPulses> pulses_;    ///< Likewise.
   Apparatus apparatus_;
   std::optional<core::Arming> told_arming_;

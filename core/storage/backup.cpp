@@ -285,16 +285,22 @@ BackupReport restore(const fs::path& backup, const fs::path& target, std::int64_
   return report;
 }
 
-std::vector<fs::path> known_backups(const fs::path& folder) {
+std::vector<KnownBackup> dated_backups(const fs::path& folder) {
   Database database(folder / "study.sqlite", Database::Mode::kReadOnly, kDurable);
   constexpr std::int64_t kFirstThatKnowsBackups = 2;
   if (study_format_of(database) < kFirstThatKnowsBackups) return {};
   Statement rows(database,
-                 "SELECT folder FROM backup AS b WHERE NOT forgotten AND"
+                 "SELECT folder, time_ns FROM backup AS b WHERE NOT forgotten AND"
                  " backup = (SELECT MAX(backup) FROM backup WHERE folder = b.folder)"
                  " ORDER BY folder");
+  std::vector<KnownBackup> backups;
+  while (rows.step()) backups.push_back({.folder = rows.text(0), .time_ns = rows.integer(1)});
+  return backups;
+}
+
+std::vector<fs::path> known_backups(const fs::path& folder) {
   std::vector<fs::path> folders;
-  while (rows.step()) folders.emplace_back(rows.text(0));
+  for (KnownBackup& backup : dated_backups(folder)) folders.push_back(std::move(backup.folder));
   return folders;
 }
 

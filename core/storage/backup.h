@@ -46,6 +46,15 @@ struct BackupReport {
 [[nodiscard]] std::vector<std::filesystem::path> known_backups(
     const std::filesystem::path& folder);
 
+/// A copy that the study knows of.
+struct KnownBackup {
+  std::filesystem::path folder;
+  std::int64_t time_ns = 0;  ///< When it was begun last, since 1970-01-01 UTC.
+};
+/// The same with their times. One that was begun and not finished is as old as it was before:
+/// see `is_unfinished_backup`.
+[[nodiscard]] std::vector<KnownBackup> dated_backups(const std::filesystem::path& folder);
+
 /// The copy in `target` exists no more: a withdrawal does not look for it. Throws `Error` if
 /// the study does not know of it.
 void forget_backup(const std::filesystem::path& folder, const std::filesystem::path& target,

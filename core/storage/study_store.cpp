@@ -269,8 +269,11 @@ std::vector<SessionOverview> StudyStore::overview() const {
           " (SELECT COUNT(DISTINCT trial) FROM trial_in_force AS t WHERE t.session = "
           "s.session),"
           " (SELECT time_ns FROM event AS e WHERE e.session = s.session AND e.kind NOT IN"
-          "   ('trial_excluded', 'trial_included', 'unblinded') ORDER BY sequence DESC LIMIT "
-          "1),"
+          "   ('trial_excluded', 'trial_included', 'unblinded') AND NOT"
+          "   (e.kind IN ('answer_corrected', 'note_added') AND EXISTS"
+          "    (SELECT 1 FROM event AS its WHERE its.session = s.session AND its.kind IN"
+          "     ('session_completed', 'session_ended_early') AND its.sequence < e.sequence))"
+          "   ORDER BY sequence DESC LIMIT 1),"
           " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
           "         AND e.kind = 'session_completed'),"
           " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
@@ -467,13 +470,14 @@ std::vector<AdverseEventRow> StudyStore::adverse_events() const {
   const std::lock_guard guard(implementation_->mutex);
   std::vector<AdverseEventRow> all;
   Statement rows(implementation_->database,
-                 "SELECT session, participant, time_ns, text FROM adverse_event"
+                 "SELECT session, participant, time_ns, text, adverse_event FROM adverse_event"
                  " ORDER BY adverse_event");
   while (rows.step()) {
     all.push_back({.session = rows.integer(0),
                    .participant = rows.text(1),
                    .time_ns = rows.integer(2),
-                   .text = rows.text(3)});
+                   .text = rows.text(3),
+                   .adverse_event = rows.integer(4)});
   }
   return all;
 }

@@ -47,6 +47,7 @@ struct AdverseEventRow {
   std::string participant;
   std::int64_t time_ns = 0;
   std::string text;
+  std::int64_t adverse_event = 0;  ///< Its number in the study, from 1.
 };
 
 /// A look at a sequential study, as it was told.

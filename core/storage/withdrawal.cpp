@@ -70,6 +70,13 @@ void leave_tombstone(Database& database, std::int64_t session, std::int64_t time
       .run();
 }
 
+/// A person who has an appointment and never came is withdrawn as well.
+bool is_scheduled(Database& database, const std::string& participant) {
+  return Statement(database, "SELECT 1 FROM appointment WHERE participant = ?")
+      .bind(participant)
+      .step();
+}
+
 /// All rows of the sessions in one transaction, or none of them; with them goes the note that
 /// what they were may still be read in the file.
 void delete_rows(Database& database, const std::string& participant,
@@ -80,13 +87,14 @@ void delete_rows(Database& database, const std::string& participant,
   for (const auto& [name, sql] : all_guards) database.execute("DROP TRIGGER " + name);
   for (const std::int64_t session : sessions) {
     leave_tombstone(database, session, time_ns);
-    for (const char* table :
-         {"question_answer", "answer", "presentation", "trial", "design", "event", "session"}) {
+    for (const char* table : {"acknowledgement", "question_answer", "answer", "presentation",
+                              "trial", "design", "event", "session"}) {
       Statement(database, std::string("DELETE FROM ") + table + " WHERE session = ?")
           .bind(session)
           .run();
     }
   }
+  Statement(database, "DELETE FROM appointment WHERE participant = ?").bind(participant).run();
   for (const auto& [name, sql] : all_guards) database.execute(sql);
   transaction.commit();
 }
@@ -104,11 +112,16 @@ void remove_unknown_recordings(const StudyStore& store,
   }
 }
 
-/// Deletes what one folder holds of the participant. Returns the sessions that it ever had.
-/// `sessions`: those that the study had, where the folder is a copy of it.
-std::vector<std::int64_t> erase_in(const fs::path& folder, const std::string& participant,
-                                   std::int64_t time_ns,
-                                   const std::vector<std::int64_t>& sessions = {}) {
+/// What one folder ever had of a participant.
+struct Erased {
+  bool anything = false;
+  std::vector<std::int64_t> sessions;
+};
+
+/// Deletes what one folder holds of the participant. `sessions`: those that the study had,
+/// where the folder is a copy of it.
+Erased erase_in(const fs::path& folder, const std::string& participant, std::int64_t time_ns,
+                const std::vector<std::int64_t>& sessions = {}) {
   require_study(folder);
   const WriterLock lock(folder);
   Database database(folder / "study.sqlite", Database::Mode::kReadWrite,
@@ -117,20 +130,25 @@ std::vector<std::int64_t> erase_in(const fs::path& folder, const std::string& pa
   // Freed pages are overwritten with zeros; VACUUM and the emptied log leave no old ones.
   database.execute("PRAGMA secure_delete = ON");
   const std::vector<std::int64_t> there = sessions_in(database, "session", participant);
-  if (!there.empty()) delete_rows(database, participant, there, time_ns);
-  std::vector<std::int64_t> gone = sessions_in(database, "withdrawal", participant);
+  if (!there.empty() || is_scheduled(database, participant)) {
+    delete_rows(database, participant, there, time_ns);
+  }
+  const std::vector<std::int64_t> gone = sessions_in(database, "withdrawal", participant);
   {
     const StudyStore store(folder, StudyStore::Mode::kReadOnly);
     for (const std::int64_t session : gone) remove_recording(store.recording_file(session));
     remove_unknown_recordings(store, sessions);
   }
-  if (gone.empty()) return gone;
+  // Withdrawals of older layouts have no step.
+  const Erased erased{.anything = !gone.empty() || !state_of(database, participant).empty(),
+                      .sessions = gone};
+  if (!erased.anything) return erased;
   database.execute("VACUUM");
   database.checkpoint();
   if (state_of(database, participant) != kFinished) {
     note_state(database, participant, kErased, time_ns);
   }
-  return gone;
+  return erased;
 }
 
 void finish_in(const fs::path& folder, const std::string& participant, std::int64_t time_ns) {
@@ -162,8 +180,9 @@ std::string id_of(const fs::path& folder) {
 WithdrawalReport withdraw(const fs::path& folder, const std::string& participant,
                           std::int64_t time_ns) {
   WithdrawalReport report;
-  report.sessions = erase_in(folder, participant, time_ns);
-  if (report.sessions.empty()) {
+  const Erased erased = erase_in(folder, participant, time_ns);
+  report.sessions = erased.sessions;
+  if (!erased.anything) {
     throw Error(folder.string() +
                 ": expected a participant of this study, found no session of " + participant);
   }
@@ -185,7 +204,7 @@ WithdrawalReport withdraw(const fs::path& folder, const std::string& participant
         }
       }
       add_notes(notes, noted_exports(backup));
-      if (!erase_in(backup, participant, time_ns, report.sessions).empty()) {
+      if (erase_in(backup, participant, time_ns, report.sessions).anything) {
         finish_in(backup, participant, time_ns);
       }
       report.backups.push_back(backup);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/for_people.h"
 #include "device/exoskeleton/exoskeleton_device.h"
 #include "device/exoskeleton/exoskeleton_options.h"
 #include "device/lumped_hand_device.h"
@@ -69,8 +70,9 @@ std::unique_ptr<HapticDevice> network_device(std::string_view argument, double r
 constexpr std::array kDevices = {
     DeviceEntry{.name = "lumped",
                 .argument = "",
-                .description = "a simulated hand: one mass drawn through the medium by a "
-                               "simulated arm",
+                .description =
+                    core::for_people("a simulated hand: one mass drawn through the medium by a "
+                                     "simulated arm"),
                 .make = [](std::string_view, double rate_hz) -> std::unique_ptr<HapticDevice> {
                   return std::make_unique<LumpedHandDevice>(
                       LumpedHandDevice::Parameters{.rate_hz = rate_hz});
@@ -78,42 +80,47 @@ constexpr std::array kDevices = {
     DeviceEntry{
         .name = "exoskeleton",
         .argument = "",
-        .description = "the simulated hand exoskeleton on its arm, 22 degrees of freedom, "
-                       "with a simulated hand on it",
+        .description = core::for_people(
+            "the simulated hand exoskeleton on its arm, 22 degrees of freedom, "
+            "with a simulated hand on it"),
         .make = [](std::string_view options, double rate_hz) -> std::unique_ptr<HapticDevice> {
           ExoskeletonDevice::Parameters parameters = exoskeleton_parameters(options);
           parameters.rate_hz = rate_hz;
           return std::make_unique<ExoskeletonDevice>(parameters);
         },
         .optional_argument = kExoskeletonOptions},
-    DeviceEntry{.name = "mouse",
-                .argument = "",
-                .description = "a hand that a person draws with the mouse and sees lag behind, "
-                               "for trying things out without a robot",
-                .make = [](std::string_view, double rate_hz) -> std::unique_ptr<HapticDevice> {
-                  return std::make_unique<MouseDevice>(
-                      MouseDevice::Parameters{.rate_hz = rate_hz});
-                }},
+    DeviceEntry{
+        .name = "mouse",
+        .argument = "",
+        .description =
+            core::for_people("a hand that a person draws with the mouse and sees lag behind, "
+                             "for trying things out without a robot"),
+        .make = [](std::string_view, double rate_hz) -> std::unique_ptr<HapticDevice> {
+          return std::make_unique<MouseDevice>(MouseDevice::Parameters{.rate_hz = rate_hz});
+        }},
     DeviceEntry{.name = "network",
                 .argument = "HOST:PORT",
-                .description = "a device that another program serves, such as "
-                               "`jnd device-simulator`; it says what it can do when asked; "
-                               "behind the address key=NAME, simulated or real, with commas "
-                               "between",
+                .description = core::for_people(
+                    "a device that another program serves, such as "
+                    "`jnd device-simulator`; it says what it can do when asked; "
+                    "behind the address key=NAME, simulated or real, with commas "
+                    "between"),
                 .make = network_device},
     DeviceEntry{.name = "plugin",
                 .argument = "PATH",
-                .description = "a device by a driver of your own, a shared object with the "
-                               "functions of jnd_device.h; behind the path and a colon "
-                               "simulated or real, and KEY=VALUE for the driver, with commas "
-                               "between",
+                .description = core::for_people(
+                    "a device by a driver of your own, a shared object with the "
+                    "functions of jnd_device.h; behind the path and a colon "
+                    "simulated or real, and KEY=VALUE for the driver, with commas "
+                    "between"),
                 .make = make_plugin_device},
     DeviceEntry{
         .name = "twin",
         .argument = "",
-        .description = "a simulated device with the faults of real ones (its own frame, "
-                       "weight, friction, gain, delay), for measuring it: "
-                       "`jnd commission`",
+        .description =
+            core::for_people("a simulated device with the faults of real ones (its own frame, "
+                             "weight, friction, gain, delay), for measuring it: "
+                             "`jnd commission`"),
         .make = [](std::string_view options, double rate_hz) -> std::unique_ptr<HapticDevice> {
           TwinDevice::Parameters parameters = twin_parameters(options);
           parameters.rate_hz = rate_hz;
@@ -122,7 +129,8 @@ constexpr std::array kDevices = {
         .optional_argument = kTwinOptions},
     DeviceEntry{.name = "unplugged",
                 .argument = "",
-                .description = "a device that never starts, to rehearse what happens then",
+                .description = core::for_people(
+                    "a device that never starts, to rehearse what happens then"),
                 .make = [](std::string_view, double rate_hz) -> std::unique_ptr<HapticDevice> {
                   return std::make_unique<UnpluggedDevice>(rate_hz);
                 }},

@@ -2,6 +2,7 @@
 
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/protocol/design_tables.h"
+#include "experiments/protocol/sound_tables.h"
 #include "experiments/protocol/stage_tables.h"
 #include "experiments/study/media.h"
 
@@ -124,6 +125,8 @@ const ParameterTable& block_table() {
                    .required = false,
                    .max_items = 20,
                    .nested = &questionnaire_item_table()});
+    own.push_back(masking_noise_parameter(/*of_block=*/true));
+    own.push_back(cues_parameter(/*of_block=*/true));
     own.push_back({.key = "free_space_between_s",
                    .kind = ValueKind::kNumber,
                    .meaning = "Free space before each trial.",

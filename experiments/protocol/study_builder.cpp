@@ -223,6 +223,40 @@ std::vector<QuestionnaireItem> questions(const ObjectReader& in, const std::stri
   return found;
 }
 
+SoundLevel sound_level(const ObjectReader& in) {
+  return {.level_db_spl = in.optional_number("level_db_spl"),
+          .level_dbfs = in.optional_number("level_dbfs")};
+}
+
+MaskingNoise masking_noise(const ObjectReader& in) {
+  using Kind = MaskingNoise::Kind;
+  const std::string kind = in.string("kind");
+  return {.kind = kind == "white"  ? Kind::kWhite
+                  : kind == "pink" ? Kind::kPink
+                  : kind == "band" ? Kind::kBand
+                                   : Kind::kNone,
+          .level = sound_level(in),
+          .low_hz = in.number("low_hz"),
+          .high_hz = in.number("high_hz"),
+          .ramp_s = in.number("ramp_s"),
+          .required = in.boolean("required")};
+}
+
+std::vector<Cue> cues(const ObjectReader& in) {
+  std::vector<Cue> found;
+  in.each_object("cues", [&](const ObjectReader& cue, std::size_t) {
+    Cue read{.frequency_hz = cue.number("frequency_hz"),
+             .duration_s = cue.number("duration_s"),
+             .level = sound_level(cue),
+             .required = cue.boolean("required")};
+    for (const CueMoment moment : kCueMoments) {
+      if (name(moment) == cue.string("moment")) read.moment = moment;
+    }
+    found.push_back(std::move(read));
+  });
+  return found;
+}
+
 Block block(const ObjectReader& in) {
   Block block;
   block.procedure = in.string("procedure");
@@ -276,6 +310,8 @@ Block block(const ObjectReader& in) {
   block.participant_answers = in.string("answered_by") == "participant";
   block.levels = in.names("levels");
   block.questions = questions(in, "questions");
+  if (in.has("masking_noise")) block.masking_noise = masking_noise(in.object("masking_noise"));
+  if (in.has("cues")) block.cues = cues(in);
   return block;
 }
 
@@ -463,6 +499,10 @@ Study build_study(const LocatedJson& file, std::string text) {
   if (limits.has("max_trials_without_break")) {
     study.session_limits.max_trials_without_break = limits.integer("max_trials_without_break");
   }
+  if (in.has("masking_noise")) {
+    study.sound.masking_noise = masking_noise(in.object("masking_noise"));
+  }
+  study.sound.cues = cues(in);
   const ObjectReader markers = in.object("markers");
   for (std::size_t kind = 0; kind < core::kNumMarkerKinds; ++kind) {
     study.markers.codes[kind] = markers.integer(std::string(core::kMarkerNames[kind]));

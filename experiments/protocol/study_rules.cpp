@@ -16,6 +16,7 @@
 #include "experiments/protocol/participant_field_rules.h"
 #include "experiments/protocol/sequential_rules.h"
 #include "experiments/protocol/session_rules.h"
+#include "experiments/protocol/sound_rules.h"
 #include "experiments/protocol/stage_tables.h"
 #include "experiments/protocol/standard_rules.h"
 #include "experiments/protocol/study_check.h"
@@ -375,6 +376,7 @@ void check_study_rules(const LocatedJson& file, std::vector<StudyProblem>& probl
   check_timing_rules(file, problems);
   check_order_rules(file, problems);
   check_interleaved_rules(file, problems);
+  check_sound_rules(file, problems);
   check_participant_field_rules(file, problems);
   check_design_rules(file, problems);
   check_sequential_rules(file, problems);

@@ -4,6 +4,7 @@
 
 #include "core/marker.h"
 #include "experiments/protocol/design_tables.h"
+#include "experiments/protocol/sound_tables.h"
 #include "experiments/protocol/stage_tables.h"
 
 namespace jnd::experiments {
@@ -278,6 +279,8 @@ const ParameterTable& study_table() {
            .meaning = "What can be asked of a participant in one session.",
            .required = false,
            .nested = &session_limits_table()},
+          masking_noise_parameter(/*of_block=*/false),
+          cues_parameter(/*of_block=*/false),
           {.key = "markers",
            .kind = ValueKind::kObject,
            .meaning = "The codes of pulses to another recorder. Absent: those of the table.",
@@ -332,6 +335,8 @@ const std::vector<const ParameterTable*>& all_tables() {
                                                  &force_map_row_table(),
                                                  &participant_field_table(),
                                                  &session_limits_table(),
+                                                 &masking_noise_table(),
+                                                 &cue_table(),
                                                  &markers_table(),
                                                  &factor_table(),
                                                  &contrast_table(),

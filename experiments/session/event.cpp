@@ -25,9 +25,10 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "arming_changed",     "exposure_told",        "guard_noticed",
     "fitting_kept",       "question_answered",    "turn_taken",
     "pause_explained",    "stream_opened",        "stream_closed",
-    "stream_failed",      "markers_opened",       "markers_sent",
-    "markers_closed",     "markers_failed",       "session_completed",
-    "session_ended_early"};
+    "stream_failed",      "sound_started",        "cues_played",
+    "sound_measured",     "sound_missing",        "markers_opened",
+    "markers_sent",       "markers_closed",       "markers_failed",
+    "session_completed",  "session_ended_early"};
 
 json exposure_json(const core::Exposure& exposure) {
   return {{"force_time_n_s", exposure.force_time_n_s},
@@ -256,6 +257,34 @@ struct Writer {
   void operator()(const StreamFailed& e) const {
     data = {{"direction", e.direction}, {"name", e.name}, {"problem", e.problem}};
   }
+  void operator()(const SoundStarted& e) const {
+    data = {{"output", e.output},
+            {"scheduler", e.scheduler},
+            {"rate_hz", e.rate_hz},
+            {"cue_delay_s", e.cue_delay_s},
+            {"full_scale_db_spl", json_of(e.full_scale_db_spl)},
+            {"calibrated_on", e.calibrated_on},
+            {"noise_level_dbfs", json_of(e.noise_level_dbfs)}};
+  }
+  void operator()(const CuesPlayed& e) const {
+    data = {{"cues", json::array()}};
+    for (const PlayedCue& cue : e.cues) {
+      data["cues"].push_back({{"moment", cue.moment},
+                              {"trial", cue.trial},
+                              {"attempt", cue.attempt},
+                              {"presentation", cue.presentation},
+                              {"asked_monotonic_s", cue.asked_monotonic_s},
+                              {"heard_monotonic_s", cue.heard_monotonic_s}});
+    }
+  }
+  void operator()(const SoundMeasured& e) const {
+    data = {{"num_frames", e.num_frames},
+            {"num_underruns", e.num_underruns},
+            {"num_limited", e.num_limited},
+            {"num_lost_cues", e.num_lost_cues},
+            {"max_latency_s", e.max_latency_s}};
+  }
+  void operator()(const SoundMissing& e) const { data = {{"problem", e.problem}}; }
   void operator()(const MarkersOpened& e) const {
     data = {{"port", e.port}, {"way", e.way}, {"width_s", e.width_s}, {"codes", e.codes}};
   }
@@ -465,6 +494,34 @@ struct Reader {
     data.at("name").get_to(e.name);
     data.at("problem").get_to(e.problem);
   }
+  void operator()(SoundStarted& e) const {
+    data.at("output").get_to(e.output);
+    data.at("scheduler").get_to(e.scheduler);
+    e.rate_hz = data.at("rate_hz").get<double>();
+    e.cue_delay_s = data.at("cue_delay_s").get<double>();
+    read_json(data.at("full_scale_db_spl"), "full_scale_db_spl", e.full_scale_db_spl);
+    data.at("calibrated_on").get_to(e.calibrated_on);
+    read_json(data.at("noise_level_dbfs"), "noise_level_dbfs", e.noise_level_dbfs);
+  }
+  void operator()(CuesPlayed& e) const {
+    for (const json& cue : list_at(data, "cues")) {
+      PlayedCue& read = e.cues.emplace_back();
+      cue.at("moment").get_to(read.moment);
+      read.trial = whole_number(cue.at("trial"), "trial");
+      read.attempt = whole_number(cue.at("attempt"), "attempt");
+      read.presentation = whole_number(cue.at("presentation"), "presentation");
+      read.asked_monotonic_s = cue.at("asked_monotonic_s").get<double>();
+      read.heard_monotonic_s = cue.at("heard_monotonic_s").get<double>();
+    }
+  }
+  void operator()(SoundMeasured& e) const {
+    e.num_frames = whole_number(data.at("num_frames"), "num_frames");
+    e.num_underruns = whole_number(data.at("num_underruns"), "num_underruns");
+    e.num_limited = whole_number(data.at("num_limited"), "num_limited");
+    e.num_lost_cues = whole_number(data.at("num_lost_cues"), "num_lost_cues");
+    e.max_latency_s = data.at("max_latency_s").get<double>();
+  }
+  void operator()(SoundMissing& e) const { data.at("problem").get_to(e.problem); }
   void operator()(MarkersOpened& e) const {
     data.at("port").get_to(e.port);
     data.at("way").get_to(e.way);

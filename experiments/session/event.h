@@ -265,6 +265,50 @@ struct StreamFailed {
   std::string problem;  ///< A sentence.
 };
 
+/// What the participant hears began to play, or plays again.
+struct SoundStarted {
+  std::string output;     ///< In words: "ALSA 1.2.8, default, 48000 Hz, ...".
+  std::string scheduler;  ///< Of its thread: "SCHED_FIFO 20".
+  double rate_hz = 0.0;
+  /// From the moment that a cue is asked for to its being heard, as the library reports the
+  /// buffers that it knows of; the same for every cue.
+  double cue_delay_s = 0.0;
+  /// Sound pressure level of a sine of full scale; none where the output is not calibrated.
+  std::optional<double> full_scale_db_spl;
+  std::string calibrated_on;  ///< The day; "".
+  /// Of the study's noise as it is played; none where there is none.
+  std::optional<double> noise_level_dbfs;
+};
+
+/// A tone that the participant heard.
+struct PlayedCue {
+  std::string moment;                   ///< "ready", "begin" or "end".
+  std::int64_t trial = 0, attempt = 1;  ///< Of a cue `ready`, the attempt that comes.
+  std::int64_t presentation = 0;        ///< Of the attempt, from 1; 0: none.
+  /// Of the monotonic clock, which samples have as well: when it was asked for, and when its
+  /// first sample was heard as far as the library knows.
+  double asked_monotonic_s = 0.0, heard_monotonic_s = 0.0;
+};
+
+/// Cues since this was told last.
+struct CuesPlayed {
+  std::vector<PlayedCue> cues;
+};
+
+/// How the sound has been since it began to play.
+struct SoundMeasured {
+  std::int64_t num_frames = 0;     ///< Samples of a channel.
+  std::int64_t num_underruns = 0;  ///< Gaps.
+  std::int64_t num_limited = 0;    ///< Samples that the limiter turned down.
+  std::int64_t num_lost_cues = 0;  ///< That were asked for and found no place.
+  double max_latency_s = 0.0;      ///< Longest from computation to hearing, as reported.
+};
+
+/// The study has sound and it is not heard, or not any more.
+struct SoundMissing {
+  std::string problem;
+};
+
 /// The port by which another recorder is told of what happens: it is open.
 struct MarkersOpened {
   std::string port;  ///< "/dev/ttyUSB0"
@@ -301,8 +345,9 @@ using EventData = std::variant<
     AnswerUndone, AnswerCorrected, AttemptDiscarded, TrialExcluded, TrialIncluded, NoteAdded,
     Paused, Continued, FaultRaised, SessionResumed, LoopStarted, LoopMeasured, Unblinded,
     ArmingChanged, ExposureTold, GuardNoticed, FittingKept, QuestionAnswered, TurnTaken,
-    PauseExplained, StreamOpened, StreamClosed, StreamFailed, MarkersOpened, MarkersSent,
-    MarkersClosed, MarkersFailed, SessionCompleted, SessionEndedEarly>;
+    PauseExplained, StreamOpened, StreamClosed, StreamFailed, SoundStarted, CuesPlayed,
+    SoundMeasured, SoundMissing, MarkersOpened, MarkersSent, MarkersClosed, MarkersFailed,
+    SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

@@ -560,6 +560,14 @@ void Session::stream_closed(const StreamClosed& stream) { commit(stream); }
 
 void Session::stream_failed(const StreamFailed& stream) { commit(stream); }
 
+void Session::sound_started(const SoundStarted& sound) { commit(sound); }
+
+void Session::cues_played(const CuesPlayed& played) { commit(played); }
+
+void Session::sound_measured(const SoundMeasured& sound) { commit(sound); }
+
+void Session::sound_missing(const SoundMissing& sound) { commit(sound); }
+
 void Session::markers_opened(const MarkersOpened& port) { commit(port); }
 
 void Session::markers_sent(const MarkersSent& sent) { commit(sent); }

@@ -164,6 +164,10 @@ class Session {
   void stream_opened(const StreamOpened& stream);
   void stream_closed(const StreamClosed& stream);
   void stream_failed(const StreamFailed& stream);
+  void sound_started(const SoundStarted& sound);
+  void cues_played(const CuesPlayed& played);
+  void sound_measured(const SoundMeasured& sound);
+  void sound_missing(const SoundMissing& sound);
   void markers_opened(const MarkersOpened& port);
   void markers_sent(const MarkersSent& sent);
   void markers_closed(const MarkersClosed& port);

@@ -172,6 +172,10 @@ struct Fold {
   void operator()(const StreamOpened&) const {}
   void operator()(const StreamClosed&) const {}
   void operator()(const StreamFailed&) const {}
+  void operator()(const SoundStarted&) const {}
+  void operator()(const CuesPlayed&) const {}
+  void operator()(const SoundMeasured&) const {}
+  void operator()(const SoundMissing&) const {}
   void operator()(const MarkersOpened&) const {}
   void operator()(const MarkersSent&) const {}
   void operator()(const MarkersClosed&) const {}
@@ -283,7 +287,11 @@ void apply(SessionState& state, const Event& event) {
   std::visit(Fold{state, event}, event.data);
   state.last_sequence = event.sequence;
   state.last_time_ns = event.time_ns;
-  const bool is_afterwards = std::holds_alternative<TrialExcluded>(event.data) ||
+  const bool is_after_end =
+      state.ended && (std::holds_alternative<AnswerCorrected>(event.data) ||
+                      std::holds_alternative<NoteAdded>(event.data));
+  const bool is_afterwards = is_after_end ||
+                             std::holds_alternative<TrialExcluded>(event.data) ||
                              std::holds_alternative<TrialIncluded>(event.data) ||
                              std::holds_alternative<Unblinded>(event.data);
   if (!is_afterwards) state.visit_last_ns = event.time_ns;

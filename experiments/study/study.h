@@ -14,6 +14,7 @@
 #include "core/media/viscous_drag.h"
 #include "experiments/study/design.h"
 #include "experiments/study/settings.h"
+#include "experiments/study/sound.h"
 
 namespace jnd::experiments {
 
@@ -140,7 +141,9 @@ struct Block {
   bool participant_answers = false;         ///< By a control of theirs, not by telling.
   /// Asked after the answer to every trial, in this order, before the next one may begin.
   std::vector<QuestionnaireItem> questions;
-  Settings settings;  ///< The procedure's own keys, all of them.
+  std::optional<MaskingNoise> masking_noise{};  ///< In place of the study's; see `sound_of`.
+  std::optional<std::vector<Cue>> cues{};       ///< Likewise.
+  Settings settings;                            ///< The procedure's own keys, all of them.
 
   /// A surface that is pressed, not a fluid that is stroked through.
   [[nodiscard]] bool is_pressed() const;
@@ -262,6 +265,7 @@ struct Study {
   DeviceNeeds device;
   Blinding blinding = Blinding::kNone;
   SessionLimits session_limits;
+  Sound sound;  ///< Heard in all of it but where a block says otherwise; see `sound_of`.
   core::MarkerCodes markers;  ///< Of the pulses that tell another recorder of a session.
   std::vector<ParticipantField> participant_fields;
   std::vector<DesignFactor> factors;

@@ -51,6 +51,14 @@ class HandMadeStudy {
     return profile_hash;
   }
 
+  /// An event of this kind without anything but its data; its sequence.
+  std::int64_t happens(const std::string& kind, const std::string& data = "{}") {
+    core::Commit happened = event(kind.c_str());
+    happened.event.data = data;
+    store_.append(happened);
+    return happened.event.sequence;
+  }
+
   /// The session added last began, with this of its participant as JSON.
   void start(const std::string& data) {
     core::Commit started = event("session_started");

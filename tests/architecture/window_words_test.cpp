@@ -30,7 +30,6 @@ const std::vector<std::string> kFolders = {"app/gui", "app/operator"};
 const std::map<std::string, std::string> kWithout = {
     {"app/gui/frame_times.", "a log for tests, and what is said on the terminal of it"},
     {"app/gui/hand_sign.", "names of signs, for the log of tests"},
-    {"app/gui/input_queue.", "names of keys, as they are printed on them"},
     {"app/gui/robot_scene.", "XML for the model of the apparatus"},
     {"app/gui/theme_fonts.", "names of files"},
     {"app/gui/widget_log.", "a log for tests"},

@@ -102,6 +102,7 @@ as_anna 'jnd results first_look/viscosity_discrimination.study' >"$kept/results.
 as_anna 'jnd report first_look/viscosity_discrimination.study --out report' >>"$kept/results.txt" || fail "no report"
 lap "jnd results, jnd report"
 as_anna 'jnd devices' | grep -q force_dimension || fail "expected the driver force_dimension among the devices"
+as_anna 'test -s /usr/share/jnd/languages/de/LC_MESSAGES/jnd.mo' || fail "expected the window's words in German, found none"
 as_anna 'jnd doctor --fix --dry-run' >"$kept/doctor.txt" || fail "doctor --fix --dry-run failed"
 inside jnd doctor --fix --user anna >>"$kept/doctor.txt" 2>&1 || fail "doctor --fix failed; see $kept/doctor.txt"
 inside id -nG anna | grep -qw jnd || fail "expected anna in the group jnd after doctor --fix"

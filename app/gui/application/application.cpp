@@ -36,8 +36,10 @@ Application::Application(WindowRequest request, std::function<void()> wake)
       prepare_(*this, study_, request_, controls_),
       session_(*this, study_, request_.allow_no_realtime,
                request_.resume_session ? request_.device_profile.string() : "",
-               request_.streams, request_.markers, controls_),
+               request_.streams, request_.markers, controls_, request_.sound_output),
       sessions_(*this, study_),
+      overview_(*this, study_, request_),
+      record_(*this, study_),
       results_(*this, study_),
       study_screen_(*this, study_),
       device_(*this, study_, request_),
@@ -230,6 +232,14 @@ void Application::draw_participant(Ui& ui) {
 
 // What stands on every view.
 
+/// The one after the language that is spoken; nullptr where there is no other one.
+const Language* Application::next_language() const {
+  const auto now = std::ranges::find(languages_, spoken_language(), &Language::code);
+  if (languages_.size() < 2) return nullptr;
+  const bool is_last = now == languages_.end() || now + 1 == languages_.end();
+  return &*(is_last ? languages_.begin() : now + 1);
+}
+
 void Application::draw_corner(Ui& ui) {
   Rect strip = ui.screen().take_bottom(40);
   strip.take_right(12);
@@ -247,6 +257,14 @@ void Application::draw_corner(Ui& ui) {
         {"dark", ui.theme().dark() ? tr("Light") : tr("Dark"), {letter('D'), true}, [&] {
            ui.theme().set_dark(!ui.theme().dark());
          }});
+  }
+  // What was made in a language stays in it, and at the start there is next to nothing.
+  const Language* other = shows(start_) ? next_language() : nullptr;
+  if (other != nullptr) {
+    corners.push_back({"language", other->name.c_str(), {letter('L'), true}, [&] {
+                         wanted_language_ = other->code;
+                         closed_ = true;
+                       }});
   }
   for (const Corner& corner : corners) {
     const ButtonStyle style{.tone = Tone::kQuiet, .key = corner.key};

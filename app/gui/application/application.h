@@ -3,13 +3,16 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/command_line/open_window.h"
 #include "app/gui/application/data_screen.h"
 #include "app/gui/application/device_screen.h"
 #include "app/gui/application/open_study.h"
+#include "app/gui/application/overview_screen.h"
 #include "app/gui/application/prepare_screen.h"
+#include "app/gui/application/record_screen.h"
 #include "app/gui/application/results_screen.h"
 #include "app/gui/application/screen.h"
 #include "app/gui/application/session_screen.h"
@@ -18,6 +21,7 @@
 #include "app/gui/application/study_screen.h"
 #include "app/gui/participant_stop.h"
 #include "app/gui/ui.h"
+#include "app/language/words.h"
 #include "app/operator/answer_controls.h"
 #include "app/operator/recent_studies.h"
 
@@ -54,6 +58,12 @@ class Application final : private ScreenHost {
   [[nodiscard]] bool closed() const noexcept { return closed_; }
   /// What the person chose on top of the monitor's scale.
   [[nodiscard]] float zoom() const noexcept { return zoom_; }
+  void set_zoom(float zoom) noexcept { zoom_ = zoom; }
+  /// Languages that the start lets people choose from; none at first.
+  void offer(std::vector<Language> languages) { languages_ = std::move(languages); }
+  /// The code of the language that was chosen instead of the one that is spoken, for which the
+  /// window begins anew; "" for none.
+  [[nodiscard]] const std::string& wanted_language() const noexcept { return wanted_language_; }
 
   /// The emergency stop; past everything else.
   void escape() noexcept;
@@ -82,7 +92,14 @@ class Application final : private ScreenHost {
     return screen_ == &screen;
   }
   void go_to(StudyTab tab) override;
-  void prepare_session() override { show(prepare_); }
+  void prepare_session(const std::string& participant) override {
+    prepare_.propose(participant);
+    show(prepare_);
+  }
+  void show_session(std::int64_t session) override {
+    record_.choose(session);
+    show(record_);
+  }
   void open(const std::filesystem::path& path) override;
   void start_session(const NewSession& session) override;
   void resume_session(const std::filesystem::path& folder, std::int64_t session) override;
@@ -98,6 +115,7 @@ class Application final : private ScreenHost {
   void show_first();
   void keep_stopped() noexcept;
   void draw_corner(Ui& ui);
+  [[nodiscard]] const Language* next_language() const;
   void draw_message(Ui& ui);
   void take_global_keys(Ui& ui);
 
@@ -110,12 +128,15 @@ class Application final : private ScreenHost {
   PrepareScreen prepare_;
   SessionScreen session_;
   SessionsScreen sessions_;
+  OverviewScreen overview_;
+  RecordScreen record_;
   ResultsScreen results_;
   StudyScreen study_screen_;
   DeviceScreen device_;
   DataScreen data_;
-  const std::vector<Screen*> screens_ = {&start_,   &prepare_,      &session_, &sessions_,
-                                         &results_, &study_screen_, &device_,  &data_};
+  const std::vector<Screen*> screens_ = {&start_,    &prepare_, &session_, &sessions_,
+                                         &overview_, &record_,  &results_, &study_screen_,
+                                         &device_,   &data_};
   Screen* screen_ = &start_;  ///< That stands in the window.
 
   ParticipantStop participant_stop_;
@@ -124,6 +145,8 @@ class Application final : private ScreenHost {
   bool shows_participant_ = false;
   bool shows_keys_ = false;
   float zoom_ = 1.0f;
+  std::vector<Language> languages_;
+  std::string wanted_language_;
   std::string message_title_, message_;
   std::vector<Drawn::Widget> last_widgets_;
 };

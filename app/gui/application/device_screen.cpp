@@ -15,7 +15,7 @@ std::vector<BenchModel::Choice> choices_with(const std::string& asked) {
     if (!entry.argument.empty()) continue;
     has_asked |= entry.name == asked;
     all.push_back({.name = std::string(entry.name),
-                   .description = std::string(entry.description),
+                   .description = tr(entry.description.data()),
                    .simulated = entry.make("", kDeviceRate_hz)->capabilities().simulated});
   }
   if (!has_asked && !asked.empty()) all.push_back({asked, tr("as it was asked for"), false});

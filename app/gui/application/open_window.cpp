@@ -15,6 +15,8 @@
 #include "app/gui/scene_thread.h"
 #include "app/gui/window.h"
 #include "app/language/words.h"
+#include "app/operator/recent_studies.h"
+#include "app/operator/remembered_language.h"
 #include "app/session/shipped_files.h"
 #include "core/error.h"
 
@@ -29,6 +31,12 @@ bool has_display() {
 }
 
 namespace {
+
+/// Where the window keeps what it remembers; "" without a home.
+std::filesystem::path state_folder() {
+  const std::filesystem::path recent = RecentStudies::default_file();
+  return recent.empty() ? std::filesystem::path() : recent.parent_path();
+}
 
 /// Opens and closes the participant's window as wanted; one closed by hand is wanted no more.
 void show_participant(gui::Window& window, gui::Application& application, bool& was_open) {
@@ -76,12 +84,15 @@ std::unique_ptr<gui::SceneThread> begin_scene(gui::SharedContext& context,
       [&window] { window.wake(); });
 }
 
-/// Lets the window and the application know of each other.
-void show(gui::Window& window, const WindowRequest& request) {
+/// Lets the window and the application know of each other. Returns the language that somebody
+/// chose, in which it is to begin anew; "" where the window is over.
+std::string show(gui::Window& window, const WindowRequest& request) {
   // Made when the apparatus is first looked at; gone before OpenGL is.
   std::unique_ptr<gui::SharedContext> scene_context;
   std::unique_ptr<gui::SceneThread> scene;
   gui::Application application(request, [&window] { window.wake(); });
+  application.set_zoom(window.zoom());
+  application.offer(languages_in(languages_folder()));
   application.set_scene_painter([&](const gui::SceneRequest& request) {
     if (scene == nullptr) {
       scene_context = window.make_shared_context();
@@ -118,6 +129,21 @@ void show(gui::Window& window, const WindowRequest& request) {
     if (application.zoom() != window.zoom()) window.set_zoom(application.zoom());
     if (application.closed()) window.close();
   });
+  window.close_second();
+  return application.wanted_language();
+}
+
+/// In the language that was chosen last, until the window is over.
+void show_in_languages(gui::Window& window, WindowRequest request) {
+  for (;;) {
+    const std::string language = show(window, request);
+    if (language.empty()) return;
+    remember_language(state_folder(), language);
+    begin_language(languages_folder(), language);
+    // It was chosen at the start, and there the window stays.
+    request.study_folder.clear();
+    request.resume_session.reset();
+  }
 }
 
 }  // namespace
@@ -128,11 +154,11 @@ int open_window(const WindowRequest& request) {
         "no display was found for the window; use --headless where a command has it, `jnd "
         "--help` lists what works without one");
   }
-  begin_language(languages_folder());
+  begin_language(languages_folder(), remembered_language(state_folder()));
   try {
     gui::Window window;
     stop_on_signals();
-    show(window, request);
+    show_in_languages(window, request);
     if (stop_requested()) {
       std::fputs(
           "jnd: told to end; every answer is on disk, and a session under way can be resumed\n",

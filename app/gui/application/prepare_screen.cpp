@@ -3,9 +3,15 @@
 #include <utility>
 
 #include "app/language/words.h"
+#include "app/operator/appointments.h"
 #include "app/operator/study_words.h"
 #include "app/session/fitting.h"
 #include "app/session/pseudonym.h"
+#include "app/sound/sound_outputs.h"
+#include "app/sound/sound_plan.h"
+#include "app/sound/sound_settings.h"
+#include "core/clock.h"
+#include "core/error.h"
 #include "device/haptic_device.h"
 #include "device/registry/device_registry.h"
 #include "experiments/order/counterbalance.h"
@@ -20,7 +26,7 @@ namespace {
 std::vector<PrepareModel::Device> devices_to_choose(const std::string& asked, double rate_hz) {
   std::vector<PrepareModel::Device> all;
   const auto add = [&](const std::string& name, std::string_view description) {
-    all.push_back({name, std::string(description),
+    all.push_back({name, tr(description.data()),
                    device::make_device(name, rate_hz)->capabilities().simulated});
   };
   for (const device::DeviceEntry& entry : device::devices()) {
@@ -56,8 +62,12 @@ void PrepareScreen::show() {
   state_.fields = std::exchange(request_.fields, {});
   state_.fitting = fitting_line(std::exchange(request_.fitting, {}));
   assign(store);
-  state_.participant = request_.participant.empty() ? next_participants(store, 1).front()
-                                                    : std::exchange(request_.participant, "");
+  state_.participant = std::exchange(request_.participant, "");
+  if (state_.participant.empty()) state_.participant = std::exchange(proposed_, "");
+  if (state_.participant.empty()) {
+    state_.participant = next_participant(store, core::appointments(study_.folder().folder),
+                                          core::SystemClock().now_ns());
+  }
   state_.pilot = state_.kind_is_chosen = request_.pilot;
   if (state_.device.empty()) {
     state_.device =
@@ -65,9 +75,77 @@ void PrepareScreen::show() {
   }
   devices_ = devices_to_choose(state_.device, study_.study().device.rate_hz);
   choose_kind(model(), state_);
-  state_.language = request_.language.empty() ? study_.study().languages.front()
+  state_.language = request_.language.empty() ? shown_language(study_.study().languages)
                                               : std::exchange(request_.language, "");
+  look_at_sound();
   look_before();
+}
+
+/// Which outputs there are, and how loud the study will be from the one that is chosen.
+void PrepareScreen::look_at_sound() {
+  constexpr std::size_t kMostLetters = 44;
+  sound_ = {.is_wanted = experiments::has_sound(study_.study()),
+            .is_required = experiments::requires_sound(study_.study())};
+  if (!sound_.is_wanted) return;
+  const SoundSettings settings;
+  try {
+    if (state_.sound_output.empty()) state_.sound_output = request_.sound_output;
+    if (state_.sound_output.empty()) state_.sound_output = settings.output();
+    const std::string asked = state_.sound_output == kSoundOff ? "" : state_.sound_output;
+    for (const KnownOutput& one : known_outputs(settings, asked)) {
+      sound_.outputs.push_back({.name = one.name,
+                                .description = one.description.substr(0, kMostLetters),
+                                .is_calibrated = one.calibration.has_value()});
+    }
+    judge_sound();
+  } catch (const core::Error& error) {
+    sound_.problem = error.what();
+  }
+}
+
+void PrepareScreen::judge_sound() {
+  sound_.levels.clear();
+  sound_.problem.clear();
+  if (state_.sound_output == kSoundOff) {
+    sound_.problem = tr("Nothing of the study's sound will be heard.");
+    return;
+  }
+  try {
+    sound_.levels =
+        sound_level_words(study_.study(), SoundSettings().calibration_of(state_.sound_output));
+  } catch (const core::Error& error) {
+    sound_.problem = error.what();
+  }
+}
+
+void PrepareScreen::try_sound() {
+  if (tried_sound_ != nullptr) return tried_sound_->end();
+  static constexpr auto kWhole = std::chrono::seconds(8);
+  host_.attempt(tr("The sound cannot be played"), [this] {
+    experiments::Sound sound = study_.study().sound;
+    if (sound.is_silent()) sound = experiments::sounds_of(study_.study()).back();
+    tried_sound_ = std::make_unique<TriedSound>(TriedSound::Parameters{
+        .output = state_.sound_output,
+        .calibration = SoundSettings().calibration_of(state_.sound_output),
+        .sound = sound});
+    next_cue_ = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    sound_ends_ = std::chrono::steady_clock::now() + kWhole;
+  });
+}
+
+void PrepareScreen::go_on_with_tried_sound() {
+  if (tried_sound_ == nullptr) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (const std::string problem = tried_sound_->state().problem; !problem.empty()) {
+    sound_.problem = problem;
+    tried_sound_.reset();
+    return;
+  }
+  if (now >= sound_ends_) tried_sound_->end();
+  if (tried_sound_->is_over()) return tried_sound_.reset();
+  if (now < next_cue_) return;
+  tried_sound_->give_next_cue();
+  next_cue_ += std::chrono::seconds(1);
 }
 
 /// Says in words which cell comes next, once what the participant brings is known.
@@ -76,11 +154,11 @@ void PrepareScreen::assign(const core::StudyStore& store) {
   const experiments::Study& study = study_.study();
   const bool knows_fields = field_problem(study, state_.fields).empty();
   if (study_.folder().hides_levels || !knows_fields) return;
-  assigned_ =
-      cell_words(experiments::planned_cells(study, experiments::completed_cells(store), seed_,
-                                            static_cast<std::int64_t>(store.sessions().size()),
-                                            1, state_.fields)
-                     .front());
+  assigned_ = cell_words(
+      study, experiments::planned_cells(study, experiments::completed_cells(store), seed_,
+                                        static_cast<std::int64_t>(store.sessions().size()), 1,
+                                        state_.fields)
+                 .front());
 }
 
 void PrepareScreen::look_before() {
@@ -91,6 +169,17 @@ void PrepareScreen::look_before() {
           .profile = state_.device == request_.device ? request_.device_profile.string() : "",
           .allow_no_realtime = request_.allow_no_realtime},
       host_.wake());
+}
+
+/// The next session begins with what this one was begun with.
+void PrepareScreen::keep_output() const {
+  if (!sound_.is_wanted || state_.sound_output == kSoundOff) return;
+  try {
+    const SoundSettings settings;
+    if (settings.output() != state_.sound_output) settings.choose(state_.sound_output);
+  } catch (const core::Error&) {
+    // A choice that cannot be kept is no reason not to begin.
+  }
 }
 
 void PrepareScreen::press_stop() noexcept {
@@ -104,13 +193,16 @@ PrepareModel PrepareScreen::model() const {
                      .fields = study_.study().participant_fields,
                      .taken = taken_,
                      .assigned = assigned_,
-                     .seed = seed_};
+                     .seed = seed_,
+                     .sound = sound_};
+  model.sound.is_tested = tried_sound_ != nullptr;
   if (preflight_ == nullptr) return model;
   model.lines = preflight_->lines();
   if (auto line = controls_line(controls_.map(), controls_.devices(),
                                 has_participant_answers(study_.study()))) {
     model.lines.push_back(std::move(*line));
   }
+  if (sound_.is_wanted) model.lines.push_back(sound_line(sound_, state_.sound_output));
   model.looking = preflight_->running();
   model.progress = preflight_->progress();
   return model;
@@ -140,7 +232,13 @@ void PrepareScreen::draw_controls(Ui& ui) {
 }
 
 void PrepareScreen::draw(Ui& ui) {
+  go_on_with_tried_sound();
   const PrepareViewResult result = draw_prepare_view(ui, model(), state_);
+  if (result.sound.output_changed) {
+    tried_sound_.reset();
+    judge_sound();
+  }
+  if (result.sound.test) try_sound();
   if (result.map_controls) {
     mapping_ = {.is_open = true};
     (void)controls_.take_events();  // Pressed before anybody mapped.
@@ -158,8 +256,10 @@ void PrepareScreen::draw(Ui& ui) {
   if (!result.start && result.tab == StudyTab::kNone) return;
   // The device is the session's, or nobody's.
   preflight_.reset();
+  tried_sound_.reset();
   controls_.prepare(false);
   if (result.start) {
+    keep_output();
     host_.attempt(tr("The session cannot be started"), [this] {
       host_.start_session({.participant = state_.participant,
                            .device = state_.device,
@@ -170,7 +270,8 @@ void PrepareScreen::draw(Ui& ui) {
                            .pilot = state_.pilot,
                            .language = state_.language,
                            .fields = state_.fields,
-                           .fitting = fitting_in(state_.fitting, tr("Fitting"))});
+                           .fitting = fitting_in(state_.fitting, tr("Fitting")),
+                           .sound_output = state_.sound_output});
     });
   } else {
     host_.go_to(result.tab);

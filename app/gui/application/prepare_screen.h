@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "app/gui/views/prepare_view.h"
 #include "app/operator/answer_controls.h"
 #include "app/operator/preflight.h"
+#include "app/sound/tried_sound.h"
 
 namespace jnd::app::gui {
 
@@ -26,15 +28,22 @@ class PrepareScreen final : public Screen {
   void show() override;
   void draw(Ui& ui) override;
   [[nodiscard]] bool works() const noexcept override {
-    return preflight_ && preflight_->running();
+    return (preflight_ && preflight_->running()) || tried_sound_ != nullptr;
   }
   void forget_study() override;
+  /// Who takes part next; "" for whoever the schedule says.
+  void propose(const std::string& participant) { proposed_ = participant; }
   /// Ends what the check does with a device; nothing where no check is under way.
   void press_stop() noexcept;
 
  private:
   void assign(const core::StudyStore& store);
   void look_before();
+  void look_at_sound();
+  void judge_sound();
+  void try_sound();
+  void go_on_with_tried_sound();
+  void keep_output() const;
   [[nodiscard]] PrepareModel model() const;
   void draw_controls(Ui& ui);
 
@@ -46,7 +55,11 @@ class PrepareScreen final : public Screen {
   PrepareViewState state_;
   std::vector<PrepareModel::Device> devices_;
   std::unique_ptr<Preflight> preflight_;  ///< Empty while a session has the device.
+  SoundModel sound_;
+  std::unique_ptr<TriedSound> tried_sound_;  ///< Empty while none is tried.
+  std::chrono::steady_clock::time_point next_cue_, sound_ends_;
   std::vector<std::string> taken_;
+  std::string proposed_;  ///< Who takes part next; used up by `show`.
   std::string assigned_;  ///< The cell that comes next, in words.
   std::uint64_t seed_ = 0;
 };

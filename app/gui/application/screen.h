@@ -43,6 +43,7 @@ struct NewSession {
   std::string language;
   std::map<std::string, std::string> fields;   ///< What the participant brings.
   std::map<std::string, std::string> fitting;  ///< How the device was fitted to them.
+  std::string sound_output;                    ///< As `SoundChoice::output`.
 };
 
 /// What a screen asks of the window around it.
@@ -52,8 +53,11 @@ class ScreenHost {
   [[nodiscard]] virtual bool shows(const Screen& screen) const noexcept = 0;
   /// Another screen, at once; why it cannot be opened is told. Nothing for `kNone`.
   virtual void go_to(StudyTab tab) = 0;
-  /// The screen before a session. Throws what keeps it from opening.
-  virtual void prepare_session() = 0;
+  /// The screen before a session, of this participant, or of whoever comes next where it is
+  /// "". Throws what keeps it from opening.
+  virtual void prepare_session(const std::string& participant) = 0;
+  /// The page of a stored session. Throws what keeps it from opening.
+  virtual void show_session(std::int64_t session) = 0;
   /// A study file, or the folder of a study. Throws `Error`.
   virtual void open(const std::filesystem::path& path) = 0;
   virtual void start_session(const NewSession& session) = 0;

@@ -7,6 +7,7 @@
 
 #include "app/language/words.h"
 #include "app/operator/remembered_stop.h"
+#include "app/operator/study_words.h"
 #include "app/profile/profile_choice.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
@@ -63,7 +64,8 @@ void SessionScreen::start(const NewSession& session) {
                                            {session.participant})
                                   .front();
   run(std::move(store), number,
-      session.language.empty() ? study.languages.front() : session.language, session.fitting);
+      session.language.empty() ? shown_language(study.languages) : session.language,
+      session.sound_output, session.fitting);
 }
 
 void SessionScreen::resume(std::int64_t session) {
@@ -78,11 +80,11 @@ void SessionScreen::resume(std::int64_t session) {
   } catch (const device::DeviceUnreachable&) {
     // Told by the session, which asks it again.
   }
-  run(std::move(store), session, /*language=*/"");
+  run(std::move(store), session, /*language=*/"", sound_output_);
 }
 
 void SessionScreen::run(std::unique_ptr<core::StudyStore> store, std::int64_t session,
-                        const std::string& language,
+                        const std::string& language, const std::string& sound_output,
                         const std::map<std::string, std::string>& fitting) {
   const core::SessionRow row = store->session(session);
   experiments::Study study = stored_study(*store, session);
@@ -111,6 +113,7 @@ void SessionScreen::run(std::unique_ptr<core::StudyStore> store, std::int64_t se
                                 .allow_no_realtime = allow_no_realtime_,
                                 .stops = stops_folder(),
                                 .streams = streams_,
+                                .sound = {.output = sound_output},
                                 .markers = markers_,
                                 .controls = controls_.words(),
                                 .wake = host_.wake()},
@@ -185,7 +188,8 @@ void SessionScreen::draw(Ui& ui) {
   if (worker_ == nullptr && result.to_results) {
     host_.go_to(StudyTab::kResults);
   } else if (worker_ == nullptr && result.to_sessions) {
-    host_.go_to(StudyTab::kSessions);
+    // Who comes next stands in the overview; who is alone is done.
+    host_.go_to(finished_ && !view_->is_alone ? StudyTab::kOverview : StudyTab::kSessions);
   }
 }
 

@@ -24,17 +24,19 @@ namespace jnd::app::gui {
 class SessionScreen final : public Screen {
  public:
   /// `device_profile`: that of sessions that are resumed, a file; "": looked for. `streams`: to
-  /// and of other recorders, of every session, as `markers`.
+  /// and of other recorders, of every session, as `markers`. `sound_output`: of those that are
+  /// resumed.
   SessionScreen(ScreenHost& host, OpenStudy& study, bool allow_no_realtime,
                 std::string device_profile, WantedStreams streams, WantedMarkers markers,
-                AnswerControls& controls)
+                AnswerControls& controls, std::string sound_output)
       : host_(host),
         study_(study),
         allow_no_realtime_(allow_no_realtime),
         device_profile_(std::move(device_profile)),
         streams_(std::move(streams)),
         markers_(std::move(markers)),
-        controls_(controls) {}
+        controls_(controls),
+        sound_output_(std::move(sound_output)) {}
   ~SessionScreen() override { controls_.end_session(); }
   SessionScreen(const SessionScreen&) = delete;
   SessionScreen& operator=(const SessionScreen&) = delete;
@@ -79,7 +81,8 @@ class SessionScreen final : public Screen {
 
  private:
   void run(std::unique_ptr<core::StudyStore> store, std::int64_t session,
-           const std::string& language, const std::map<std::string, std::string>& fitting = {});
+           const std::string& language, const std::string& sound_output,
+           const std::map<std::string, std::string>& fitting = {});
   void hold_input(Ui& ui, bool is_behind, bool requests_wait) const;
   [[nodiscard]] RunViewResult draw_session_view(Ui& ui);
   [[nodiscard]] ApparatusSources apparatus_sources();
@@ -94,6 +97,7 @@ class SessionScreen final : public Screen {
   WantedStreams streams_;
   WantedMarkers markers_;
   AnswerControls& controls_;
+  std::string sound_output_;
   OperatorExchange exchange_;
   std::unique_ptr<SessionWorker> worker_;
   std::shared_ptr<const SessionView> view_;

@@ -21,7 +21,9 @@ void SessionsScreen::draw(Ui& ui) {
   const fs::path folder = study_.folder().folder;
   if (result.cancel) study_.cancel_work();
   if (result.new_session) {
-    host_.attempt(tr("No session can be prepared"), [this] { host_.prepare_session(); });
+    host_.attempt(tr("No session can be prepared"), [this] { host_.prepare_session(""); });
+  } else if (result.show) {
+    host_.attempt(tr("The session cannot be shown"), [&] { host_.show_session(*result.show); });
   } else if (result.resume) {
     host_.attempt(tr("The session cannot be resumed"),
                   [&] { host_.resume_session(folder, *result.resume); });

@@ -10,7 +10,6 @@
 #include "app/language/words.h"
 #include "app/operator/device_look.h"
 #include "app/operator/study_outline.h"
-#include "app/session/shipped_files.h"
 #include "core/error.h"
 #include "core/storage/backup_mark.h"
 
@@ -18,19 +17,6 @@ namespace jnd::app::gui {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string> shipped_studies() {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(shipped_folder() / "protocols", error)) {
-    const std::string name = entry.path().filename().string();
-    if (entry.path().extension() == ".json" && !name.ends_with(".schema.json")) {
-      names.push_back(entry.path().stem().string());
-    }
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 /// The home folder is "~", as a shell writes it.
 std::string path_words(const fs::path& path) {
@@ -91,8 +77,10 @@ FolderEntry::Kind kind_of_study(const fs::path& folder) {
 
 StartModel look_around(const RecentStudies& recent, const std::string& device,
                        const std::string& profile, WorkControl& control) {
-  StartModel model{.shipped = shipped_studies(), .version = JND_VERSION};
-  for (const RecentStudy& study : recent.list()) {
+  const std::vector<RecentStudy> opened = recent.list();
+  StartModel model{
+      .drafts = draft_cards(opened), .shipped = shipped_study_cards(), .version = JND_VERSION};
+  for (const RecentStudy& study : opened) {
     control.stop_if_cancelled();
     if (study.exists) model.studies.push_back(start_study(study.path));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 
 #include "app/command_line/open_window.h"
@@ -24,6 +25,8 @@ class StartScreen final : public Screen {
 
  private:
   void start_tour();
+  void open(const std::filesystem::path& path, bool from_dialog);
+  void create(const StartViewResult::New& wanted);
 
   ScreenHost& host_;
   RecentStudies& recent_;

@@ -1,8 +1,12 @@
 #include "app/gui/application/study_screen.h"
 
 #include <chrono>
+#include <exception>
 
+#include "app/gui/views/file_dialog.h"
 #include "app/language/words.h"
+#include "app/operator/open_outside.h"
+#include "app/operator/study_folder.h"
 #include "app/operator/study_outline.h"
 #include "core/error.h"
 
@@ -15,7 +19,9 @@ static double now_s() {
       .count();
 }
 
-void StudyScreen::watch(const fs::path& file) { watch_ = std::make_unique<StudyWatch>(file); }
+void StudyScreen::watch(const fs::path& file) {
+  watch_ = std::make_unique<StudyWatch>(fs::absolute(file).lexically_normal());
+}
 
 void StudyScreen::show() {
   if (watch_ == nullptr && study_.is_open()) {
@@ -26,11 +32,16 @@ void StudyScreen::show() {
              "the file itself",
              study_.folder().folder.string()));
     }
-    watch_ = std::make_unique<StudyWatch>(file, !study_.folder().hides_levels);
+    // The text of the file tells what a blind study hides.
+    const bool may_see = !study_.folder().hides_levels;
+    watch_ = std::make_unique<StudyWatch>(file, may_see, may_see);
   }
   reloaded_s_ = age_shown_s_ = now_s();
   orders_.clear();
   orders_problem_ = "";
+  if (!study_.is_open()) {
+    proposed_folder_ = default_study_folder(watch_->outline().file.stem().string()).string();
+  }
   if (!watch_->study()) return;
   try {
     OrdersRequest request{.num_participants = state_.num_participants};
@@ -69,10 +80,30 @@ void StudyScreen::draw(Ui& ui) {
                        .orders = orders_,
                        .orders_problem = orders_problem_,
                        .num_reloads = watch_->num_reloads(),
-                       .since_reload_s = now_s() - reloaded_s_},
+                       .since_reload_s = now_s() - reloaded_s_,
+                       .proposed_folder = proposed_folder_},
                       state_);
   if (result.orders_changed) show();
-  host_.go_to(result.tab);
+  if (result.edit) {
+    const std::string problem = open_outside(watch_->outline().file);
+    if (!problem.empty()) host_.tell(tr("It cannot be opened"), problem);
+  } else if (result.begin) {
+    begin_study();
+  } else {
+    host_.go_to(result.tab);
+  }
+}
+
+/// Why it does not work stands in the dialog, with the path that was typed.
+void StudyScreen::begin_study() {
+  try {
+    const fs::path folder = typed_path(state_.new_folder);
+    create_study_folder(watch_->outline().file, folder);
+    host_.open(folder);
+  } catch (const std::exception& error) {
+    state_.asks_for_folder = state_.dialog_is_new = true;
+    state_.folder_problem = error.what();
+  }
 }
 
 }  // namespace jnd::app::gui

@@ -24,14 +24,21 @@ class StudyScreen final : public Screen {
   void show() override;
   void draw(Ui& ui) override;
   [[nodiscard]] bool look_beside() override;
-  void forget_study() override { watch_.reset(); }
+  void forget_study() override {
+    watch_.reset();
+    state_.problem.reset();
+    state_.asks_for_folder = false;
+  }
 
  private:
+  void begin_study();
+
   ScreenHost& host_;
   OpenStudy& study_;
   std::unique_ptr<StudyWatch> watch_;
   std::vector<PlannedOrder> orders_;
-  std::string orders_problem_;  ///< Why there are none; "" otherwise.
+  std::string orders_problem_;   ///< Why there are none; "" otherwise.
+  std::string proposed_folder_;  ///< For a study that is begun with a file alone.
   StudyViewState state_;
   double reloaded_s_ = 0.0, age_shown_s_ = 0.0;
 };

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "app/gui/views/layout.h"
+#include "app/gui/views/list_keys.h"
 #include "app/language/words.h"
 
 namespace jnd::app::gui {
@@ -39,9 +40,17 @@ void begin_file_dialog(FileDialogState& state, const fs::path& start) {
   state.is_new = true;
   state.open_path.clear();
   state.listed.clear();
+  state.chosen.reset();
+  state.problem.clear();
   if (!state.browsing.empty()) return;
   std::error_code ignored;
   state.browsing = fs::is_directory(start, ignored) ? start : fs::current_path(ignored);
+}
+
+void go_on_with_file_dialog(FileDialogState& state, const std::string& problem) {
+  state.is_new = true;
+  state.chosen.reset();
+  state.problem = problem;
 }
 
 FileDialogResult draw_file_dialog(Ui& ui, const FileDialogWords& words,
@@ -49,9 +58,19 @@ FileDialogResult draw_file_dialog(Ui& ui, const FileDialogWords& words,
   FileDialogResult result;
   Rect inside = ui.begin_dialog("open_dialog", 760, std::min(640.0f, ui.screen().height - 60));
   ui.text(inside.take_top(34, 8), words.title, {.font = Font::kLarge});
+  const std::string before = state.open_path;
   const bool entered = ui.text_field("open_path", inside.take_top(46, 14), state.open_path,
                                      words.hint, state.is_new);
+  if (state.open_path != before) {
+    state.problem.clear();
+    state.chosen.reset();
+  }
   const Rect buttons = inside.take_bottom(48, 12);
+  if (!state.problem.empty()) {
+    const TextStyle style{.font = Font::kSmall, .colour = Colour::kRed, .wrap = true};
+    const float height = std::min(120.0f, ui.text_height(inside.width, state.problem, style));
+    ui.text(inside.take_top(height, 12), state.problem, style);
+  }
   Rect where = inside.take_top(40, 6);
   const ButtonStyle up{.key = {.key = Key::kUp, .control = true},
                        .enabled = state.browsing.has_relative_path()};
@@ -59,33 +78,47 @@ FileDialogResult draw_file_dialog(Ui& ui, const FileDialogWords& words,
                 tr("Go up"), up)) {
     state.browsing = state.browsing.parent_path();
   }
-  ui.text(where, state.browsing.string(), {.font = Font::kMono, .colour = Colour::kSoft});
   constexpr float kRow = 40;
   if (state.listed != state.browsing) {
     state.entries = entries_of(state.browsing);
     state.listed = state.browsing;
+    state.chosen.reset();
   }
   const std::vector<FolderEntry>& entries = state.entries;
+  if (!entries.empty()) draw_list_keys(ui, where);
+  ui.text(where, state.browsing.string(), {.font = Font::kMono, .colour = Colour::kSoft});
   if (entries.empty()) draw_notice(ui, inside, words.nothing);
+  if (move_in_list(ui, entries.size(), state.chosen)) {
+    ui.scroll_into_view("entries", kRow * static_cast<float>(*state.chosen), kRow);
+  }
   const auto content = kRow * static_cast<float>(entries.size());
   Rect rows = ui.begin_scroll("entries", inside, content);
+  std::optional<std::size_t> taken;
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const FolderEntry& entry = entries[i];
-    const std::string label = entry.path.filename().string();
-    if (!draw_choice(ui, "entry_" + label, rows.take_top(kRow), label, kind_of(entry.kind),
-                     key_of_choice(i), false)) {
-      continue;
+    const std::string label = entries[i].path.filename().string();
+    if (draw_choice(ui, "entry_" + label, rows.take_top(kRow), label, kind_of(entries[i].kind),
+                    key_of_choice(i), state.chosen == i)) {
+      taken = i;
     }
+  }
+  ui.end_scroll();
+  const bool is_ready = state.chosen || !state.open_path.empty();
+  DialogChoice choice = draw_dialog_buttons(ui, buttons, tr("Open"), is_ready, entered);
+  ui.end_dialog();
+  // Enter takes the entry that arrow keys have come to, before what is typed.
+  if (choice.done && state.chosen) {
+    taken = state.chosen;
+    choice.done = false;
+  }
+  if (taken) {
+    state.problem.clear();
+    const FolderEntry& entry = entries[*taken];
     if (entry.kind == FolderEntry::Kind::kFolder) {
       state.browsing = entry.path;
     } else {
       result.chosen = entry.path;
     }
   }
-  ui.end_scroll();
-  const DialogChoice choice =
-      draw_dialog_buttons(ui, buttons, tr("Open"), !state.open_path.empty(), entered);
-  ui.end_dialog();
   state.is_new = entered && !choice.done;
   if (choice.done) result.chosen = typed_path(state.open_path);
   result.is_closed = result.chosen.has_value() || choice.cancelled;

@@ -25,7 +25,9 @@ struct FileDialogState {
   std::filesystem::path browsing;  ///< Folder whose entries are shown.
   std::filesystem::path listed;    ///< Folder that `entries` were read from.
   std::vector<FolderEntry> entries;
-  std::string open_path;  ///< Typed.
+  std::string open_path;              ///< Typed; stays where it is when it was wrong.
+  std::optional<std::size_t> chosen;  ///< Entry that arrow keys have come to.
+  std::string problem;                ///< Why the last attempt did not work; "" otherwise.
 };
 
 struct FileDialogWords {
@@ -42,6 +44,9 @@ struct FileDialogResult {
 /// Before it is drawn for the first time. `start`: the folder to begin in, where none was shown
 /// before.
 void begin_file_dialog(FileDialogState& state, const std::filesystem::path& start);
+
+/// Once more, where what was chosen cannot be opened: with the path that was typed, and why.
+void go_on_with_file_dialog(FileDialogState& state, const std::string& problem);
 
 /// A path is typed, or found by going from folder to folder.
 [[nodiscard]] FileDialogResult draw_file_dialog(Ui& ui, const FileDialogWords& words,

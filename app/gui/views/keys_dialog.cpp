@@ -15,22 +15,28 @@ struct Line {
   std::string key, what;
 };
 
+/// Keys without a control of their own, and those whose control says less.
 std::vector<Line> lines_of(std::vector<Drawn::Widget> widgets) {
-  std::vector<Line> lines = {{"Esc", tr("Emergency stop, from anywhere")},
-                             {"Ctrl +  Ctrl -", tr("Larger, smaller")},
-                             {"Ctrl D", tr("Dark or light")},
-                             {"F9", tr("The participant's screen")},
-                             {"F2", tr("Leave a dialog")},
-                             {"Ctrl Q", tr("Leave the program")}};
-  std::set<std::string> known = {"Esc", "F1", "Ctrl D", "Ctrl +"};
+  const Chord larger = {.key = Key::kPlus, .control = true};
+  const Chord smaller = {.key = Key::kMinus, .control = true};
+  const Chord dark = {.key = letter('D'), .control = true};
+  const Chord leave = {.key = letter('Q'), .control = true};
+  std::vector<Line> lines = {
+      {printed_words({Key::kEscape}), tr("Emergency stop, from anywhere")},
+      {printed_words(larger) + "  " + printed_words(smaller), tr("Larger, smaller")},
+      {printed_words(dark), tr("Dark or light")},
+      {printed_words({Key::kF9}), tr("The participant's screen")},
+      {printed_words({Key::kF2}), tr("Leave a dialog")},
+      {printed_words(leave), tr("Leave the program")}};
+  std::set<std::string> known = {"", words({Key::kEscape}), words({Key::kF1}), words(dark),
+                                 words(larger)};
   // Line by line, from the left.
   std::ranges::stable_sort(widgets, {}, [](const Drawn::Widget& widget) {
     constexpr float kLine = 20;
     return std::pair(std::round(widget.place.y / kLine), widget.place.x);
   });
   for (const Drawn::Widget& widget : widgets) {
-    if (widget.key.empty() || !known.insert(widget.key).second) continue;
-    lines.push_back({widget.key, widget.label});
+    if (known.insert(widget.key).second) lines.push_back({widget.key_cap, widget.label});
   }
   return lines;
 }

@@ -16,7 +16,7 @@ inline constexpr float kFooterHeight = 40;
 inline constexpr float kGap = 16;
 inline constexpr float kPadding = 18;  ///< Within a card.
 /// At the right end of every footer: the application's own buttons.
-inline constexpr float kCornerWidth = 400;
+inline constexpr float kCornerWidth = 460;
 
 /// A card with its heading; returns what is left inside.
 Rect draw_card(Ui& ui, const Rect& place, std::string_view heading, std::string_view unit = "");

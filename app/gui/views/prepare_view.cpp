@@ -39,10 +39,12 @@ std::string obstacle(const PrepareModel& model, const PrepareViewState& state) {
   if (!participant.empty()) return participant;
   for (const experiments::ParticipantField& field : model.fields) {
     if (!state.fields.contains(field.name)) {
-      return tr("Choose first: {}", in_language(field.question, model.languages.front()));
+      return tr("Choose first: {}",
+                in_language(field.question, shown_language(model.languages)));
     }
   }
   if (std::string fitting = fitting_problem(state); !fitting.empty()) return fitting;
+  if (std::string sound = sound_obstacle(model.sound); !sound.empty()) return sound;
   std::string failed;
   for (const PreflightLine& line : model.lines) {
     if (line.status == Status::kFailed) failed += (failed.empty() ? "" : ", ") + line.name;
@@ -162,7 +164,7 @@ void draw_languages(Ui& ui, Rect& inside, const PrepareModel& model, PrepareView
 /// the next answer of the first question that has none.
 void draw_fields(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state,
                  PrepareViewResult& result) {
-  const std::string& language = model.languages.front();
+  const std::string& language = shown_language(model.languages);
   const auto open =
       std::find_if(model.fields.begin(), model.fields.end(),
                    [&](const auto& one) { return !state.fields.contains(one.name); });
@@ -301,6 +303,7 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
   draw_fields(ui, inside, model, state, result);
   draw_devices(ui, inside, model, state, result);
   draw_fitting(ui, inside, state);
+  result.sound = draw_sound_card(ui, inside, model.sound, state.sound_output);
   state.session_height = inside.y - top;
   ui.end_scroll();
   draw_lines(ui, rest, model, state, result);

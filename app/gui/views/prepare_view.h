@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/gui/ui.h"
+#include "app/gui/views/sound_card.h"
 #include "app/gui/views/study_tabs.h"
 #include "app/operator/preflight.h"
 #include "app/operator/study_folder.h"
@@ -29,6 +30,7 @@ struct PrepareModel {
   std::vector<std::string> taken;
   std::string assigned;  ///< The cell that comes next, in words; "" for one cell or hidden.
   std::uint64_t seed = 0;
+  SoundModel sound;
   std::vector<PreflightLine> lines;
   bool looking = false;
   double progress = 0.0;
@@ -41,7 +43,8 @@ struct PrepareViewState {
   std::string device;
   std::string language;
   std::map<std::string, std::string> fields;  ///< Chosen so far: name to value.
-  std::string fitting;  ///< Typed: "glove=M, thumb=thin pad"; may be empty.
+  std::string fitting;       ///< Typed: "glove=M, thumb=thin pad"; may be empty.
+  std::string sound_output;  ///< Where the study's sound goes to, or "off".
   float lines_height = 0, session_height = 0;
 };
 
@@ -50,6 +53,7 @@ struct PrepareViewResult {
   bool start = false;       ///< With what the state holds.
   bool look_again = false;  ///< Also after the device was changed.
   bool fields_changed = false;
+  SoundCardResult sound;
   bool map_controls = false;  ///< Which pedal does what is to be seen, or changed.
 };
 

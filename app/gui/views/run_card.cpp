@@ -252,6 +252,13 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
             tr("The study's limit is passed: {}.", view.advice),
             {.colour = Colour::kAmber, .align = Align::kCentre});
   }
+  if (!view.sound_warning.empty()) {
+    const TextStyle amber{
+        .font = Font::kSmall, .colour = Colour::kAmber, .align = Align::kCentre, .wrap = true};
+    const std::string words = tr("Sound: {}.", view.sound_warning);
+    const float height = ui.text_height(inside.width - 32, words, amber) + 16;
+    ui.text(inside.take_bottom(height).inset(8), words, amber);
+  }
   if (!view.caution.empty() && view.step == Step::kStageDone) {
     const TextStyle amber{
         .font = Font::kSmall, .colour = Colour::kAmber, .align = Align::kCentre, .wrap = true};

@@ -185,8 +185,9 @@ void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
                    stored_up_to(view));
   const int attached = __builtin_popcount(view.telemetry.sample.attached_bits);
   if (view.telemetry.warning != core::Fault::kNone) {
-    draw_health(ui, x, place, Colour::kAmber,
-                "*" + std::string(core::warning_words(view.telemetry.warning)) + "*");
+    draw_health(
+        ui, x, place, Colour::kAmber,
+        "*" + std::string(tr(core::warning_words(view.telemetry.warning).data())) + "*");
   } else {
     draw_health(ui, x, place,
                 attached == view.num_contact_points ? Colour::kGreen : Colour::kAmber,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/gui/views/backup_dialog.h"
 #include "app/gui/views/layout.h"
 #include "app/gui/views/work_line.h"
 #include "app/language/words.h"
@@ -48,20 +49,23 @@ std::string marks_of(const SessionLine& line) {
 
 std::vector<ColumnLook> columns_of(const StudyFolder& study) {
   std::vector<ColumnLook> columns = {{tr("Participant"), 1.05f},
-                                     {tr("State"), 1.25f},
-                                     {tr("Answers"), 1.15f, Align::kRight},
-                                     {tr("When"), 1.25f},
+                                     {tr("State"), 1.2f},
+                                     {tr("Answers"), 1.05f, Align::kRight},
+                                     {tr("When"), 1.1f},
                                      {tr("Device"), 0.75f}};
-  if (!study.hides_levels) columns.push_back({tr("Order"), 1.35f});
-  columns.push_back({tr("Marks"), 1.1f});
+  if (!study.hides_levels) columns.push_back({tr("Order"), 2.0f});
+  columns.push_back({tr("Marks"), 1.0f});
   return columns;
 }
 
 void draw_session(Ui& ui, const Rect& row, const StudyFolder& study, const SessionLine& line,
-                  SessionsViewState& state) {
+                  SessionsViewState& state, SessionsViewResult& result) {
   if (line.session == state.selected) ui.fill(row, Colour::kBlueSoft, 8);
   const std::string name = "session_" + std::to_string(line.session);
-  if (ui.row(name, row, line.participant)) state.selected = line.session;
+  if (ui.row(name, row, line.participant)) {
+    state.selected = line.session;
+    if (state.clicks.clicked(name, ui.time_s())) result.show = line.session;
+  }
   Rect inside = row;
   inside.take_left(8);
   inside.take_right(8);
@@ -86,29 +90,31 @@ void draw_session(Ui& ui, const Rect& row, const StudyFolder& study, const Sessi
 
 /// Arrow keys go through the rows, whose place is drawn at the heading.
 void move_selection(Ui& ui, const StudyFolder& study, SessionsViewState& state) {
-  const int step =
-      (ui.pressed({Key::kDown}, true) ? 1 : 0) - (ui.pressed({Key::kUp}, true) ? 1 : 0);
-  if (step == 0 || study.sessions.empty()) return;
-  const auto count = std::ssize(study.sessions);
-  std::ptrdiff_t place = step > 0 ? -1 : count;
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    if (study.sessions[static_cast<std::size_t>(i)].session == state.selected) place = i;
+  const auto found = std::ranges::find(study.sessions, state.selected, &SessionLine::session);
+  std::optional<std::size_t> place;
+  if (found != study.sessions.end()) {
+    place = static_cast<std::size_t>(found - study.sessions.begin());
   }
-  place = std::clamp<std::ptrdiff_t>(place + step, 0, count - 1);
-  state.selected = study.sessions[static_cast<std::size_t>(place)].session;
+  if (!move_in_list(ui, study.sessions.size(), place)) return;
+  state.selected = study.sessions[*place].session;
+  ui.scroll_into_view("sessions", kSessionHeight * static_cast<float>(*place), kSessionHeight);
 }
 
-void draw_table(Ui& ui, const Rect& place, const StudyFolder& study, SessionsViewState& state) {
+void draw_table(Ui& ui, const Rect& place, const StudyFolder& study, SessionsViewState& state,
+                SessionsViewResult& result) {
   ui.card(place);
   Rect inside = place.inset(kPadding);
-  Rect title = inside.take_top(20, 8);
-  if (study.sessions.size() > 1) {
-    const Chord down{Key::kDown};
-    Rect caps = title.take_right(2 * ui.key_cap_width(down) + 6, 12);
-    ui.key_cap(caps.x, caps.y, {Key::kUp});
-    ui.key_cap(caps.x + ui.key_cap_width(down) + 6, caps.y, down);
+  Rect title = inside.take_top(28, 4);
+  if (!study.sessions.empty()) {
+    const ButtonStyle show{
+        .tone = Tone::kQuiet, .key = {Key::kEnter}, .enabled = state.selected != 0};
+    const Rect button = title.take_right(ui.button_width(tr("Show session"), show), 12);
+    if (ui.button("show_session", button, tr("Show session"), show)) {
+      result.show = state.selected;
+    }
   }
-  ui.heading(title, tr("Sessions"));
+  if (study.sessions.size() > 1) draw_list_keys(ui, title);
+  ui.heading(title.middle(title.width, 18), tr("Sessions"));
   if (study.sessions.empty()) {
     draw_notice(ui, inside, tr("No session yet. Begin the first one with “New session”."));
     return;
@@ -125,7 +131,7 @@ void draw_table(Ui& ui, const Rect& place, const StudyFolder& study, SessionsVie
   Rect rows = ui.begin_scroll("sessions", inside, content);
   for (const SessionLine& line : study.sessions) {
     const Rect row = rows.take_top(kSessionHeight);
-    draw_session(ui, row, study, line, state);
+    draw_session(ui, row, study, line, state, result);
     ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
   }
   ui.end_scroll();
@@ -141,11 +147,16 @@ void draw_fact(Ui& ui, Rect& inside, const std::string& name, const std::string&
   ui.text(line, name, {.colour = Colour::kSoft});
 }
 
-void draw_study_card(Ui& ui, Rect& column, const StudyFolder& study) {
+void draw_study_card(Ui& ui, Rect& column, const StudyFolder& study,
+                     SessionsViewResult& result) {
   const bool blind = study.blinding == experiments::Blinding::kDouble;
   const float lines = 5.0f + (blind ? 1.0f : 0.0f);
-  Rect inside =
-      draw_card(ui, column.take_top(28 + 28 * lines + 2 * kPadding, kGap), tr("This study"));
+  Rect inside = draw_card(ui, column.take_top(34 + 28 * lines + 2 * kPadding, kGap), "");
+  Rect head = inside.take_top(28, 6);
+  const ButtonStyle overview{.tone = Tone::kQuiet, .key = {letter('O')}};
+  const Rect button = head.take_right(ui.button_width(tr("Overview"), overview), 12);
+  if (ui.button("overview", button, tr("Overview"), overview)) result.tab = StudyTab::kOverview;
+  ui.heading(head.middle(head.width, 18), tr("This study"));
   draw_fact(ui, inside, tr("Participants done"), std::to_string(study.num_participants_done));
   draw_fact(ui, inside, tr("Open sessions"), std::to_string(study.num_open));
   draw_fact(ui, inside, tr("Pilots"), std::to_string(study.num_pilots));
@@ -215,23 +226,6 @@ void draw_actions(Ui& ui, Rect column, const StudyFolder& study, const StudyWork
   if (draw_work(ui, column, work)) result.cancel = true;
 }
 
-void draw_backup_dialog(Ui& ui, SessionsViewState& state, SessionsViewResult& result) {
-  Rect inside = ui.begin_dialog("backup_dialog", 640, 250);
-  ui.text(inside.take_top(34, 4), tr("Back up the study"), {.font = Font::kLarge});
-  ui.text(inside.take_top(26, 12),
-          tr("A new folder, or an earlier backup: then only what is new is copied."),
-          {.colour = Colour::kSoft});
-  const bool entered = ui.text_field("backup_folder", inside.take_top(46), state.backup_folder,
-                                     tr("folder of the copy"), state.dialog_is_new);
-  const DialogChoice choice = draw_dialog_buttons(ui, inside.take_bottom(48), tr("Back up"),
-                                                  !state.backup_folder.empty(), entered);
-  ui.end_dialog();
-  // Enter ends a field; where something is missing yet, it goes on.
-  state.dialog_is_new = entered && !choice.done;
-  result.back_up = choice.done;
-  if (choice.done || choice.cancelled) state.asks_for_backup = false;
-}
-
 }  // namespace
 
 SessionsViewResult draw_sessions_view(Ui& ui, const StudyFolder& study, const StudyWork& work,
@@ -243,12 +237,13 @@ SessionsViewResult draw_sessions_view(Ui& ui, const StudyFolder& study, const St
   const Rect footer = rest.take_bottom(kFooterHeight);
   rest = rest.inset(kGap);
   Rect column = rest.take_right(std::clamp(rest.width * 0.27f, 320.0f, 420.0f), kGap);
-  draw_table(ui, rest, study, state);
-  draw_study_card(ui, column, study);
+  draw_table(ui, rest, study, state, result);
+  draw_study_card(ui, column, study, result);
   draw_actions(ui, column, study, work, state, result);
   draw_study_footer(ui, footer, work.outcome.sentence,
                     trn("{} session", "{} sessions", study.num_sessions));
-  if (state.asks_for_backup) draw_backup_dialog(ui, state, result);
+  result.back_up =
+      draw_backup_dialog(ui, state.asks_for_backup, state.dialog_is_new, state.backup_folder);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/gui/ui.h"
+#include "app/gui/views/list_keys.h"
 #include "app/gui/views/study_tabs.h"
 #include "app/operator/export_actions.h"
 #include "app/operator/study_folder.h"
@@ -23,12 +24,14 @@ struct SessionsViewState {
   bool asks_for_backup = false;
   bool dialog_is_new = false;
   std::string backup_folder;  ///< Proposed by the application: the known one, or beside it.
+  DoubleClick clicks;
 };
 
 struct SessionsViewResult {
   StudyTab tab = StudyTab::kNone;
   bool new_session = false;
   std::optional<std::int64_t> resume;
+  std::optional<std::int64_t> show;  ///< The page of this session.
   bool verify = false;
   bool back_up = false;  ///< Into `backup_folder`.
   bool cancel = false;

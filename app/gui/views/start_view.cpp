@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/gui/views/layout.h"
+#include "app/gui/views/list_keys.h"
 #include "app/gui/views/start_dialogs.h"
 #include "app/gui/views/study_tabs.h"
 #include "app/language/words.h"
@@ -44,9 +45,11 @@ std::string safe_words(const Open& open) {
 
 /// Returns the height it took.
 float draw_resume_card(Ui& ui, const Rect& top, const Open& open, std::size_t place,
-                       StartViewResult& result) {
-  const ButtonStyle style{.tone = place == 0 ? Tone::kPrimary : Tone::kPlain,
-                          .key = {.key = Key::kEnter, .control = place > 0}};
+                       bool has_chosen, StartViewResult& result) {
+  // While arrow keys have come to a study, Enter opens that.
+  const Chord key =
+      place == 0 && has_chosen ? Chord{} : Chord{.key = Key::kEnter, .control = place > 0};
+  const ButtonStyle style{.tone = place == 0 ? Tone::kPrimary : Tone::kPlain, .key = key};
   const float button = ui.button_width(tr("Resume"), style);
   const TextStyle title{.font = Font::kLarge, .wrap = true};
   const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
@@ -70,14 +73,17 @@ float draw_resume_card(Ui& ui, const Rect& top, const Open& open, std::size_t pl
 }
 
 /// Returns the height of all of them.
-float draw_resume_cards(Ui& ui, Rect column, const StartModel& model, StartViewResult& result) {
+float draw_resume_cards(Ui& ui, Rect column, const StartModel& model,
+                        const StartViewState& state, StartViewResult& result) {
   const std::vector<Open> all = interrupted_in(model);
   if (all.empty()) return 0;
   constexpr float kHeading = 28;
   ui.heading(column.take_top(kHeading - 10, 10), tr("Interrupted"));
   float height = kHeading;
   for (std::size_t i = 0; i < std::min(all.size(), most_resumes(ui)); ++i) {
-    const float card = draw_resume_card(ui, column, all[i], i, result) + kBetweenCards;
+    const float card =
+        draw_resume_card(ui, column, all[i], i, state.study.has_value(), result) +
+        kBetweenCards;
     column.take_top(card);
     height += card;
   }
@@ -91,16 +97,22 @@ float draw_resume_cards(Ui& ui, Rect column, const StartModel& model, StartViewR
 }
 
 void draw_study_card(Ui& ui, const Rect& card, const StartModel::Study& study,
-                     std::size_t place, StartViewResult& result) {
+                     std::size_t place, bool is_chosen, StartViewResult& result) {
   const Chord key = place < kMostKeys ? Chord{letter(static_cast<char>('1' + place))} : Chord{};
   ui.card(card);
-  if (ui.row("study_" + std::to_string(place + 1), card, study.title, key)) {
+  if (is_chosen) {
+    ui.fill(card, Colour::kBlueSoft, 10);
+    ui.outline(card, Colour::kBlue, 10, 1.5f);
+  }
+  if (ui.row("study_" + std::to_string(place + 1), card, study.title, key) ||
+      (is_chosen && ui.pressed({Key::kEnter}))) {
     result.open = study.path;
   }
   Rect inside = card.inset(kPadding);
-  if (place < kMostKeys) {
-    const Rect cap = inside.take_right(ui.key_cap_width(key), 16);
-    ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, key);
+  const Chord shown = is_chosen ? Chord{Key::kEnter} : key;
+  if (shown.key != Key::kNone) {
+    const Rect cap = inside.take_right(ui.key_cap_width(shown), 16);
+    ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, shown);
   }
   inside = inside.middle(inside.width, 44);
   ui.text(inside.take_top(22), study.title, {.font = Font::kStrong});
@@ -109,7 +121,9 @@ void draw_study_card(Ui& ui, const Rect& card, const StartModel::Study& study,
 
 void draw_studies(Ui& ui, Rect column, const StartModel& model, StartViewState& state,
                   StartViewResult& result) {
-  ui.heading(column.take_top(18, 10), tr("Studies"));
+  Rect heading = column.take_top(18, 10);
+  if (model.studies.size() > 1) draw_list_keys(ui, heading);
+  ui.heading(heading, tr("Studies"));
   Rect buttons = column.take_bottom(46, kGap);
   if (model.studies.empty()) {
     const Rect note = column.take_top(52);
@@ -124,7 +138,7 @@ void draw_studies(Ui& ui, Rect column, const StartModel& model, StartViewState& 
     Rect inside = ui.begin_scroll("studies", list, content);
     for (std::size_t i = 0; i < model.studies.size(); ++i) {
       draw_study_card(ui, inside.take_top(kStudyCard, kBetweenCards), model.studies[i], i,
-                      result);
+                      state.study == i, result);
     }
     ui.end_scroll();
     buttons.y = list.bottom() + kGap;
@@ -232,16 +246,30 @@ StartViewResult draw_start_view(Ui& ui, const StartModel& model, const EntriesOf
   constexpr float kBetweenColumns = 48;
   Rect left = rest.take_left((rest.width - kBetweenColumns) / 2, kBetweenColumns);
   Rect right = rest;
-  const float resumes = draw_resume_cards(ui, left, model, result);
+  // First of all, for what Enter does depends on it.
+  if (move_in_list(ui, model.studies.size(), state.study)) {
+    ui.scroll_into_view(
+        "studies", (kStudyCard + kBetweenCards) * static_cast<float>(*state.study), kStudyCard);
+  }
+  const float resumes = draw_resume_cards(ui, left, model, state, result);
   if (resumes > 0) left.take_top(resumes + kBetweenCards);
   draw_studies(ui, left, model, state, result);
   draw_tour(ui, right, result);
   draw_own_data(ui, right, result);
   draw_machine(ui, right, model, result);
   draw_study_footer(ui, footer, tr("Version {}", model.version), "");
-  if (state.dialog == StartViewState::Dialog::kNew) draw_new_dialog(ui, model, state, result);
-  if (state.dialog == StartViewState::Dialog::kOpen) {
-    draw_open_dialog(ui, entries_of, state, result);
+  switch (state.dialog) {
+    case StartViewState::Dialog::kNew:
+      draw_new_dialog(ui, model, state, result);
+      break;
+    case StartViewState::Dialog::kOpen:
+      draw_open_dialog(ui, entries_of, state, result);
+      break;
+    case StartViewState::Dialog::kBrowse:
+      draw_browse_dialog(ui, entries_of, state);
+      break;
+    case StartViewState::Dialog::kNone:
+      break;
   }
   return result;
 }

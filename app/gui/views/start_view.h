@@ -8,6 +8,7 @@
 #include "app/gui/ui.h"
 #include "app/gui/views/file_dialog.h"
 #include "app/operator/preflight.h"
+#include "app/operator/study_cards.h"
 #include "app/operator/study_folder.h"
 
 namespace jnd::app::gui {
@@ -22,19 +23,21 @@ struct StartModel {
   };
   std::vector<Study> studies;          ///< The newest first.
   std::vector<PreflightLine> machine;  ///< Empty until it was looked at.
-  std::vector<std::string> shipped;    ///< Names of shipped studies.
+  std::vector<StudyCard> drafts;       ///< Study files of one's own, the newest first.
+  std::vector<StudyCard> shipped;      ///< Studies that come with the program, by title.
   std::string version;
 };
 
 /// What the window remembers of the start view.
 struct StartViewState {
-  enum class Dialog { kNone, kNew, kOpen };
+  enum class Dialog { kNone, kNew, kOpen, kBrowse };
   Dialog dialog = Dialog::kNone;
   bool dialog_is_new = false;
-  std::size_t chosen_shipped = 0;
-  std::string study_file;       ///< Typed instead of a shipped one; "" for none.
-  std::string new_folder;       ///< Where the new study goes.
-  std::string proposed_folder;  ///< What stood there before anybody typed.
+  std::optional<std::size_t> study;  ///< Of those opened lately, that arrow keys have come to.
+  std::size_t chosen_card = 0;       ///< Drafts first, then shipped ones.
+  std::string study_file;            ///< Typed instead of a card; "" for none.
+  std::string new_folder;            ///< Where the new study goes.
+  std::string proposed_folder;       ///< What stood there before anybody typed.
   FileDialogState opening;
   std::string problem;  ///< Why the last attempt did not work.
 };

@@ -9,8 +9,9 @@
 
 namespace jnd::app::gui {
 
-/// `kData` has no tab in the headers of studies: it is of none.
-enum class StudyTab { kNone, kStart, kSessions, kResults, kStudy, kDevice, kData };
+/// `kData` has no tab in the headers of studies: it is of none. Nor has `kOverview`, which is
+/// reached from the sessions.
+enum class StudyTab { kNone, kStart, kSessions, kResults, kStudy, kDevice, kData, kOverview };
 
 struct StudyTabLook {
   StudyTab tab;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/gui/views/layout.h"
+#include "app/gui/views/study_problems.h"
 #include "app/language/words.h"
 
 namespace jnd::app::gui {
@@ -12,7 +13,9 @@ namespace {
 constexpr int kMostParticipants = 60;
 
 /// The header where there is a file alone, and so neither sessions nor results.
-StudyTab draw_file_header(Ui& ui, const Rect& place, const StudyOutline& outline) {
+StudyTab draw_file_header(Ui& ui, const Rect& place, const StudyViewModel& model,
+                          StudyViewState& state) {
+  const StudyOutline& outline = model.outline;
   ui.fill(place, Colour::kCard);
   ui.line(place.x, place.bottom(), place.right(), place.bottom(), Colour::kLine);
   Rect strip = place;
@@ -21,6 +24,14 @@ StudyTab draw_file_header(Ui& ui, const Rect& place, const StudyOutline& outline
   const ButtonStyle start{.tone = Tone::kQuiet, .key = {letter('0'), true}};
   const Rect tab = strip.take_right(ui.button_width(tr("Start"), start), 12);
   const bool chosen = ui.button("tab_start", tab.middle(tab.width, 36), tr("Start"), start);
+  const ButtonStyle begin{
+      .tone = Tone::kPrimary, .key = {letter('N')}, .enabled = outline.problems.empty()};
+  const Rect button = strip.take_right(ui.button_width(tr("Begin a study"), begin), 12);
+  if (ui.button("begin_study", button.middle(button.width, 38), tr("Begin a study"), begin)) {
+    state.asks_for_folder = state.dialog_is_new = true;
+    state.folder_problem.clear();
+    state.new_folder = model.proposed_folder;
+  }
   ui.text(strip.take_left(ui.text_width("jnd", Font::kLarge) + 1, 18), "jnd",
           {.font = Font::kLarge});
   const std::string title =
@@ -29,33 +40,6 @@ StudyTab draw_file_header(Ui& ui, const Rect& place, const StudyOutline& outline
   ui.text(strip.take_left(width, 18), title, {});
   ui.chip(strip.x, place.y + (place.height - 26) / 2, tr("study file"), Colour::kBlue);
   return chosen ? StudyTab::kStart : StudyTab::kNone;
-}
-
-/// Every problem with its place, in red.
-void draw_problems(Ui& ui, Rect& inside, const StudyOutline& outline) {
-  const auto count = static_cast<int>(outline.problems.size());
-  ui.text(inside.take_top(34, 2),
-          trn("{} problem in the file", "{} problems in the file", count),
-          {.font = Font::kLarge, .colour = Colour::kRed});
-  ui.text(inside.take_top(26, 8),
-          tr("Mend them in your editor; the file is read again once it is saved."),
-          {.colour = Colour::kSoft});
-  for (const experiments::StudyProblem& problem : outline.problems) {
-    const TextStyle message{.wrap = true};
-    const float indent = 96;
-    const float height = ui.text_height(inside.width - indent, problem.message, message) + 24;
-    Rect row = inside.take_top(height + 16);
-    ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
-    row = row.middle(row.width, height);
-    const std::string place =
-        problem.line > 0 ? std::to_string(problem.line) + ":" + std::to_string(problem.column)
-                         : tr("file");
-    ui.text(row.take_left(indent).take_top(24), place,
-            {.font = Font::kMono, .colour = Colour::kRed});
-    ui.text(row.take_top(24), problem.pointer.empty() ? "/" : problem.pointer,
-            {.font = Font::kMono, .colour = Colour::kSoft});
-    ui.text(row, problem.message, message);
-  }
 }
 
 void draw_stage(Ui& ui, Rect& inside, const OutlineStage& stage) {
@@ -94,13 +78,16 @@ void draw_stage(Ui& ui, Rect& inside, const OutlineStage& stage) {
   }
 }
 
-void draw_outline(Ui& ui, const Rect& place, const StudyOutline& outline,
-                  StudyViewState& state) {
-  Rect inside = draw_card(ui, place, outline.problems.empty() ? tr("Stages") : "");
-  if (!outline.problems.empty()) ui.outline(place, Colour::kRed, 10, 2);
+void draw_outline(Ui& ui, const Rect& place, const StudyOutline& outline, StudyViewState& state,
+                  StudyViewResult& result) {
+  if (!outline.problems.empty()) return draw_study_problems(ui, place, outline, state, result);
+  Rect inside = draw_card(ui, place, tr("Stages"));
+  if (!outline.doubts.empty()) {
+    draw_study_doubts(ui, inside.take_top(std::min(180.0f, inside.height * 0.35f), 10),
+                      outline);
+  }
   inside = ui.begin_scroll("outline", inside, state.outline_height);
   const float top = inside.y;
-  if (!outline.problems.empty()) draw_problems(ui, inside, outline);
   for (const OutlineStage& stage : outline.stages) draw_stage(ui, inside, stage);
   state.outline_height = inside.y - top;
   ui.end_scroll();
@@ -137,6 +124,7 @@ void draw_facts(Ui& ui, Rect& inside, const StudyOutline& outline) {
       length_words(outline) + ", " + trn("{} trial", "{} trials", outline.num_trials));
   draw_wrapped_fact(ui, inside, tr("Blinding"), outline.blinding);
   draw_wrapped_fact(ui, inside, tr("Device"), outline.device);
+  draw_wrapped_fact(ui, inside, tr("Sound"), outline.sound);
   draw_wrapped_fact(ui, inside, tr("Languages"), outline.languages);
   draw_wrapped_fact(ui, inside, tr("Authors"), outline.authors);
   draw_wrapped_fact(ui, inside, tr("About"), outline.description);
@@ -191,6 +179,25 @@ std::string reload_words(const StudyViewModel& model) {
   return tr("Read again {} ago", duration_words(static_cast<double>(seconds)));
 }
 
+void draw_folder_dialog(Ui& ui, StudyViewState& state, StudyViewResult& result) {
+  Rect inside = ui.begin_dialog("folder_dialog", 680, 270);
+  ui.text(inside.take_top(34, 4), tr("Begin a study with this file"), {.font = Font::kLarge});
+  ui.text(inside.take_top(26, 12), tr("Its sessions go into a folder of their own."),
+          {.colour = Colour::kSoft});
+  const bool entered =
+      ui.text_field("new_folder", inside.take_top(46, 10), state.new_folder,
+                    tr("path of a folder that does not exist yet"), state.dialog_is_new);
+  const Rect buttons = inside.take_bottom(48, 8);
+  const TextStyle style{.font = Font::kSmall, .colour = Colour::kRed, .wrap = true};
+  ui.text(inside, state.folder_problem, style);
+  const DialogChoice choice =
+      draw_dialog_buttons(ui, buttons, tr("Begin"), !state.new_folder.empty(), entered);
+  ui.end_dialog();
+  state.dialog_is_new = entered && !choice.done;
+  result.begin = choice.done;
+  if (choice.done || choice.cancelled) state.asks_for_folder = false;
+}
+
 }  // namespace
 
 StudyViewResult draw_study_view(Ui& ui, const StudyViewModel& model, StudyViewState& state) {
@@ -199,11 +206,11 @@ StudyViewResult draw_study_view(Ui& ui, const StudyViewModel& model, StudyViewSt
   const Rect header = rest.take_top(kHeaderHeight);
   result.tab = model.study != nullptr
                    ? draw_study_header(ui, header, *model.study, StudyTab::kStudy).chosen
-                   : draw_file_header(ui, header, model.outline);
+                   : draw_file_header(ui, header, model, state);
   const Rect footer = rest.take_bottom(kFooterHeight);
   rest = rest.inset(kGap);
   const Rect right = rest.take_right(std::clamp(rest.width * 0.42f, 400.0f, 680.0f), kGap);
-  draw_outline(ui, rest, model.outline, state);
+  draw_outline(ui, rest, model.outline, state, result);
   ui.card(right);
   Rect inside = ui.begin_scroll("orders", right.inset(kPadding), state.orders_height);
   const float top = inside.y;
@@ -212,6 +219,7 @@ StudyViewResult draw_study_view(Ui& ui, const StudyViewModel& model, StudyViewSt
   state.orders_height = inside.y - top;
   ui.end_scroll();
   draw_study_footer(ui, footer, reload_words(model), model.outline.file.string());
+  if (state.asks_for_folder) draw_folder_dialog(ui, state, result);
   return result;
 }
 

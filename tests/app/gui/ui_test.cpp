@@ -672,6 +672,52 @@ TEST(Drawn, HoldsEveryWidgetWithItsKeyAndPlaceAndEveryText) {
   EXPECT_FALSE(drawn.shows("levels shown"));
 }
 
+TEST(Drawn, HoldsEveryLineOfLettersWhereItStandsAndWhetherItIsCut) {
+  HeadlessUi ui;
+  std::string note;
+  const Drawn& drawn = ui.frame([&](Ui& frame) {
+    frame.text({10, 10, 60, 20}, "A sentence that is cut");
+    frame.text({10, 40, 120, 20}, "Broken into lines", {.wrap = true});
+    frame.text({10, 200, 40, 20}, "Unterschiedsschwelle", {.wrap = true});
+    (void)frame.button("go_on", {300, 10, 40, 40}, "Go on with it", {.key = {Key::kEnter}});
+    (void)frame.text_field("note", {10, 300, 80, 40}, note, "a hint that is too long");
+    (void)frame.begin_scroll("list", {400, 100, 50, 60}, 100);
+    frame.text({400, 150, 200, 20}, "Clipped at its end");
+    frame.text({400, 180, 200, 20}, "Scrolled away");
+    frame.end_scroll();
+    frame.chip(10, 400, "Whole", Colour::kBlue);
+  });
+  const auto line = [&](const std::string& part) {
+    const auto found = std::ranges::find_if(drawn.lines, [&](const Drawn::Line& one) {
+      return one.words.find(part) != std::string::npos;
+    });
+    return found == drawn.lines.end() ? Drawn::Line{} : *found;
+  };
+  EXPECT_TRUE(line("A sen").is_cut);
+  EXPECT_TRUE(line("A sen").words.ends_with("…"));
+  EXPECT_EQ(line("A sen").box, (Rect{10, 10, 60, 20}));
+  EXPECT_FALSE(line("Broken").is_cut);
+  EXPECT_FALSE(line("lines").is_cut);
+  EXPECT_GT(line("lines").place.bottom(), line("lines").box.bottom()) << "it spills over";
+  EXPECT_TRUE(line("Unt").is_cut) << "within a word";
+  EXPECT_TRUE(line("a hint").is_cut);
+  EXPECT_TRUE(line("Clipped").is_cut);
+  EXPECT_LE(line("Clipped").place.right(), 450);
+  EXPECT_EQ(line("Scrolled").words, "") << "nobody sees it";
+  EXPECT_FALSE(line("Whole").is_cut);
+  EXPECT_NEAR(line("Whole").place.width, ui.ui().text_width("Whole", Font::kSmallStrong), 1);
+  EXPECT_FALSE(line("Enter").is_cut);
+  ui.frame([](Ui& frame) {
+    frame.text({10, 10, 300, 20}, "Below");
+    (void)frame.button("below", {10, 40, 90, 40}, "Below");
+    frame.text(frame.begin_dialog("dialog", 300, 200), "In it");
+    frame.end_dialog();
+  });
+  EXPECT_TRUE(line("Below").is_covered);
+  EXPECT_TRUE(drawn.find("below")->is_covered);
+  EXPECT_FALSE(line("In it").is_covered);
+}
+
 TEST(Text, TakesTheHeightThatWasSaid) {
   HeadlessUi ui;
   ui.frame([&](Ui& frame) {

@@ -26,6 +26,7 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 constexpr const char* kPseudoLanguage = R"po(msgid ""
 msgstr ""
 "Language: xx\n"
+"X-Language-Name: Ixisch\n"
 "Content-Type: text/plain; charset=UTF-8\n"
 "Content-Transfer-Encoding: 8bit\n"
 "Plural-Forms: nplurals=3; plural=n==1 ? 0 : n<5 ? 1 : 2;\n"
@@ -38,6 +39,9 @@ msgstr "OF {1} TRIAL {0}"
 
 msgid "Trial {} of about {}"
 msgstr "TRIAL {:d} OF {nobody} {7}"
+
+msgid "Ctrl"
+msgstr "STRG"
 
 msgid "{} stroke"
 msgid_plural "{} strokes"
@@ -63,17 +67,21 @@ class WordsTest : public testing::Test {
   }
 
   [[nodiscard]] fs::path folder() const { return temporary_.path() / "languages"; }
+  [[nodiscard]] fs::path temporary_path() const { return temporary_.path(); }
 
   /// What `say` says in a process of its own, for a language is begun once.
   [[nodiscard]] std::string said(const Environment& environment,
-                                 const std::function<std::string()>& say) const {
+                                 const std::function<std::string()>& say,
+                                 const std::string& chosen = "") const {
     int ends[2];
     if (::pipe(ends) != 0) return "no pipe";
     const pid_t child = ::fork();
     if (child == 0) {
-      for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG", "LANGUAGE"}) ::unsetenv(name);
+      for (const char* name : {"LC_ALL", "LC_MESSAGES", "LC_NUMERIC", "LANG", "LANGUAGE"}) {
+        ::unsetenv(name);
+      }
       for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
-      begin_language(folder());
+      begin_language(folder(), chosen);
       const std::string words = say();
       const bool is_written =
           ::write(ends[1], words.data(), words.size()) == static_cast<ssize_t>(words.size());
@@ -139,6 +147,79 @@ TEST_F(WordsTest, WithoutATranslationAreEnglishAmongOthers) {
 TEST_F(WordsTest, WhoseHolesDoNotFitAreEnglish) {
   EXPECT_EQ(said({{"LANG", "xx"}}, [] { return tr("Trial {} of about {}", 3, 40); }),
             "Trial 3 of about 40");
+}
+
+TEST_F(WordsTest, AreOfTheLanguageThatSomebodyChoseWhateverTheLocaleSays) {
+  const auto say = [] { return std::string(tr("Go on")) + ", " + spoken_language(); };
+  EXPECT_EQ(said({}, say, "xx"), "GO ÖN, xx");
+  EXPECT_EQ(said({{"LC_ALL", "C"}, {"LANGUAGE", "yy"}}, say, "xx"), "GO ÖN, xx");
+  EXPECT_EQ(said({{"LANG", "xx_XX.UTF-8"}}, say, "en"), "Go on, en");
+  EXPECT_EQ(said({{"LANG", "xx_XX.UTF-8"}}, say), "GO ÖN, xx");
+  EXPECT_EQ(said({}, say, "yy"), "Go on, en") << "it has no catalogue";
+}
+
+TEST_F(WordsTest, ChangeAsOftenAsSomebodyChoosesAnotherLanguage) {
+  const auto say = [this] {
+    std::string words;
+    for (const char* language : {"en", "xx", "xx", "en", "xx"}) {
+      begin_language(folder(), language);
+      words += std::string(tr("Go on")) + ", ";
+    }
+    return words;
+  };
+  const std::string changing = "Go on, GO ÖN, GO ÖN, Go on, GO ÖN, ";
+  EXPECT_EQ(said({}, say), changing);
+  EXPECT_EQ(said({{"LANG", "xx_XX.UTF-8"}}, say), changing);
+}
+
+TEST_F(WordsTest, LanguagesAreCalledAsTheirCataloguesSay) {
+  const std::vector<Language> both = {{"en", "English"}, {"xx", "Ixisch"}};
+  EXPECT_EQ(languages_in(folder()), both);
+  const std::vector<Language> alone = {{"en", "English"}};
+  EXPECT_EQ(languages_in(folder() / "nowhere"), alone);
+  for (const std::string& wrong :
+       {std::string(), std::string("no catalogue"), std::string("\xde\x12\x04\x95"),
+        std::string("\xde\x12\x04\x95") + std::string(60, '\xff')}) {
+    const fs::path file = folder() / "zz" / "LC_MESSAGES" / "jnd.mo";
+    fs::create_directories(file.parent_path());
+    test_support::write_file(file, wrong);
+    EXPECT_EQ(languages_in(folder()), both) << wrong;
+  }
+}
+
+/// The pseudo-language by the name of one that writes decimal commas, or of one that does not.
+TEST_F(WordsTest, OfALanguageWithDecimalCommasHaveThemUnderstood) {
+  const auto says_comma = [this](const Environment& environment, const std::string& chosen) {
+    return said(
+        environment, [] { return writes_decimal_comma() ? "yes" : "no"; }, chosen);
+  };
+  std::string german = kPseudoLanguage;
+  german.replace(german.find("Language: xx"), 12, "Language: de");
+  const fs::path source = test_support::write_file(temporary_path() / "de.po", german);
+  const fs::path compiled = folder() / "de" / "LC_MESSAGES" / "jnd.mo";
+  fs::create_directories(compiled.parent_path());
+  const std::string command =
+      "msgfmt --output-file='" + compiled.string() + "' '" + source.string() + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(says_comma({}, "de"), "yes");
+  EXPECT_EQ(says_comma({{"LANG", "en_US.UTF-8"}}, "de"), "yes");
+  EXPECT_EQ(says_comma({{"LANG", "de_DE.UTF-8"}}, ""), "yes");
+  EXPECT_EQ(says_comma({{"LC_MESSAGES", "de_DE.UTF-8"}, {"LANG", "en_US.UTF-8"}}, ""), "yes");
+  EXPECT_EQ(says_comma({{"LANG", "de_CH.UTF-8"}}, ""), "no") << "Switzerland has a point";
+  EXPECT_EQ(says_comma({{"LANG", "de_CH.UTF-8"}}, "de"), "no");
+  EXPECT_EQ(says_comma({{"LANG", "en_US.UTF-8"}}, "xx"), "no");
+  EXPECT_EQ(says_comma({{"LANG", "de_DE.UTF-8"}}, "en"), "yes") << "numbers are the locale's";
+  EXPECT_EQ(says_comma({}, "en"), "no");
+}
+
+TEST(Words, ThatAreNumbersHavePointsForTheirDecimalCommas) {
+  EXPECT_EQ(with_decimal_points("0,5", true), "0.5");
+  EXPECT_EQ(with_decimal_points("0,25; 0,5", true), "0.25; 0.5");
+  EXPECT_EQ(with_decimal_points("0,25, 0,5", true), "0.25, 0.5");
+  EXPECT_EQ(with_decimal_points("0.25,0.5", true), "0.25,0.5") << "commas are between numbers";
+  EXPECT_EQ(with_decimal_points("0,5", false), "0,5");
+  EXPECT_EQ(with_decimal_points(",5 1, 2 a,b", true), ",5 1, 2 a,b");
+  EXPECT_EQ(with_decimal_points("", true), "");
 }
 
 TEST_F(WordsTest, LeaveNumbersAsTheyAre) {

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
+
+#include "app/environment.h"
 
 namespace jnd::app {
 namespace curve_choices_test {
@@ -43,6 +46,19 @@ TEST(CurveChoices, WhatIsNoRateAndNoLevelIsToldInASentence) {
   }
   EXPECT_EQ(with_typed_levels({}, "0.25;0.5, 0.75 0.5").request.at,
             (std::vector{0.25, 0.5, 0.75}));
+}
+
+TEST(CurveChoices, WhereHalfIsWrittenWithACommaItIsUnderstood) {
+  const EnvironmentVariable all("LC_ALL", "de_DE.UTF-8");
+  EXPECT_EQ(with_typed_guess({}, "0,25").request.guess, "0.25");
+  EXPECT_EQ(with_typed_lapse({}, "0,02").request.lapse, "0.02");
+  EXPECT_EQ(with_typed_lapse({}, "0.02").request.lapse, "0.02");
+  EXPECT_EQ(with_typed_lapse({}, "1/50").request.lapse, "0.02");
+  const std::vector<double> levels = {0.25, 0.5, 0.75};
+  for (const char* typed : {"0,25; 0,5; 0,75", "0,25, 0,5, 0,75", "0,25 0,5 0,75",
+                            "0.25, 0.5, 0.75", "0.25,0.5,0.75"}) {
+    EXPECT_EQ(with_typed_levels({}, typed).request.at, levels) << typed;
+  }
 }
 
 }  // namespace curve_choices_test

@@ -62,6 +62,7 @@ class OperatedSessionTest : public ::testing::Test {
                                     .allow_no_realtime = true,
                                     .stops = stops_,
                                     .injected_faults = faults,
+                                    .sound = sound_,
                                     .on_sample = on_sample_,
                                     .asks_about_answers = asks_about_answers_});
     pass(0.1);
@@ -184,6 +185,7 @@ class OperatedSessionTest : public ::testing::Test {
   bool realtime_ = false;
   bool asks_about_answers_ = false;  ///< Tests answer sooner than any person.
   bool may_miss_ticks_ = true;       ///< A test in real time must not hang on the machine.
+  SoundChoice sound_;                ///< Of a study that has sound.
   std::filesystem::path stops_;      ///< Where stops are remembered; "": nowhere.
   std::function<void(const core::Sample&)> on_sample_;
   std::unique_ptr<OperatedSession> session_;

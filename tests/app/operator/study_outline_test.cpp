@@ -216,6 +216,9 @@ TEST(Words, OfMediaCellsAndDurations) {
   EXPECT_EQ(words_of({"viscous", "viscosity_pa_s", 8.0}), "viscous, 8 Pa s");
   EXPECT_EQ(words_of({"free_space", "", 0.0}), "free space");
   EXPECT_EQ(cell_words({}), "");
+  // By what people call the blocks, where each arm is one.
+  const experiments::Study titled = shipped("viscosity_discrimination.json");
+  EXPECT_EQ(cell_words(titled, {{"group_order", {"e", "d"}}}), "Group E, then Group D");
   EXPECT_EQ(cell_words({{"order", {"low_first", "high"}}, {"priming", {"primed"}}}),
             "low first, then high; primed");
   EXPECT_EQ(duration_words(0.0), "0 s");

@@ -90,6 +90,17 @@ class BlindWindowTest : public WindowTest {
   /// Every other view of the study.
   void look_around() {
     window_->use("to_sessions");
+    window_->wait_for_view("overview");
+    window_->wait_for("prepare");
+    window_->use("tab_sessions");
+    window_->wait_for_view("sessions");
+    window_->press("Down");
+    window_->use("show_session");
+    window_->wait_for_view("record");
+    for (const char* page : {"page_answers", "page_notes", "page_faults", "page_timeline"}) {
+      window_->use(page);
+    }
+    window_->use("back");
     window_->wait_for_view("sessions");
     for (const char* tab : {"tab_results", "tab_study", "tab_sessions"}) {
       window_->use(tab);

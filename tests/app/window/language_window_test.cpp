@@ -73,5 +73,28 @@ TEST_F(LanguageWindowTest, ATranslationOfTheCatalogueIsShownAndTheStudyKeepsItsW
   }
 }
 
+TEST_F(LanguageWindowTest, IsChosenAtTheStartAndRememberedFromThenOn) {
+  const EnvironmentVariable locale("LC_ALL", nullptr), messages("LC_MESSAGES", nullptr);
+  const EnvironmentVariable language("LANG", "C.UTF-8"), other("LANGUAGE", nullptr);
+  window_->start();
+  EXPECT_EQ(window_->wait_for("new_study").find("new_study")->label, "New study");
+  EXPECT_EQ(window_->wait_for("language").find("language")->label, "xx");
+  window_->press("ctrl+d");
+  window_->use("language");
+  window_->wait_for_text("«New study»");
+  EXPECT_EQ(window_->screen().find("language")->label, "English");
+  EXPECT_TRUE(window_->is_dark()) << "the window is still the same";
+  window_->press_close_button();
+  EXPECT_EQ(window_->wait_for_exit().exit_code, 0);
+  window_->start();
+  window_->wait_for_text("«New study»");
+  window_->use("language");
+  window_->wait_until("English", [](const Screen& now) {
+    return now.offers("new_study") && now.find("new_study")->label == "New study";
+  });
+  window_->press_close_button();
+  EXPECT_EQ(window_->wait_for_exit().exit_code, 0);
+}
+
 }  // namespace language_window_test
 }  // namespace jnd::app

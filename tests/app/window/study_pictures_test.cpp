@@ -32,6 +32,10 @@ TEST_F(StudyPicturesTest, OfTheStartAndOfStudiesWithTheirSessionsResultsAndFiles
 
   write_file(path("draft.json"), replaced(shipped("short_tour").dump(1), R"("repetitions": 1)",
                                           R"("repetitons": 1)"));
+  open(path("nowhere.study"));
+  window_->wait_for_text("found nothing there");
+  take("start-open-wrong");
+  window_->press("F2");
   open(path("draft.json"));
   window_->wait_for_text("repetitons");
   take("study-problems");
@@ -40,6 +44,9 @@ TEST_F(StudyPicturesTest, OfTheStartAndOfStudiesWithTheirSessionsResultsAndFiles
     open(path("demo") / (std::string(study) + ".study"));
     window_->wait_for_view("sessions");
     take(std::string("sessions-") + study);
+    window_->use("overview");
+    window_->wait_for("prepare");
+    take(std::string("overview-") + study);
     window_->use("tab_results");
     const Screen results = window_->wait_for("export");
     for (const Screen::Widget& widget : results.widgets) {

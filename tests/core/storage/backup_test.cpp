@@ -235,6 +235,19 @@ TEST_F(BackupTest, RestoringWritesOverNothing) {
   EXPECT_FALSE(fs::exists(kept_.beside("restored")));
 }
 
+TEST_F(BackupTest, TheStudyKnowsWhenEachCopyWasBegunLast) {
+  EXPECT_TRUE(dated_backups(kept_.folder()).empty());
+  (void)back_up(kept_.folder(), copy(), 5);
+  (void)back_up(kept_.folder(), kept_.beside("another"), 6);
+  (void)back_up(kept_.folder(), copy(), 7);
+  const std::vector<KnownBackup> known = dated_backups(kept_.folder());
+  ASSERT_EQ(known.size(), 2U);
+  EXPECT_EQ(known[0].folder, kept_.beside("another"));
+  EXPECT_EQ(known[0].time_ns, 6);
+  EXPECT_EQ(known[1].folder, copy());
+  EXPECT_EQ(known[1].time_ns, 7);
+}
+
 TEST_F(BackupTest, SaysThatOneDiskHoldsBoth) { EXPECT_TRUE(back_up_now().on_one_disk); }
 
 }  // namespace backup_test

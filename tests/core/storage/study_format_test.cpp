@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/storage/acknowledgement.h"
 #include "core/storage/backup.h"
 #include "core/storage/export_note.h"
 #include "core/storage/integrity.h"
 #include "core/storage/kept_study.h"
 #include "core/storage/old_study.h"
+#include "core/storage/schedule.h"
 #include "support/files.h"
 
 namespace jnd::core {
@@ -108,6 +110,13 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
       EXPECT_THAT(store.looks()[0].sessions, ElementsAre(3, 4));
       EXPECT_EQ(store.unsealings()[0].reason, "a visit");
     }
+    if (has(11)) {
+      ASSERT_EQ(store.design(8).size(), 2U) << "that of the other block stays";
+      EXPECT_TRUE(store.trials(8).empty());
+    }
+    EXPECT_THAT(appointments(store.folder()), IsEmpty());
+    EXPECT_THAT(acknowledgements(store.folder()), IsEmpty());
+    EXPECT_EQ(planned_number(store.folder()), std::nullopt);
   }
 
   static void expect_adaptive_trials(const StudyStore& store) {

@@ -4,11 +4,13 @@
 
 #include <set>
 
+#include "core/storage/acknowledgement.h"
 #include "core/storage/backup.h"
 #include "core/storage/backup_mark.h"
 #include "core/storage/database.h"
 #include "core/storage/integrity.h"
 #include "core/storage/kept_study.h"
+#include "core/storage/schedule.h"
 #include "support/files.h"
 
 namespace jnd::core {
@@ -104,8 +106,9 @@ TEST_F(WithdrawalTest, NeitherItsNumberIsGivenAgainNorRowsCanBeDeletedAfterwards
 
 /// A new table of people's data has to go with them.
 TEST_F(WithdrawalTest, EmptiesEveryTableThatHoldsSessionsButThoseThatAreKept) {
-  const std::set<std::string> emptied = {"question_answer", "answer", "presentation", "trial",
-                                         "design",          "event",  "session"};
+  const std::set<std::string> emptied = {"acknowledgement", "question_answer", "answer",
+                                         "presentation",    "trial",           "design",
+                                         "event",           "session"};
   // Tombstones, what an ethics committee is owed, which exports the session is in, and which
   // numbers of sessions a planned look counted: no more than the tombstone tells.
   const std::set<std::string> kept = {"withdrawal", "adverse_event", "export_session",
@@ -263,6 +266,40 @@ TEST_F(WithdrawalTest, ReachesWhatAnInterruptedBackupLeft) {
 TEST_F(WithdrawalTest, SomebodyUnknownIsAnErrorAndChangesNothing) {
   EXPECT_THROW((void)withdraw(kept_.folder(), "P09", 5), Error);
   EXPECT_TRUE(verified(kept_.folder()).complete);
+}
+
+TEST_F(WithdrawalTest, AppointmentsGoWithThePersonAlsoWhereNobodyCame) {
+  (void)add_appointment(kept_.folder(), "P01", 100, 1);
+  (void)add_appointment(kept_.folder(), "P08", 200, 2);
+  cancel_appointment(kept_.folder(), 2, 3);
+  const fs::path copy = kept_.beside("copy.study");
+  (void)back_up(kept_.folder(), copy, 4);
+  (void)withdraw(kept_.folder(), "P01", 5);
+  for (const fs::path& folder : {kept_.folder(), copy}) {
+    ASSERT_EQ(appointments(folder).size(), 1U) << folder;
+    EXPECT_EQ(appointments(folder)[0].participant, "P08");
+  }
+  const WithdrawalReport report = withdraw(kept_.folder(), "P08", 6);
+  EXPECT_TRUE(report.sessions.empty());
+  EXPECT_EQ(report.backups, std::vector<fs::path>{copy});
+  EXPECT_TRUE(appointments(kept_.folder()).empty());
+  EXPECT_TRUE(appointments(copy).empty());
+  EXPECT_TRUE(verified(kept_.folder()).complete);
+  EXPECT_NO_THROW((void)withdraw(kept_.folder(), "P08", 7)) << "as often as one likes";
+}
+
+TEST_F(WithdrawalTest, WhoReadANoteIsForgottenWithItAndOfAnAdverseEventIsKept) {
+  {
+    StudyStore store(kept_.folder(), StudyStore::Mode::kReadWrite, Durability::kAtClose);
+    store.add_adverse_event(1, 7, "a pinched finger");
+  }
+  acknowledge(kept_.folder(), {.session = 1, .sequence = 6}, 8);
+  acknowledge(kept_.folder(), {.adverse_event = 1}, 9);
+  ASSERT_EQ(acknowledgements(kept_.folder()).size(), 2U);
+  (void)withdraw(kept_.folder(), "P01", 10);
+  const std::vector<Acknowledgement> left = acknowledgements(kept_.folder());
+  ASSERT_EQ(left.size(), 1U);
+  EXPECT_EQ(left[0].what.adverse_event, 1);
 }
 
 TEST_F(WithdrawalTest, NotWhileASessionRuns) {

@@ -115,8 +115,8 @@ TEST(BrokenCorpus, HoldsEveryMessageThatTheReaderCanGive) {
   for (const char* name :
        {"structure_check", "study_rules", "session_rules", "label_rules", "task_rules",
         "timing_rules", "order_rules", "participant_field_rules", "session_limit_rules",
-        "standard_rules", "interleaved_rules", "design_rules", "sequential_rules",
-        "located_json", "study_reader"}) {
+        "standard_rules", "interleaved_rules", "sound_rules", "design_rules",
+        "sequential_rules", "located_json", "study_reader"}) {
     const std::string code =
         read_file(source("experiments/protocol/" + std::string(name) + ".cpp"));
     ASSERT_NE(code, "") << name;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <memory>
 #include <thread>
 
@@ -123,6 +124,90 @@ TEST_F(ApplicationTest, AStudyFileIsShownWithoutAFolder) {
   EXPECT_EQ(after({letter('0'), true}), "start");
 }
 
+TEST_F(ApplicationTest, APathThatIsWrongStaysInItsFieldWithWhatIsWrong) {
+  open({});
+  after({letter('O'), true});
+  const std::string wrong = (temporary_.path() / "nowhere.study").string();
+  ui_.type(wrong);
+  EXPECT_EQ(after({Key::kEnter}), "start");
+  ASSERT_NE(ui_.drawn().find("open_path"), nullptr);
+  EXPECT_EQ(ui_.drawn().find("open_path")->label, wrong);
+  EXPECT_TRUE(ui_.drawn().shows("found nothing there"));
+  after({Key::kF2});
+  after({letter('N'), true});
+  ui_.type((temporary_.path() / "nowhere.json").string());
+  EXPECT_EQ(after({Key::kEnter}), "start");
+  ASSERT_NE(ui_.drawn().find("study_file"), nullptr);
+  EXPECT_TRUE(ui_.drawn().shows("expected a study file, found none there"));
+}
+
+TEST_F(ApplicationTest, AFaultyDraftOpensWithItsProblemsAndBeginsAStudyOnceItIsMended) {
+  const fs::path draft = temporary_.path() / "draft.json";
+  write_file(draft, replaced(kTinyStudy, R"("repetitions": 2)", R"("repetitons": 2)"));
+  open({});
+  after({letter('N'), true});
+  ui_.type(draft.string());
+  EXPECT_EQ(after({Key::kEnter}), "study");
+  EXPECT_TRUE(ui_.drawn().shows("problem"));
+  EXPECT_TRUE(ui_.drawn().shows("repetitons"));
+  EXPECT_TRUE(ui_.drawn().shows("line 1")) << "where it is";
+  write_file(draft, kTinyStudy);
+  for (int i = 0; i < 100 && !application_->look_beside(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  draw();
+  EXPECT_FALSE(ui_.drawn().shows("repetitons"));
+  EnvironmentVariable data("XDG_DATA_HOME", temporary_.path().c_str());
+  after({letter('N')});
+  after({letter('A'), true});
+  ui_.type((temporary_.path() / "begun.study").string());
+  EXPECT_EQ(after({Key::kEnter}), "sessions");
+  EXPECT_TRUE(fs::exists(temporary_.path() / "begun.study" / "study.sqlite"));
+}
+
+TEST_F(ApplicationTest, TheOverviewIsReachedFromTheSessionsAndPreparesWhoComesNext) {
+  open({.study_folder = folder_});
+  const auto finish = [this] {
+    do {
+      std::this_thread::yield();
+      draw();
+    } while (application_->works());
+    draw();
+  };
+  EXPECT_EQ(after({letter('O')}), "overview");
+  finish();
+  EXPECT_TRUE(ui_.drawn().shows("No session yet"));
+  after({letter('A')});
+  ui_.press({letter('A'), true});
+  ui_.type("P12");
+  EXPECT_EQ(after({Key::kEnter}), "overview");
+  finish();
+  EXPECT_TRUE(ui_.drawn().shows("tomorrow at 10:00"));
+  EXPECT_EQ(after({letter('N')}), "prepare");
+  EXPECT_EQ(ui_.drawn().find("participant")->label, "P12");
+  EXPECT_EQ(after({letter('1'), true}), "sessions");
+}
+
+TEST_F(ApplicationTest, ASessionThatIsChosenShowsItself) {
+  {
+    core::StudyStore store(folder_, core::StudyStore::Mode::kReadWrite);
+    store.add_session({.participant = "P01",
+                       .protocol_sha256 = store.protocols()[0].sha256,
+                       .device = "lumped",
+                       .rate_hz = 1000.0});
+  }
+  open({.study_folder = folder_});
+  after({Key::kDown});
+  EXPECT_EQ(after({Key::kEnter}), "record");
+  do {
+    std::this_thread::yield();
+    draw();
+  } while (application_->works());
+  draw();
+  EXPECT_TRUE(ui_.drawn().shows("Nothing has happened in this session yet"));
+  EXPECT_EQ(after({Key::kBackspace}), "sessions");
+}
+
 TEST_F(ApplicationTest, ATabThatCannotBeOpenedLeavesThePreparationAsItWas) {
   open({.study_folder = folder_, .participant = "P01"});
   EXPECT_STREQ(application_->view_name(), "prepare");
@@ -149,6 +234,30 @@ TEST_F(ApplicationTest, WhatCannotBeOpenedIsToldAndTheStartStays) {
   EXPECT_FALSE(application_->is_live());
   application_->ask_to_close();
   EXPECT_TRUE(application_->closed());
+}
+
+TEST_F(ApplicationTest, AnotherLanguageIsChosenAtTheStartAndTheWindowBeginsAnew) {
+  open({});
+  EXPECT_EQ(ui_.drawn().find("language"), nullptr) << "there is no other one";
+  application_->offer({{"de", "Deutsch"}, {"en", "English"}, {"fr", "Français"}});
+  draw();
+  ASSERT_NE(ui_.drawn().find("language"), nullptr);
+  EXPECT_EQ(ui_.drawn().find("language")->label, "Français") << "the one after English";
+  after({letter('D')});
+  EXPECT_EQ(ui_.drawn().find("language"), nullptr) << "what is shown stays in its language";
+  after({letter('0'), true});
+  EXPECT_FALSE(application_->closed());
+  EXPECT_EQ(application_->wanted_language(), "");
+  after({letter('L'), true});
+  EXPECT_TRUE(application_->closed());
+  EXPECT_EQ(application_->wanted_language(), "fr");
+}
+
+TEST_F(ApplicationTest, AfterTheLastLanguageComesTheFirst) {
+  open({});
+  application_->offer({{"de", "Deutsch"}, {"en", "English"}});
+  draw();
+  EXPECT_EQ(ui_.drawn().find("language")->label, "Deutsch");
 }
 
 }  // namespace application_test

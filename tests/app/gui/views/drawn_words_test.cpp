@@ -7,7 +7,9 @@
 
 #include "app/gui/headless_ui.h"
 #include "app/gui/text_layout.h"
+#include "app/gui/views/overview_view.h"
 #include "app/gui/views/prepare_view.h"
+#include "app/gui/views/record_view.h"
 #include "app/gui/views/results_parts.h"
 #include "app/gui/views/results_view.h"
 #include "app/gui/views/run_view_fixture.h"
@@ -104,6 +106,22 @@ void look_at_results(const std::string& shipped, int num_participants) {
   SessionsViewState sessions;
   expect_words(ui.frame([&](Ui& now) { (void)draw_sessions_view(now, folder, {}, sessions); }),
                shipped + ", sessions");
+  const StudyOverview overview = study_overview(study.folder(), 3, control);
+  OverviewState overview_state;
+  expect_words(ui.frame([&](Ui& now) {
+    (void)draw_overview(now, {.study = folder, .overview = &overview}, overview_state);
+  }),
+               shipped + ", overview");
+  const SessionRecord record = session_record(study.folder(), 1);
+  RecordViewState record_state;
+  for (const RecordPage page :
+       {RecordPage::kTimeline, RecordPage::kAnswers, RecordPage::kNotes, RecordPage::kFaults}) {
+    record_state.page = page;
+    expect_words(ui.frame([&](Ui& now) {
+      (void)draw_record_view(now, {.study = folder, .record = &record}, record_state);
+    }),
+                 shipped + ", a session");
+  }
   const ResultsViewModel model{.study = folder, .results = &results};
   ResultsViewState state;
   for (std::size_t page = 0; page < pages_of(results).size(); ++page) {

@@ -16,6 +16,7 @@ class SessionsViewTest : public ::testing::Test {
       const SessionsViewResult result = draw_sessions_view(now, study_, work_, state_);
       if (result.tab != StudyTab::kNone) all.tab = result.tab;
       if (result.resume) all.resume = result.resume;
+      if (result.show) all.show = result.show;
       all.new_session |= result.new_session;
       all.verify |= result.verify;
       all.back_up |= result.back_up;
@@ -91,6 +92,35 @@ TEST_F(SessionsViewTest, ArrowsGoThroughTheSessionsAndStopAtTheEnds) {
   EXPECT_EQ(state_.selected, 3);
   (void)after_key({Key::kUp});
   EXPECT_EQ(state_.selected, 2);
+}
+
+TEST_F(SessionsViewTest, ASessionShowsItselfByEnterAndByASecondClick) {
+  EXPECT_FALSE(after_key({Key::kEnter}).show.has_value()) << "none is chosen";
+  (void)after_key({Key::kDown});
+  EXPECT_EQ(after_key({Key::kEnter}).show, 1);
+  ui_.click("session_3");
+  EXPECT_FALSE(draw().show.has_value());
+  ui_.click("session_3");
+  EXPECT_EQ(draw().show, 3);
+  ui_.click("session_1");
+  EXPECT_FALSE(draw().show.has_value()) << "another one is a first click";
+}
+
+TEST_F(SessionsViewTest, TheOverviewIsOneKeyAway) {
+  EXPECT_EQ(after_key({letter('O')}).tab, StudyTab::kOverview);
+}
+
+TEST_F(SessionsViewTest, ARowThatArrowsHaveComeToIsSeen) {
+  const SessionLine line = study_.sessions[0];
+  for (std::int64_t session = 4; session <= 60; ++session) {
+    study_.sessions.push_back(line);
+    study_.sessions.back().session = session;
+  }
+  (void)after_key({Key::kUp});
+  EXPECT_EQ(state_.selected, 60);
+  (void)draw();
+  EXPECT_GT(ui_.drawn().find("session_60")->place.height, 30);
+  EXPECT_EQ(ui_.drawn().find("session_1")->place.height, 0);
 }
 
 TEST_F(SessionsViewTest, ABackupAsksWhereToFirst) {

@@ -14,7 +14,15 @@ class StartViewTest : public ::testing::Test {
  protected:
   StartViewTest() {
     model_.version = "0.1.0";
-    model_.shipped = {"short_tour", "viscosity_discrimination"};
+    model_.shipped = {{.name = "short_tour",
+                       .title = "A short tour",
+                       .purpose = "Five minutes to try the laboratory by hand.",
+                       .length = "about 5 min · 18 trials"},
+                      {.name = "viscosity_discrimination",
+                       .title = "Discrimination of viscosities",
+                       .purpose = "How small a difference in viscosity can be felt.",
+                       .length = "about 50 min · 160 trials",
+                       .citation = "A. Schmidt, Viscosity Perception, 2018."}};
     const StudyFolder study = some_study();
     model_.studies.push_back({study.folder, study, study.title, study.summary()});
     model_.studies.push_back(
@@ -115,6 +123,87 @@ TEST_F(StartViewTest, ANewStudyIsOneOfTheShippedInAFolderThatIsProposed) {
   EXPECT_EQ(result.create->study, "viscosity_discrimination");
   EXPECT_EQ(result.create->folder, state_.new_folder);
   EXPECT_EQ(state_.dialog, StartViewState::Dialog::kNone);
+}
+
+TEST_F(StartViewTest, TheCardsOfANewStudySayWhatEachIsForHowLongItTakesAndWhomItFollows) {
+  model_.drafts = {{.name = "/my/draft.json",
+                    .file = "/my/draft.json",
+                    .title = "My draft",
+                    .is_draft = true,
+                    .num_problems = 2}};
+  (void)after_key({.key = letter('N'), .control = true});
+  for (const char* words :
+       {"My draft", "2 problems in the file", "Discrimination of viscosities",
+        "about 50 min · 160 trials", "How small a difference", "A. Schmidt"}) {
+    EXPECT_TRUE(ui_.drawn().shows(words)) << words;
+  }
+  EXPECT_NE(ui_.drawn().find("draft_1"), nullptr);
+  EXPECT_NE(ui_.drawn().find("shipped_short_tour"), nullptr);
+}
+
+TEST_F(StartViewTest, ArrowsGoThroughTheCardsThoughAFieldHasTheKeyboard) {
+  (void)after_key({.key = letter('N'), .control = true});
+  (void)after_key({Key::kDown});
+  EXPECT_EQ(state_.chosen_card, 1U);
+  (void)after_key({Key::kDown});
+  EXPECT_EQ(state_.chosen_card, 1U) << "the last one";
+  ui_.press(Key::kEnter);
+  EXPECT_EQ(draw(ui_).create->study, "viscosity_discrimination");
+}
+
+TEST_F(StartViewTest, BrowsingFindsAStudyFileForTheNewStudy) {
+  state_.opening.browsing = "/data";
+  (void)after_key({.key = letter('N'), .control = true});
+  (void)after_key({.key = letter('B'), .control = true});
+  EXPECT_EQ(state_.dialog, StartViewState::Dialog::kBrowse);
+  EXPECT_FALSE(ui_.drawn().shows("honey.study")) << "a folder of a study is no study file";
+  (void)after_key({Key::kDown});
+  (void)after_key({Key::kDown});
+  (void)after_key({Key::kEnter});
+  EXPECT_EQ(state_.dialog, StartViewState::Dialog::kNew);
+  EXPECT_EQ(state_.study_file, "/data/x.json");
+  ui_.press(Key::kEnter);
+  EXPECT_EQ(draw(ui_).create->study, "/data/x.json");
+}
+
+TEST_F(StartViewTest, WhatWasWrongStandsInTheDialogWithWhatWasTyped) {
+  state_.opening.browsing = "/data";
+  (void)after_key({.key = letter('O'), .control = true});
+  ui_.type("/data/nowhere");
+  ui_.press(Key::kEnter);
+  EXPECT_EQ(draw(ui_).open, fs::path("/data/nowhere"));
+  state_.dialog = StartViewState::Dialog::kOpen;
+  go_on_with_file_dialog(state_.opening, "found nothing there");
+  (void)draw(ui_);
+  EXPECT_TRUE(ui_.drawn().shows("found nothing there"));
+  EXPECT_EQ(state_.opening.open_path, "/data/nowhere");
+  ui_.type("2");
+  (void)draw(ui_);
+  EXPECT_TRUE(state_.opening.open_path.ends_with("2"));
+  EXPECT_FALSE(ui_.drawn().shows("found nothing there")) << "it may be right now";
+}
+
+TEST_F(StartViewTest, ArrowsGoThroughTheStudiesAndEnterOpensTheOneTheyCameTo) {
+  EXPECT_TRUE(after_key({Key::kEnter}).resume.has_value());
+  (void)after_key({Key::kDown});
+  (void)after_key({Key::kDown});
+  ui_.press(Key::kEnter);
+  const StartViewResult result = draw(ui_);
+  EXPECT_FALSE(result.resume.has_value());
+  EXPECT_EQ(result.open, fs::path("/data/draft.json"));
+}
+
+TEST_F(StartViewTest, ArrowsGoThroughAFolderAndEnterOpensTheEntry) {
+  state_.opening.browsing = "/data";
+  (void)after_key({.key = letter('O'), .control = true});
+  (void)after_key({Key::kDown});
+  (void)after_key({Key::kDown});
+  EXPECT_FALSE(after_key({Key::kEnter}).open.has_value()) << "a folder is gone into";
+  EXPECT_EQ(state_.opening.browsing, "/data/more");
+  (void)after_key({.key = Key::kUp, .control = true});
+  (void)after_key({Key::kDown});
+  ui_.press(Key::kEnter);
+  EXPECT_EQ(draw(ui_).open, fs::path("/data/honey.study"));
 }
 
 TEST_F(StartViewTest, AStudyFileIsTypedAtOnceAndAFolderStaysAsItWasTyped) {

@@ -18,6 +18,8 @@ class StudyViewTest : public ::testing::Test {
       const StudyViewResult result = draw_study_view(now, model, state_);
       if (result.tab != StudyTab::kNone) all.tab = result.tab;
       all.orders_changed |= result.orders_changed;
+      all.edit |= result.edit;
+      all.begin |= result.begin;
     });
     return all;
   }
@@ -49,11 +51,49 @@ TEST_F(StudyViewTest, EveryProblemStandsAtItsPlace) {
       .problems = {{"wrong.json", 15, 35, "/stages/3/scale/0", "expected a number, found -1"},
                    {"wrong.json", 0, 0, "", "expected a file, found none"}}};
   (void)draw({.outline = wrong, .orders = {}});
-  for (const char* words : {"2 problems in the file", "15:35", "/stages/3/scale/0",
-                            "expected a number, found -1", "expected a file", "wrong.json"}) {
+  for (const char* words : {"2 problems in the file", "line 15, column 35", "/stages/3/scale/0",
+                            "expected a number, found -1", "the file as a whole",
+                            "expected a file", "wrong.json"}) {
     EXPECT_TRUE(ui_.drawn().shows(words)) << words;
   }
   EXPECT_EQ(ui_.drawn().find("more_participants"), nullptr);
+}
+
+TEST_F(StudyViewTest, AProblemStandsInTheTextAroundItAndArrowsGoOn) {
+  StudyOutline wrong{.file = "/data/wrong.json"};
+  std::vector<std::string> lines;
+  for (int i = 1; i <= 60; ++i) lines.push_back("  \"line\": " + std::to_string(i) + ",");
+  for (int line = 2; line <= 60; line += 4) {
+    wrong.problems.push_back({"wrong.json", line, 11, "/line", "expected a word"});
+    wrong.excerpts.push_back(excerpt_at(lines, line, 11));
+  }
+  const StudyViewModel model{.outline = wrong, .orders = {}};
+  (void)draw(model);
+  EXPECT_TRUE(ui_.drawn().shows("\"line\": 4,")) << "two lines on";
+  (void)after_key(model, {Key::kUp});
+  EXPECT_EQ(state_.problem, 14U);
+  (void)draw(model);
+  EXPECT_GT(ui_.drawn().find("problem_15")->place.height, 100);
+  EXPECT_TRUE(after_key(model, {letter('E')}).edit);
+  EXPECT_FALSE(ui_.drawn().find("begin_study")->enabled) << "not with problems";
+}
+
+TEST_F(StudyViewTest, ASoundFileBeginsAStudyInAFolderThatIsProposed) {
+  const StudyViewModel model{
+      .outline = outline_, .orders = orders_, .proposed_folder = "/data/tiny.study"};
+  (void)after_key(model, {letter('N')});
+  EXPECT_EQ(state_.new_folder, "/data/tiny.study");
+  ui_.press(Key::kEnter);
+  EXPECT_TRUE(draw(model).begin);
+  EXPECT_FALSE(state_.asks_for_folder);
+}
+
+TEST_F(StudyViewTest, WhatASoundFileMayNotMeanIsTold) {
+  outline_.doubts = {{"tiny.json", 14, 5, "/stages/3", "levels are out of order"}};
+  (void)draw({.study = &study_, .outline = outline_, .orders = orders_});
+  EXPECT_TRUE(ui_.drawn().shows("1 thing to look at once more"));
+  EXPECT_TRUE(ui_.drawn().shows("line 14, column 5: levels are out of order"));
+  EXPECT_TRUE(ui_.drawn().shows("Estimation")) << "its stages stand below";
 }
 
 TEST_F(StudyViewTest, MoreAndFewerParticipantsArePlannedWithinReason) {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "app/sound/sound_settings.h"
+#include "experiments/study/study.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace jnd::app {
+
+/// `--sound OUTPUT|off`.
+CLI::Option* add_sound_option(CLI::App& command, std::string& output);
+
+/// Throws `UsageError` where the study requires its sound and `output` is "off", as no session
+/// of it would begin.
+void require_sound_fits(const experiments::Study& study, const std::string& output);
+
+}  // namespace jnd::app

@@ -1,0 +1,26 @@
+#include "app/gui/views/backup_dialog.h"
+
+#include "app/gui/views/layout.h"
+#include "app/language/words.h"
+
+namespace jnd::app::gui {
+
+bool draw_backup_dialog(Ui& ui, bool& asks, bool& is_new, std::string& folder) {
+  if (!asks) return false;
+  Rect inside = ui.begin_dialog("backup_dialog", 640, 250);
+  ui.text(inside.take_top(34, 4), tr("Back up the study"), {.font = Font::kLarge});
+  ui.text(inside.take_top(26, 12),
+          tr("A new folder, or an earlier backup: then only what is new is copied."),
+          {.colour = Colour::kSoft});
+  const bool entered = ui.text_field("backup_folder", inside.take_top(46), folder,
+                                     tr("folder of the copy"), is_new);
+  const DialogChoice choice =
+      draw_dialog_buttons(ui, inside.take_bottom(48), tr("Back up"), !folder.empty(), entered);
+  ui.end_dialog();
+  // Enter ends a field; where something is missing yet, it goes on.
+  is_new = entered && !choice.done;
+  if (choice.done || choice.cancelled) asks = false;
+  return choice.done;
+}
+
+}  // namespace jnd::app::gui
