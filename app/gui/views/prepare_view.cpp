@@ -301,9 +301,10 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
   draw_seed(ui, both.take_right(std::min(300.0f, both.width / 2), 16), model);
   draw_languages(ui, both, model, state);
   draw_fields(ui, inside, model, state, result);
+  // Above the list of devices, which is long: who prepares a session must see it.
+  result.sound = draw_sound_card(ui, inside, model.sound, state.sound_output);
   draw_devices(ui, inside, model, state, result);
   draw_fitting(ui, inside, state);
-  result.sound = draw_sound_card(ui, inside, model.sound, state.sound_output);
   state.session_height = inside.y - top;
   ui.end_scroll();
   draw_lines(ui, rest, model, state, result);

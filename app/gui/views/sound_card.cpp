@@ -59,28 +59,29 @@ SoundCardResult draw_sound_card(Ui& ui, Rect& inside, const SoundModel& model,
                                 std::string& output) {
   SoundCardResult result;
   if (!model.is_wanted) return result;
-  ui.heading(inside.take_top(18, 6), tr("Sound for the participant"));
+  Rect head = inside.take_top(42, 6);
+  const ButtonStyle style{.key = {letter('T')}, .enabled = model.problem.empty()};
+  const char* label = model.is_tested ? tr("End the test") : tr("Test the sound");
+  if (ui.button("sound_test", head.take_right(ui.button_width(label, style), 16), label,
+                style)) {
+    result.test = true;
+  }
+  ui.heading(head.middle(head.width, 18), tr("Sound for the participant"));
   result.output_changed = draw_outputs(ui, inside, model, output);
   inside.take_top(4);
   const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
   TextStyle wrong = soft;
   wrong.colour = model.is_required ? Colour::kRed : Colour::kAmber;
-  const auto say = [&](const std::string& words, const TextStyle& style) {
-    ui.text(inside.take_top(ui.text_height(inside.width, words, style), 4), words, style);
+  const auto say = [&](const std::string& words, const TextStyle& style_of_words) {
+    ui.text(inside.take_top(ui.text_height(inside.width, words, style_of_words), 4), words,
+            style_of_words);
   };
-  for (const std::string& level : model.levels) say(level, soft);
   if (!model.problem.empty()) say(model.problem, wrong);
-  Rect line = inside.take_top(42, 20);
-  const ButtonStyle style{.key = {letter('T')}, .enabled = model.problem.empty()};
-  const char* label = model.is_tested ? tr("End the test") : tr("Test the sound");
-  if (ui.button("sound_test", line.take_left(ui.button_width(label, style), 16), label,
-                style)) {
-    result.test = true;
-  }
-  ui.text(line,
-          model.is_tested ? tr("It comes up slowly, with a cue every second.")
-                          : tr("Put the headphones on yourself first."),
-          {.font = Font::kSmall, .colour = Colour::kSoft});
+  for (const std::string& level : model.levels) say(level, soft);
+  say(model.is_tested ? tr("It comes up slowly, with a cue every second.")
+                      : tr("Put the headphones on yourself first."),
+      soft);
+  inside.take_top(16);
   return result;
 }
 

@@ -71,6 +71,7 @@ TEST_F(SoundWindowTest, ASessionPlaysTestsAndKeepsItsSound) {
     feel_test();
     window_->use("answer_yes");
   }
+  window_->use("finish_stage");
   window_->wait_for("to_results");
   window_->kill();
   const core::StudyStore store = stored();
@@ -79,7 +80,8 @@ TEST_F(SoundWindowTest, ASessionPlaysTestsAndKeepsItsSound) {
             std::string::npos);
   std::map<std::string, int> count;
   for (const core::EventRow& event : events_of(store, "cues_played")) {
-    for (const auto& cue : nlohmann::json::parse(event.data)["cues"]) {
+    const auto data = nlohmann::json::parse(event.data);
+    for (const auto& cue : data["cues"]) {
       ++count[cue["moment"].get<std::string>()];
       const double lag_s =
           cue["heard_monotonic_s"].get<double>() - cue["asked_monotonic_s"].get<double>();
