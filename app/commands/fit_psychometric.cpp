@@ -38,6 +38,22 @@ struct FitPsychometricOptions : CurveRequest {
 /// Asks what the task was where the answers look like right ones, and nobody said.
 void ask_for_task(const CurveAnalysis& curves) {
   if (!curves.suspected_chance) return;
+  const ExportedAnswers exported = exported_answers(curves.file.columns, curves.request.yes);
+  if (exported == ExportedAnswers::kRight) {
+    throw UsageError(fmt::format(
+        "{}: is_right is the right interval of three: expected --task mafc:3 if the block's "
+        "task "
+        "is three_interval or oddity, --task mafc:2 if it is abx or match_to_sample, found no "
+        "--task",
+        curves.request.csv));
+  }
+  if (exported == ExportedAnswers::kVaried) {
+    throw UsageError(fmt::format(
+        "{}: what a response is depends on how the block asks: expected --yes is_test_chosen, "
+        "is_felt, is_called_different or is_right, whichever is not empty in the block, found "
+        "--yes response",
+        curves.request.csv));
+  }
   const double chance = *curves.suspected_chance;
   const long alternatives = std::lround(1.0 / chance);
   throw UsageError(fmt::format(

@@ -1,6 +1,9 @@
 #include "app/curves/curve_analysis.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "analysis/fits/chance_level.h"
 #include "analysis/report/curve_figure.h"
@@ -41,6 +44,21 @@ analysis::Figure figure_of(const CurveAnalysis& curves) {
 
 }  // namespace
 
+ExportedAnswers exported_answers(const std::vector<std::string>& columns,
+                                 const std::string& yes) {
+  constexpr std::array<std::string_view, 3> kYesNo = {"is_test_chosen", "is_felt",
+                                                      "is_called_different"};
+  const auto has = [&columns](std::string_view name) {
+    return std::ranges::find(columns, name) != columns.end();
+  };
+  if (!std::ranges::all_of(kYesNo, has) || !has("is_right") || !has("reference_intensity")) {
+    return ExportedAnswers::kNone;
+  }
+  if (std::ranges::find(kYesNo, yes) != kYesNo.end()) return ExportedAnswers::kYesNo;
+  if (yes == "is_right") return ExportedAnswers::kRight;
+  return yes == "response" ? ExportedAnswers::kVaried : ExportedAnswers::kNone;
+}
+
 CurveAnalysis read_curves(const CurveRequest& request) {
   require_request(request);
   CurveAnalysis curves{.request = request, .how = options_of(request)};
@@ -56,8 +74,13 @@ CurveAnalysis read_curves(const CurveRequest& request) {
   if (model.falling && model.symmetric && model.guess_rate > 0.0) {
     throw UsageError("--symmetric: expected without guesses for a curve that falls");
   }
-  if (request.task.empty() && request.guess.empty()) {
+  const ExportedAnswers exported = exported_answers(curves.file.columns, request.yes);
+  if (request.task.empty() && request.guess.empty() && exported != ExportedAnswers::kYesNo) {
     curves.suspected_chance = analysis::suspected_chance(all_for_chance(curves.groups, model));
+    constexpr double kOfThreeIntervals = 1.0 / 3.0;
+    if (exported == ExportedAnswers::kRight && !curves.suspected_chance) {
+      curves.suspected_chance = kOfThreeIntervals;
+    }
   }
   return curves;
 }

@@ -23,12 +23,25 @@ struct CurveAnalysis {
   analysis::CurveOptions how;
   /// The answers fall as the intensity grows, and so does the curve, though nobody said so.
   bool found_falling = false;
-  /// The answers look like right ones of a forced choice with this chance, and nobody said what
-  /// the task was. Who asked decides before there are fits.
+  /// The answers look like right ones of a forced choice with this chance, or are those of the
+  /// program's own export, and nobody said what the task was. Who asked decides before there
+  /// are fits.
   std::optional<double> suspected_chance;
   std::vector<analysis::CurveFit> fits;  ///< One a group.
   std::optional<analysis::CurveComparison> comparison;
 };
+
+/// What a table of trials that this program exported holds in a column, as its codebook says.
+enum class ExportedAnswers {
+  kNone,    ///< It is no such table, or no such column.
+  kYesNo,   ///< is_test_chosen, is_felt and is_called_different: no answer is right by chance.
+  kRight,   ///< is_right: of a choice among two or three, which the table does not tell.
+  kVaried,  ///< response: what it is depends on how the block asks.
+};
+
+/// `columns`: all of the table.
+[[nodiscard]] ExportedAnswers exported_answers(const std::vector<std::string>& columns,
+                                               const std::string& yes);
 
 /// Reads the answers and settles how they are fitted. Throws `UsageError` as `require_request`
 /// and `options_of`, `core::Error` as `read_answer_file`. Not real time.

@@ -95,6 +95,49 @@ TEST_F(FitPsychometric, AsksWhetherAnswersAreRightOnes) {
   EXPECT_EQ(psychometric({"--csv", "a.csv", "--task", "yes-no"}).exit_code, 0);
 }
 
+/// A table as `jnd export csv` writes trials, of some columns, with answers that look like
+/// right ones of a choice among two.
+std::string exported_trials(const std::string& answered) {
+  std::string text =
+      "session,block,intensity,reference_intensity,response,is_test_chosen,is_felt,"
+      "is_called_different,is_right,excluded\n";
+  const int yes[] = {52, 58, 75, 92, 99};
+  for (int level = 0; level < 5; ++level) {
+    for (int trial = 0; trial < 100; ++trial) {
+      const char* answer = trial < yes[level] ? "1" : "0";
+      const auto cell = [&](const char* column) {
+        return answered == column ? std::string(answer) : std::string();
+      };
+      text += "1,b," + std::to_string(level + 1) + ",1," + answer + "," +
+              cell("is_test_chosen") + "," + cell("is_felt") + "," +
+              cell("is_called_different") + "," + cell("is_right") + ",0\n";
+    }
+  }
+  return text;
+}
+
+TEST_F(FitPsychometric, KnowsTheTaskOfTrialsThatTheProgramExported) {
+  for (const char* column : {"is_test_chosen", "is_felt", "is_called_different"}) {
+    table("trials.csv", exported_trials(column));
+    const ProgramOutcome outcome = psychometric({"--csv", "trials.csv", "--yes", column});
+    ASSERT_EQ(outcome.exit_code, 0) << column << outcome.err;
+    EXPECT_EQ(document(outcome.out)["fits"][0]["guess_rate"], 0.0) << column;
+  }
+  table("trials.csv", exported_trials("is_right"));
+  const ProgramOutcome right = psychometric({"--csv", "trials.csv", "--yes", "is_right"});
+  EXPECT_EQ(right.exit_code, 2);
+  EXPECT_NE(right.err.find("--task mafc:3 if the block's task is three_interval or oddity"),
+            std::string::npos)
+      << right.err;
+  EXPECT_EQ(
+      psychometric({"--csv", "trials.csv", "--yes", "is_right", "--task", "mafc:2"}).exit_code,
+      0);
+  const ProgramOutcome response = psychometric({"--csv", "trials.csv", "--yes", "response"});
+  EXPECT_EQ(response.exit_code, 2);
+  EXPECT_NE(response.err.find("expected --yes is_test_chosen"), std::string::npos)
+      << response.err;
+}
+
 TEST_F(FitPsychometric, RefusesWhatDoesNotGoTogether) {
   table("a.csv", kSigned);
   for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--at", "1.5"},

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/export/study_tables.h"
 #include "app/command_line/command.h"
 #include "app/curves/curve_analysis.h"
 #include "core/error.h"
@@ -71,6 +72,20 @@ TEST(CurveRequest, ATableIsWrittenIntoNoFileThatIsThere) {
   save_table(curves, folder.path() / "fits.csv");
   EXPECT_TRUE(test_support::read_file(folder.path() / "fits.csv")
                   .starts_with("status,reason,num_trials,location,"));
+}
+
+TEST(CurveAnalysis, TrialsOfTheProgramAreKnownByTheColumnsThatItExports) {
+  std::vector<std::string> columns;
+  for (const analysis::CsvColumn& column : analysis::trial_columns()) {
+    columns.emplace_back(column.name);
+  }
+  for (const char* yes : {"is_test_chosen", "is_felt", "is_called_different"}) {
+    EXPECT_EQ(exported_answers(columns, yes), ExportedAnswers::kYesNo) << yes;
+    EXPECT_EQ(exported_answers({"intensity", yes}, yes), ExportedAnswers::kNone) << yes;
+  }
+  EXPECT_EQ(exported_answers(columns, "is_right"), ExportedAnswers::kRight);
+  EXPECT_EQ(exported_answers(columns, "response"), ExportedAnswers::kVaried);
+  EXPECT_EQ(exported_answers(columns, "is_catch"), ExportedAnswers::kNone);
 }
 
 }  // namespace curve_request_test
