@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 
 #include "analysis/data/answer_rows.h"
@@ -111,6 +112,52 @@ bool TrialVariable::is_numeric() const noexcept {
 const TrialVariable* TrialTable::find(std::string_view name) const noexcept {
   const auto found = std::ranges::find(variables, name, &TrialVariable::name);
   return found == variables.end() ? nullptr : &*found;
+}
+
+std::vector<TrialGroup> groups_of(const TrialTable& table,
+                                  const std::vector<std::string>& columns) {
+  std::vector<const TrialVariable*> by, kept;
+  for (const std::string& column : columns) by.push_back(table.find(column));
+  for (const TrialVariable& variable : table.variables) {
+    if (std::ranges::find(columns, variable.name) == columns.end()) kept.push_back(&variable);
+  }
+  constexpr std::uint32_t kNotThere = 0xFFFFFFFF;
+  std::vector<TrialGroup> groups;
+  /// Of each group and kept variable, where the table's cells are among the group's.
+  std::vector<std::vector<std::vector<std::uint32_t>>> places;
+  std::map<std::vector<std::uint32_t>, std::size_t> known;
+  for (std::size_t row = 0; row < table.num_rows(); ++row) {
+    std::vector<std::uint32_t> cells;
+    for (const TrialVariable* variable : by) cells.push_back(variable->place[row]);
+    const auto [found, is_new] = known.try_emplace(cells, groups.size());
+    const std::size_t place = found->second;
+    if (is_new) {
+      TrialGroup& group = groups.emplace_back();
+      for (const TrialVariable* variable : by) {
+        group.key.emplace_back(variable->name, variable->cell(row));
+      }
+      places.emplace_back();
+      for (const TrialVariable* variable : kept) {
+        group.table.variables.push_back(
+            {.name = variable->name, .cells = {}, .numbers = {}, .place = {}});
+        places.back().emplace_back(variable->cells.size(), kNotThere);
+      }
+    }
+    TrialTable& to = groups[place].table;
+    to.num_yes.push_back(table.num_yes[row]);
+    to.num_trials.push_back(table.num_trials[row]);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      TrialVariable& variable = to.variables[i];
+      std::uint32_t& cell = places[place][i][kept[i]->place[row]];
+      if (cell == kNotThere) {
+        cell = static_cast<std::uint32_t>(variable.cells.size());
+        variable.cells.push_back(kept[i]->cell(row));
+        variable.numbers.push_back(kept[i]->number(row));
+      }
+      variable.place.push_back(cell);
+    }
+  }
+  return groups;
 }
 
 UnknownColumn::UnknownColumn(const std::string& where, std::string missing,

@@ -49,6 +49,19 @@ struct TrialTable {
   [[nodiscard]] const TrialVariable* find(std::string_view name) const noexcept;
 };
 
+/// Rows of a table that agree in some columns.
+struct TrialGroup {
+  std::vector<std::pair<std::string, std::string>> key;  ///< Column and cell.
+  /// Without those columns, and with no cells but the group's. What was left out of the file is
+  /// told by the whole table alone.
+  TrialTable table;
+};
+
+/// Groups in the order of their first rows; without columns one, of all rows. `columns` are
+/// variables of the table.
+[[nodiscard]] std::vector<TrialGroup> groups_of(const TrialTable& table,
+                                                const std::vector<std::string>& columns);
+
 /// The table has no column of this name.
 class UnknownColumn : public core::Error {
  public:

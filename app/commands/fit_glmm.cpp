@@ -16,6 +16,7 @@
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/commands/fit_figures.h"
+#include "app/commands/fit_tables.h"
 #include "app/commands/glmm_options.h"
 #include "core/parallel.h"
 
@@ -76,7 +77,17 @@ void require_glmm_options(const FitGlmmOptions& options) {
   if (options.json && !options.script.empty()) {
     throw UsageError("--json, --script: expected one of them at most, found both");
   }
+  if (!options.group_by.empty() && !options.script.empty()) {
+    throw UsageError(
+        "--script: expected without --group-by, found with it; --where COLUMN=CELL takes one "
+        "group");
+  }
   if (!options.figure.empty()) {
+    if (!options.group_by.empty()) {
+      throw UsageError(
+          "--figure: expected without --group-by, found with it; --where COLUMN=CELL takes one "
+          "group, and a condition in --fixed has the curves of all in one figure");
+    }
     if (options.stimulus.empty()) {
       throw UsageError(
           "--figure: expected with --stimulus COLUMN, over which the curves are drawn, found "
@@ -106,47 +117,76 @@ void require_glmm_options(const FitGlmmOptions& options) {
   }
 }
 
-/// The table with the columns that the formulas name, and those of the trial before.
-void read_glmm_table(const FitGlmmOptions& options, GlmmResult& result) {
-  const std::string previous =
-      has_history(options) ? analysis::previous_stimulus(options.stimulus) : "";
+/// Throws `UsageError` where a column is grouped by and in a formula as well.
+void require_group_columns(const FitGlmmOptions& options,
+                           const std::vector<std::string>& of_formulas) {
+  for (const std::string& column : options.group_by) {
+    if (std::ranges::find(of_formulas, column) == of_formulas.end()) continue;
+    throw UsageError(
+        fmt::format("--group-by: expected columns that no formula names, found {}; within a "
+                    "group it does not vary",
+                    column));
+  }
+}
+
+/// The table with the columns that the formulas name and that are grouped by.
+analysis::TrialTable read_glmm_table(const FitGlmmOptions& options,
+                                     const analysis::MixedFormulas& formulas) {
   analysis::TrialColumns columns{.answers = answer_words(options),
-                                 .variables = analysis::columns_of(result.formulas),
+                                 .variables = analysis::columns_of(formulas),
                                  .where = where_of(options)};
   if (has_history(options)) {
-    std::erase(columns.variables, previous);
+    std::erase(columns.variables, analysis::previous_stimulus(options.stimulus));
     std::erase(columns.variables, analysis::kPreviousAnswer);
   }
+  require_group_columns(options, columns.variables);
+  for (const std::string& column : options.group_by) {
+    if (std::ranges::find(columns.variables, column) == columns.variables.end()) {
+      columns.variables.push_back(column);
+    }
+  }
   try {
-    result.table = analysis::read_trial_table(options.csv, columns);
+    return analysis::read_trial_table(options.csv, columns);
   } catch (const analysis::UnknownColumn& unknown) {
+    if (std::ranges::find(options.group_by, unknown.column) != options.group_by.end()) {
+      throw UsageError(fmt::format("--group-by: expected a column of {}, found {}",
+                                   unknown.known, unknown.column));
+    }
     const bool is_fixed = std::ranges::any_of(
-        result.formulas.fixed.variables,
+        formulas.fixed.variables,
         [&](const auto& variable) { return variable.column == unknown.column; });
     throw_formula(is_fixed ? "--fixed" : "--random",
-                  analysis::unknown_in(result.formulas, unknown.column, unknown.known));
+                  analysis::unknown_in(formulas, unknown.column, unknown.known));
   }
-  const analysis::TrialTable& table = result.table;
+}
+
+/// What was left out of the whole file, a sentence each.
+std::vector<std::string> notes_of_file(const analysis::TrialTable& table) {
+  std::vector<std::string> notes;
   if (table.num_elsewhere > 0) {
-    result.notes.push_back(fmt::format("left out {} of {} rows by --where", table.num_elsewhere,
-                                       table.num_rows_in_file));
+    notes.push_back(fmt::format("left out {} of {} rows by --where", table.num_elsewhere,
+                                table.num_rows_in_file));
   }
   for (const auto& [column, number] : table.num_missing) {
-    result.notes.push_back(
-        fmt::format("left out {} of {} rows, which have nothing in the column {}", number,
-                    table.num_rows_in_file, column));
+    notes.push_back(fmt::format("left out {} of {} rows, which have nothing in the column {}",
+                                number, table.num_rows_in_file, column));
   }
   if (table.num_without_trials > 0) {
-    result.notes.push_back(fmt::format("left out {} of {} rows, which have no trials",
-                                       table.num_without_trials, table.num_rows_in_file));
+    notes.push_back(fmt::format("left out {} of {} rows, which have no trials",
+                                table.num_without_trials, table.num_rows_in_file));
   }
-  if (!has_history(options) || table.num_rows() == 0) return;
+  return notes;
+}
+
+void add_trial_before(const FitGlmmOptions& options, GlmmResult& result) {
+  if (!has_history(options)) return;
   const std::string& person = result.formulas.random.front().group_columns.front();
   const std::size_t num_first = analysis::add_history(result.table, options.stimulus, person);
   result.notes.push_back(fmt::format(
       "{} is the stimulus and {} the answer (1 for yes) of the row before of the same {}; left "
       "out {} rows, which are the first of theirs",
-      previous, analysis::kPreviousAnswer, person, num_first));
+      analysis::previous_stimulus(options.stimulus), analysis::kPreviousAnswer, person,
+      num_first));
 }
 
 void add_derived(const FitGlmmOptions& options, const analysis::MixedOptions& how,
@@ -175,20 +215,9 @@ void add_derived(const FitGlmmOptions& options, const analysis::MixedOptions& ho
   }
 }
 
-GlmmResult glmm_result(const FitGlmmOptions& options) {
-  GlmmResult result;
-  result.formulas = formulas_of(options, whole_fixed(options));
-  const auto& variables = result.formulas.fixed.variables;
-  if (!options.stimulus.empty() &&
-      std::ranges::find(variables, options.stimulus, &analysis::FormulaVariable::column) ==
-          variables.end()) {
-    throw UsageError(
-        fmt::format("--stimulus: expected a column of --fixed, found {}", options.stimulus));
-  }
-  read_glmm_table(options, result);
-  if (result.table.num_rows() == 0) {
-    throw core::Error(options.csv + ": expected rows with answers, found none");
-  }
+/// Fits the model to the result's table.
+void fit_glmm_table(const FitGlmmOptions& options, GlmmResult& result) {
+  add_trial_before(options, result);
   const auto contrasts =
       options.contrasts == "sum" ? analysis::Contrasts::kSum : analysis::Contrasts::kTreatment;
   const analysis::MixedOptions how = {.curve = {.link = *analysis::mixed_link(options.link),
@@ -227,7 +256,63 @@ GlmmResult glmm_result(const FitGlmmOptions& options) {
   if (result.fit.status == FitStatus::kOk && !options.stimulus.empty()) {
     add_derived(options, how, *refit, result);
   }
-  return result;
+}
+
+/// The same of one group among several, of which what cannot be fitted says why.
+void fit_glmm_group(const FitGlmmOptions& options, GlmmResult& result) {
+  const auto fail = [&](const std::string& why) {
+    const std::string file = options.csv + ": ";
+    const std::size_t begin = why.starts_with(file) ? file.size() : 0;
+    result.fit.status = FitStatus::kDegenerate;
+    result.fit.reason = why.substr(begin, why.find('\n') - begin);
+  };
+  try {
+    fit_glmm_table(options, result);
+  } catch (const core::Error& error) {
+    fail(error.what());
+  } catch (const UsageError& error) {  // A factor with one level in this group, say.
+    fail(error.what());
+  }
+}
+
+/// All fits, and the notes of the file.
+struct GlmmResults {
+  analysis::TrialTable table;  ///< The whole one, where there is --group-by.
+  std::vector<std::string> notes;
+  std::vector<GlmmResult> groups;
+};
+
+GlmmResults glmm_results(const FitGlmmOptions& options) {
+  const analysis::MixedFormulas formulas = formulas_of(options, whole_fixed(options));
+  const auto& variables = formulas.fixed.variables;
+  if (!options.stimulus.empty() &&
+      std::ranges::find(variables, options.stimulus, &analysis::FormulaVariable::column) ==
+          variables.end()) {
+    throw UsageError(
+        fmt::format("--stimulus: expected a column of --fixed, found {}", options.stimulus));
+  }
+  GlmmResults results;
+  results.table = read_glmm_table(options, formulas);
+  results.notes = notes_of_file(results.table);
+  if (results.table.num_rows() == 0) {
+    throw core::Error(options.csv + ": expected rows with answers, found none");
+  }
+  if (options.group_by.empty()) {
+    GlmmResult& all = results.groups.emplace_back();
+    all.formulas = formulas;
+    all.notes = results.notes;
+    all.table = std::move(results.table);
+    fit_glmm_table(options, all);
+    return results;
+  }
+  for (analysis::TrialGroup& group : analysis::groups_of(results.table, options.group_by)) {
+    GlmmResult& one = results.groups.emplace_back();
+    one.group = std::move(group.key);
+    one.formulas = formulas;
+    one.table = std::move(group.table);
+    fit_glmm_group(options, one);
+  }
+  return results;
 }
 
 nlohmann::ordered_json document_of(const FitGlmmOptions& options, const GlmmResult& result) {
@@ -253,29 +338,71 @@ nlohmann::ordered_json document_of(const FitGlmmOptions& options, const GlmmResu
                          {"num_without_fit", result.num_without_fit},
                          {"seed", options.seed}};
   }
-  json["num_rows_in_file"] = result.table.num_rows_in_file;
-  json["num_rows_elsewhere"] = result.table.num_elsewhere;
-  json["num_rows_missing"] = Json(result.table.num_missing);
-  json["notes"] = result.notes;
   return json;
+}
+
+/// Of one fit, or of all groups under `fits`, with what was left out of the file.
+nlohmann::ordered_json document_of(const FitGlmmOptions& options, const GlmmResults& results) {
+  using Json = nlohmann::ordered_json;
+  Json json;
+  if (options.group_by.empty()) {
+    json = document_of(options, results.groups.front());
+  } else {
+    json["fits"] = Json::array();
+    for (const GlmmResult& result : results.groups) {
+      Json one = {{"group", Json::object()}};
+      for (const auto& [column, cell] : result.group) one["group"][column] = cell;
+      one.update(document_of(options, result));
+      one["notes"] = result.notes;
+      json["fits"].push_back(std::move(one));
+    }
+  }
+  const analysis::TrialTable& file =
+      options.group_by.empty() ? results.groups.front().table : results.table;
+  json["num_rows_in_file"] = file.num_rows_in_file;
+  json["num_rows_elsewhere"] = file.num_elsewhere;
+  json["num_rows_missing"] = Json(file.num_missing);
+  json["notes"] = options.group_by.empty() ? results.groups.front().notes : results.notes;
+  return json;
+}
+
+void print_groups(const FitGlmmOptions& options, const GlmmResults& results) {
+  for (const GlmmResult& result : results.groups) {
+    if (!result.group.empty()) fmt::print("{}\n", heading_of(result.group));
+    print_glmm(options, result);
+  }
+  if (options.group_by.empty()) return;
+  for (const std::string& note : results.notes) fmt::print("note: {}\n", note);
 }
 
 int fit_glmm(const FitGlmmOptions& options) {
   require_glmm_options(options);
-  const GlmmResult result = glmm_result(options);
+  const GlmmResults results = glmm_results(options);
+  const GlmmResult& first = results.groups.front();
   if (options.json) {
-    fmt::print("{}\n", json_text(document_of(options, result)));
+    fmt::print("{}\n", json_text(document_of(options, results)));
   } else if (!options.script.empty()) {
-    fmt::print("{}", glmm_script(options, result));
+    fmt::print("{}", glmm_script(options, first));
   } else {
-    print_glmm(options, result);
+    print_groups(options, results);
   }
-  if (result.fit.status == FitStatus::kOk) {
-    if (!options.figure.empty()) draw_glmm(options, result, options.figure);
+  std::size_t num_lacking = 0;
+  std::string reason;
+  for (const GlmmResult& result : results.groups) {
+    if (result.fit.status != FitStatus::kOk && num_lacking++ == 0) reason = result.fit.reason;
+  }
+  if (num_lacking == 0) {
+    if (!options.figure.empty()) draw_glmm(options, first, options.figure);
     return kDone;
   }
-  fmt::print(stderr, "jnd: {}: expected answers that have a mixed model, found none: {}\n",
-             options.csv, result.fit.reason);
+  if (options.group_by.empty()) {
+    fmt::print(stderr, "jnd: {}: expected answers that have a mixed model, found none: {}\n",
+               options.csv, reason);
+  } else {
+    fmt::print(stderr,
+               "jnd: {}: expected a mixed model in every group, found none in {} of {}: {}\n",
+               options.csv, num_lacking, results.groups.size(), reason);
+  }
   return kHasProblems;
 }
 
@@ -288,6 +415,12 @@ void add_fit_glmm(CLI::App& fit, Invocation& invocation) {
       "Generalised linear mixed model of yes and no: P(yes) = guess + (1 - guess - lapse) "
       "F(eta), eta being the fixed effects plus random effects, normal between groups");
   add_answer_columns(command, *options);
+  command
+      .add_option("--group-by", options->group_by,
+                  "columns, which no formula names; one fit for each of their values")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("COLUMN[,COLUMN,..]");
   command
       .add_option(
           "--fixed", options->fixed,

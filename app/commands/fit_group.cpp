@@ -316,7 +316,10 @@ void add_fit_group(CLI::App& fit, Invocation& invocation) {
       ->required();
   group.add_option("--reference", options->reference,
                    "reference intensity, > 0, where the table has no such column");
-  group.add_option("--slopes-by", options->link, "people differ by factors, or linearly")
+  group
+      .add_option("--slopes-by", options->link,
+                  "people differ by factors, or linearly: without lapses that is fit glmm "
+                  "--fixed u --random \"1 + u || participant\", u = ln(x / reference)")
       ->check(CLI::IsMember({"log-slope", "linear"}))
       ->capture_default_str();
   group
@@ -354,8 +357,10 @@ void add_fit_group(CLI::App& fit, Invocation& invocation) {
     invocation.run = [options] { return fit_hierarchical(*options); };
   });
 
-  CLI::App& effects = *fit.add_subcommand(
-      "effects", "Response bias, interval order, drift and learning (exploratory)");
+  CLI::App& effects = *fit.add_subcommand("effects",
+                                          "Response bias, interval order, drift and learning "
+                                          "(exploratory); fit glmm --fixed \"u * t "
+                                          "+ o\" is the same of people who differ");
   effects
       .add_option("--csv", options->csv,
                   "table with the columns intensity,num_yes,num_trials and, where there are, "

@@ -24,16 +24,17 @@ struct FitGlmmOptions : AnswerRequest {
 
 /// A mixed model that was fitted, and what it was fitted to.
 struct GlmmResult {
-  analysis::MixedFormulas formulas;  ///< With the terms of the history.
-  analysis::TrialTable table;
-  std::optional<analysis::Design> design;  ///< Of the fixed effects.
+  std::vector<std::pair<std::string, std::string>> group;  ///< Of --group-by; empty for all.
+  analysis::MixedFormulas formulas;                        ///< With the terms of the history.
+  analysis::TrialTable table;                              ///< Of the group.
+  std::optional<analysis::Design> design;                  ///< Of the fixed effects.
   analysis::MixedFit fit;
   analysis::StimulusLines lines;
   std::vector<analysis::DerivedQuantity> derived;
   /// Groups of each random term, by the name of the grouping.
   std::vector<std::pair<std::string, std::size_t>> groups;
-  int num_without_fit = 0;  ///< Of the bootstrap.
-  std::vector<std::string> notes;
+  int num_without_fit = 0;         ///< Of the bootstrap.
+  std::vector<std::string> notes;  ///< Of the group; of the file where there is one group.
 };
 
 /// For people, on stdout.

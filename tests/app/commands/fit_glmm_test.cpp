@@ -191,6 +191,76 @@ TEST_F(FitGlmm, HistoryAddsTheTrialBefore) {
   EXPECT_NE(json["notes"].dump().find("3 rows"), std::string::npos);
 }
 
+TEST_F(FitGlmm, EachGroupHasAFitOfItsOwn) {
+  const Words model = {"--fixed", "u", "--random", "1 + u | participant", "--stimulus", "u"};
+  const auto alone = [&](const char* where) {
+    Words words = model;
+    words.insert(words.end(), {"--where", where});
+    return document(of_counts(words).out);
+  };
+  Words words = model;
+  words.insert(words.end(), {"--group-by", "condition"});
+  const ProgramOutcome outcome = of_counts(words);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = document(outcome.out);
+  ASSERT_EQ(json["fits"].size(), 2U);
+  EXPECT_EQ(json["num_rows_in_file"], 40);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& fit = json["fits"][i];
+    EXPECT_EQ(fit["group"]["condition"], i == 0 ? "A" : "B");
+    const auto other = alone(i == 0 ? "condition=A" : "condition=B");
+    for (const char* key : {"fixed", "random", "log_likelihood", "derived", "num_rows"}) {
+      EXPECT_EQ(fit[key], other[key]) << key;
+    }
+  }
+  const std::string told = of_counts(words, false).out;
+  EXPECT_EQ(told.find("condition A\n"), 0U) << told;
+  EXPECT_NE(told.find("\ncondition B\n"), std::string::npos) << told;
+}
+
+TEST_F(FitGlmm, AGroupWithoutAFitLeavesTheOthersTheirs) {
+  std::string text = counts();
+  text += "P0,C,1,0,20\nP0,C,2,20,20\nP1,C,1,0,20\nP1,C,2,20,20\n";
+  text += "P0,D,1,3,20\nP0,D,2,9,20\nP0,D,3,16,20\n";
+  table("g.csv", text);
+  const ProgramOutcome outcome =
+      glmm({"--csv", "g.csv", "--yes", "k", "--trials", "n", "--fixed", "u", "--random",
+            "1 | participant", "--group-by", "condition"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  const auto json = document(outcome.out);
+  ASSERT_EQ(json["fits"].size(), 4U);
+  EXPECT_EQ(json["fits"][0]["status"], "ok");
+  EXPECT_EQ(json["fits"][1]["status"], "ok");
+  EXPECT_EQ(json["fits"][2]["status"], "degenerate") << "separated";
+  EXPECT_EQ(json["fits"][3]["status"], "degenerate") << "one participant";
+  EXPECT_NE(outcome.err.find("expected a mixed model in every group, found none in 2 of 4"),
+            std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(FitGlmm, GroupsAreByColumnsThatNoFormulaNames) {
+  const auto refused = [&](const Words& more, const char* sentence) {
+    const ProgramOutcome outcome = of_counts(with(more));
+    EXPECT_EQ(outcome.exit_code, 2) << more.front();
+    EXPECT_NE(outcome.err.find(sentence), std::string::npos) << outcome.err;
+  };
+  refused({"--group-by", "condition"},
+          "expected columns that no formula names, found condition");
+  refused({"--group-by", "colour"}, "--group-by: expected a column of participant, condition");
+  table("c.csv", counts());
+  for (const Words& wrong :
+       {Words{"--script", "r"}, Words{"--stimulus", "u", "--figure", path("f.svg").string()}}) {
+    Words words = {"--csv",      "c.csv",    "--yes", "k",        "--trials",
+                   "n",          "--fixed",  "u",     "--random", "1 | participant",
+                   "--group-by", "condition"};
+    words.insert(words.end(), wrong.begin(), wrong.end());
+    const ProgramOutcome outcome = glmm(words, false);
+    EXPECT_EQ(outcome.exit_code, 2) << wrong.front();
+    EXPECT_NE(outcome.err.find("expected without --group-by"), std::string::npos)
+        << outcome.err;
+  }
+}
+
 /// What stands behind "NAME " at the beginning of a line or behind a comma.
 double printed(const std::string& text, const std::string& name) {
   for (const char* before : {"\n", ", "}) {
