@@ -50,4 +50,45 @@ nlohmann::ordered_json to_json(const std::vector<DerivedQuantity>& derived,
   return all;
 }
 
+nlohmann::ordered_json to_json(const PeoplePowerFit& fit) {
+  using json_values::number;
+  using PowerJson = nlohmann::ordered_json;
+  PowerJson json = {{"status", to_string(fit.status)},
+                    {"reason", json_values::sentence(fit.reason)},
+                    {"method", "reml"},
+                    {"k", number(fit.k)},
+                    {"a", number(fit.a)},
+                    {"k_standard_error", number(fit.k_standard_error)},
+                    {"a_standard_error", number(fit.a_standard_error)},
+                    {"k_ci95", json_values::interval(fit.k_ci95)},
+                    {"a_ci95", json_values::interval(fit.a_ci95)},
+                    {"interval_method", json_values::sentence(fit.interval_method)},
+                    {"degrees_of_freedom", number(fit.degrees_of_freedom)}};
+  json["between_people"] = {{"ln_k_sd", number(fit.ln_k_sd)},
+                            {"a_sd", number(fit.a_sd)},
+                            {"correlation", number(fit.correlation)}};
+  json["residual_sd_ln"] = number(fit.residual_sd_ln);
+  json["log_likelihood"] = number(fit.log_likelihood);
+  json["people"] = PowerJson::array();
+  for (const PeoplePowerFit::Person& one : fit.people) {
+    json["people"].push_back({{"participant", one.participant},
+                              {"num_rows", one.num_rows},
+                              {"k", number(one.k)},
+                              {"a", number(one.a)},
+                              {"own_k", number(one.own_k)},
+                              {"own_a", number(one.own_a)}});
+  }
+  json["num_people"] = fit.num_people;
+  json["num_rows"] = fit.num_rows;
+  json["excluded"] = PowerJson::array();
+  for (const PowerFit::Excluded& excluded : fit.excluded) {
+    json["excluded"].push_back({{"row", excluded.row + 1},
+                                {"intensity", excluded.data.intensity},
+                                {"magnitude", excluded.data.magnitude},
+                                {"reason", excluded.reason}});
+  }
+  json["warnings"] = fit.warnings;
+  return json;
+}
+
 }  // namespace jnd::analysis

@@ -5,6 +5,7 @@
 
 #include "analysis/mixed/mixed_derived.h"
 #include "analysis/mixed/mixed_fit.h"
+#include "analysis/mixed/power_people.h"
 
 namespace jnd::analysis {
 
@@ -15,5 +16,9 @@ namespace jnd::analysis {
 /// A list of name, value, standard_error, ci95 and, with redraws, bootstrap_ci95.
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<DerivedQuantity>& derived,
                                              bool has_bootstrap);
+
+/// The keys of the plain power law where it has them; what differs between people is under
+/// `between_people`, and everybody's exponents are under `people`.
+[[nodiscard]] nlohmann::ordered_json to_json(const PeoplePowerFit& fit);
 
 }  // namespace jnd::analysis

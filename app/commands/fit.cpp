@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "app/commands/fit_figures.h"
 #include "app/commands/fit_glmm.h"
 #include "app/commands/fit_group.h"
+#include "app/commands/fit_power_people.h"
 #include "app/commands/fit_psychometric.h"
 #include "app/commands/fit_tables.h"
 #include "app/commands/fit_weber.h"
@@ -31,23 +31,12 @@ using Json = nlohmann::ordered_json;
 
 struct FitOptions : TableOptions {
   std::string power_method = "nls";
-  std::string shift;  ///< "": the plain law with standard errors.
+  bool says_method = false;
+  std::string participant;  ///< Column of whose the rows are; "": of nobody in particular.
+  std::string shift;        ///< "": the plain law with standard errors.
   double k1 = 0.0, a1 = 0.0, k2 = 0.0, a2 = 0.0;
   std::vector<double> intensities;
 };
-
-/// "left out line 4: ...", or all lines with one reason at once.
-void print_excluded(const analysis::PowerFit& fit, const std::vector<int>& lines) {
-  std::map<std::string, std::vector<int>> lines_by_reason;
-  for (const analysis::PowerFit::Excluded& excluded : fit.excluded) {
-    lines_by_reason[excluded.reason].push_back(lines[excluded.row]);
-  }
-  for (const auto& [reason, of_it] : lines_by_reason) {
-    const std::string who =
-        of_it.size() == 1 ? "line" : fmt::format("{} rows, lines", of_it.size());
-    fmt::print("  left out {} {}: {}\n", who, fmt::join(of_it, ", "), reason);
-  }
-}
 
 /// "95 % 0.32 to 1.6, standard error 0.3", or why there is no interval. k depends on the units
 /// of its table, and a on none, so no end is too far off to be one.
@@ -64,7 +53,7 @@ void print_for_people(const analysis::PowerFit& fit, const std::vector<int>& lin
              fit.method == analysis::PowerMethod::kLogLog ? "a line through the logarithms"
                                                           : "least squares",
              fit.num_rows, fit.num_rows == 1 ? "" : "s");
-  print_excluded(fit, lines);
+  print_excluded(fit.excluded, lines);
   for (const std::string& warning : fit.warnings) fmt::print("  note: {}\n", warning);
   if (fit.status != FitStatus::kOk) {
     fmt::print("  no power law: {}\n", fit.reason);
@@ -145,6 +134,20 @@ int fit_power(const FitOptions& options) {
   const auto method = options.power_method == "loglog" ? analysis::PowerMethod::kLogLog
                                                        : analysis::PowerMethod::kNonlinear;
   if (!options.figure.empty()) analysis::require_figure_file(options.figure);
+  if (!options.participant.empty()) {
+    if (options.says_method && method == analysis::PowerMethod::kNonlinear) {
+      throw UsageError(
+          "--participant: expected --method loglog or none, found --method nls; the law of a "
+          "group of people is fitted to logarithms");
+    }
+    if (!options.shift.empty()) {
+      throw UsageError(fmt::format(
+          "--participant: expected without --shift, found --shift {}; the law of a group of "
+          "people has none",
+          options.shift));
+    }
+    return fit_power_people(options, options.participant);
+  }
   if (!options.shift.empty()) return fit_shifted(options, method);
   const analysis::CsvTable table = analysis::CsvTable::read(options.csv);
   std::vector<analysis::DrawnPowerLaw> laws;
@@ -156,7 +159,8 @@ int fit_power(const FitOptions& options) {
         if (num > 1) {
           fit.warnings.push_back(fmt::format(
               "the rows of {} participants are taken as independent, which those of one are "
-              "not: the intervals are too narrow; {} fits each of them",
+              "not: the intervals are too narrow; --participant participant fits a law of the "
+              "group, {} one of each of them",
               num, grouped_also_by(options, "participant")));
         }
         laws.push_back(
@@ -229,9 +233,16 @@ void add_fit(CLI::App& program, Invocation& invocation) {
                   "Each with intervals by the profile of the sum of squares, and a test "
                   "against the law without the shift")
       ->check(CLI::IsMember({"none", "threshold", "offset"}));
+  power
+      .add_option("--participant", options->participant,
+                  "column of whose the rows are: the law of the group, its spread between "
+                  "people and everybody's exponents, by a linear mixed model of the logarithms")
+      ->option_text("COLUMN");
   add_figure_option(power, options->figure);
-  power.callback(
-      [&invocation, options] { invocation.run = [options] { return fit_power(*options); }; });
+  power.callback([&invocation, options, &power] {
+    options->says_method = power.count("--method") > 0;
+    invocation.run = [options] { return fit_power(*options); };
+  });
 
   CLI::App& between = *fit.add_subcommand("between", "Power law through two power laws");
   between.add_option("--k1", options->k1, "factor of the first")->required();

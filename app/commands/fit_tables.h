@@ -68,7 +68,7 @@ int fit_groups(const std::vector<Group>& groups, const TableOptions& options, co
     if (options.json) {
       Json json;
       for (const auto& [column, value] : group.key) json["group"][column] = value;
-      json.update(analysis::to_json(result));
+      json.update(to_json(result));
       results.push_back(std::move(json));
       continue;
     }

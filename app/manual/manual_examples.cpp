@@ -93,6 +93,10 @@ constexpr std::array kExampleRows = {
         "jnd fit glmm --csv trials.csv --yes answer --fixed \"u * condition\" --random \"1 "
         "+ u | participant\" --stimulus u",
         "a mixed model by formula"},
+    ExampleRow{"jnd fit glmm",
+               "jnd fit glmm --csv trials.csv --yes answer --fixed u --random \"1 + u || "
+               "participant\" --group-by block",
+               "the linear model of fit hierarchical, a fit for each block"},
     ExampleRow{"jnd fit detection",
                "jnd fit detection --csv answers.csv --intensity level --yes said_yes",
                "catch trials are those at intensity 0"},
@@ -101,6 +105,8 @@ constexpr std::array kExampleRows = {
                "every pair has the stimulus 10"},
     ExampleRow{"jnd fit power", "jnd fit power --csv magnitudes.csv",
                "columns intensity and magnitude"},
+    ExampleRow{"jnd fit power", "jnd fit power --csv magnitudes.csv --participant participant",
+               "the law of a group of people, and everybody's exponent"},
     ExampleRow{"jnd fit between",
                "jnd fit between --k1 0.6663 --a1 0.6386 --k2 0.3761 --a2 1.206 --intensities "
                "0.5,1,2",

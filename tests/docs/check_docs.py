@@ -532,6 +532,7 @@ JSON_COMMANDS = (
     ("simulate", "viscosity_priming", "--participants", "2", "--study", "t.study", "--fast"),
     ("verify", "s.study"), ("results", "s.study"), ("fit", "psychometric", "--csv", "answers.csv"),
     ("fit", "weber", "--csv", "answers.csv", "--reference", "10"), ("fit", "power", "--csv", "magnitudes.csv"),
+    ("fit", "power", "--csv", "people.csv", "--participant", "participant"),
     ("compare", "--csv", "pairs.csv", "--test", "paired"), ("force", "water"))
 
 
@@ -552,11 +553,16 @@ def json_page(program):
         work, environment = make_place(pathlib.Path(temporary), program)
         (work / "answers.csv").write_text("intensity,num_yes,num_trials\n5,1,40\n6.5,4,40\n8.5,13,40\n11.5,28,40\n15,36,40\n")
         (work / "magnitudes.csv").write_text("intensity,magnitude\n1,12\n2,30\n4,52\n8,90\n16,150\n")
+        (work / "people.csv").write_text("participant,intensity,magnitude\n" + "".join(
+            f"{name},{2 ** i},{magnitude}\n" for name, magnitudes in
+            (("Ada", (10, 14, 23, 30)), ("Ben", (8, 15, 26, 52)), ("Eva", (30, 41, 55, 83)), ("Ida", (12, 24, 45, 80)))
+            for i, magnitude in enumerate(magnitudes)))
         (work / "pairs.csv").write_text("a,b\n1.2,1.0\n1.4,1.1\n0.9,1.0\n1.6,1.2\n")
         run(program, work, environment, "simulate", "viscosity_priming", "--participants", "4", "--study", "s.study", "--fast")
         for words in JSON_COMMANDS:
             document = json.loads(run(program, work, environment, *words, "--json"))
-            lines += [f"## jnd {words[0]}" + (f" {words[1]}" if words[0] == "fit" else ""), "", f"`jnd {' '.join(words)} --json`", ""]
+            lines += [f"## jnd {words[0]}" + (f" {words[1]}" if words[0] == "fit" else "") +
+                      (" of a group of people" if "--participant" in words else ""), "", f"`jnd {' '.join(words)} --json`", ""]
             json_keys([document], 0, lines)
             lines.append("")
     return "\n".join(lines).rstrip("\n") + "\n"

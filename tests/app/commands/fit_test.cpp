@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "app/commands/fit_fixture.h"
 #include "app/json_document.h"
 #include "support/program.h"
@@ -316,6 +320,97 @@ TEST_F(FitCommandTest, RowsOfSeveralPeopleInOnePowerLawAreWarnedOf) {
   for (const auto& group : alone["groups"]) {
     EXPECT_TRUE(group["warnings"].empty());
   }
+}
+
+/// Four people at four intensities, each with an exponent of their own.
+std::string magnitudes_of_people() {
+  std::string text = "who,condition,intensity,magnitude\n";
+  const char* rows[4][4] = {{"10", "14", "23", "30"},
+                            {"8", "15", "26", "52"},
+                            {"30", "41", "55", "83"},
+                            {"12", "24", "45", "80"}};
+  const char* intensities[4] = {"1", "2", "4", "8"};
+  for (int person = 0; person < 4; ++person) {
+    for (int i = 0; i < 4; ++i) {
+      text +=
+          "P" + std::to_string(person) + ",A," + intensities[i] + "," + rows[person][i] + "\n";
+    }
+  }
+  return text;
+}
+
+TEST_F(FitCommandTest, PowerLawOfAGroupHasTheGroupsExponentAndEverybodys) {
+  table("p.csv", magnitudes_of_people());
+  const ProgramOutcome outcome = fit({"power", "--csv", "p.csv", "--participant", "who"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = document(outcome.out);
+  for (const char* key :
+       {"status", "reason", "method", "k", "a", "k_standard_error", "a_standard_error",
+        "k_ci95", "a_ci95", "interval_method", "degrees_of_freedom", "between_people",
+        "residual_sd_ln", "log_likelihood", "people", "num_people", "num_rows", "excluded",
+        "warnings"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(json["method"], "reml");
+  EXPECT_EQ(json["interval_method"], "t");
+  EXPECT_EQ(json["degrees_of_freedom"], 3);
+  ASSERT_EQ(json["people"].size(), 4U);
+  // Where everybody judged the same, the group's exponent is the mean of the own ones, and its
+  // interval that of the mean.
+  const auto alone =
+      document(fit({"power", "--csv", "p.csv", "--method", "loglog", "--group-by", "who"})
+                   .out)["groups"];
+  double mean = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(json["people"][i]["participant"], alone[i]["group"]["who"]);
+    EXPECT_NEAR(json["people"][i]["own_a"].get<double>(), alone[i]["a"].get<double>(), 1e-9);
+    mean += alone[i]["a"].get<double>() / 4.0;
+  }
+  for (const auto& one : alone) squares += std::pow(one["a"].get<double>() - mean, 2);
+  EXPECT_NEAR(json["a"].get<double>(), mean, 1e-8);
+  const double error = std::sqrt(squares / 3.0 / 4.0);
+  EXPECT_NEAR(json["a_standard_error"].get<double>(), error, 1e-6);
+  EXPECT_NEAR(json["a_ci95"][1].get<double>(), mean + 3.182446 * error, 1e-5);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double own = json["people"][i]["own_a"], shrunk = json["people"][i]["a"];
+    EXPECT_LT(std::fabs(shrunk - mean), std::fabs(own - mean) + 0.02) << i;
+  }
+}
+
+TEST_F(FitCommandTest, PowerLawOfAGroupIsToldInWords) {
+  std::string text = magnitudes_of_people() + "P0,A,0,0\nP1,A,16,0\n";
+  table("p.csv", text);
+  const std::string told = fit({"power", "--csv", "p.csv", "--participant", "who"}, false).out;
+  EXPECT_NE(told.find("S = k I^a of 4 participants, 16 rows"), std::string::npos) << told;
+  EXPECT_NE(told.find("left out line 18: the intensity has no logarithm"), std::string::npos);
+  EXPECT_NE(told.find("left out line 19: the magnitude has no logarithm"), std::string::npos);
+  EXPECT_NE(told.find("Student's t with 3 degrees of freedom"), std::string::npos) << told;
+  EXPECT_NE(told.find("standard deviation between participants: a "), std::string::npos);
+  EXPECT_NE(told.find("\n  P3 "), std::string::npos) << told;
+  const auto groups = document(
+      fit({"power", "--csv", "p.csv", "--participant", "who", "--group-by", "condition"}).out);
+  EXPECT_EQ(groups["groups"][0]["group"]["condition"], "A");
+  EXPECT_EQ(groups["groups"][0]["num_people"], 4);
+}
+
+TEST_F(FitCommandTest, PowerLawOfAGroupRefusesWhatDoesNotGoTogether) {
+  table("p.csv", magnitudes_of_people());
+  const auto refused = [&](std::vector<std::string> more, int exit_code, const char* sentence) {
+    std::vector<std::string> words = {"power", "--csv", "p.csv"};
+    words.insert(words.end(), more.begin(), more.end());
+    const ProgramOutcome outcome = fit(words);
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.out;
+    EXPECT_NE(outcome.err.find(sentence), std::string::npos) << outcome.err;
+  };
+  refused({"--participant", "who", "--method", "nls"}, 2, "expected --method loglog or none");
+  refused({"--participant", "who", "--shift", "threshold"}, 2, "expected without --shift");
+  refused({"--participant", "who", "--group-by", "who"}, 2,
+          "expected columns other than that of --participant, found who");
+  refused({"--participant", "person"}, 1, "person");
+  refused({"--participant", "condition"}, 1, "at least 3 participants");
+  EXPECT_EQ(
+      fit({"power", "--csv", "p.csv", "--participant", "who", "--method", "loglog"}).exit_code,
+      0);
 }
 
 TEST_F(FitCommandTest, AnotherReferenceInTheTableIsWarnedOf) {
