@@ -119,8 +119,8 @@ void draw_legend(Ui& ui, Rect place, const PlotModel& model) {
         break;
     }
     strip.take_left(kLegendMark);
-    ui.text(strip.take_left(width + 2, kLegendGap), series.name,
-            {.font = Font::kSmall, .colour = Colour::kSoft});
+    ui.text(strip.take_left(std::min(width + 2, strip.width), kLegendGap), series.name,
+            {.font = Font::kSmall, .colour = Colour::kSoft, .any_length = true});
   }
 }
 
@@ -168,7 +168,11 @@ bool PlotArea::can_show(double x_value, double y_value) const noexcept {
 
 PlotArea draw_plot(Ui& ui, const Rect& place, const PlotModel& model) {
   Rect rest = place;
-  if (!model.title.empty()) ui.heading(rest.take_top(18, 10), model.title, model.unit);
+  if (!model.title.empty()) {
+    // Of a study's charts it is what the author called the block.
+    ui.heading(rest.take_top(18, 10), model.title, model.unit, Align::kLeft,
+               /*any_length=*/true);
+  }
   if (has_legend(model)) {
     const auto rows = static_cast<float>(num_legend_rows(ui, rest.width, model));
     draw_legend(ui, rest.take_top(rows * kLegendRow, 8), model);
@@ -182,11 +186,14 @@ PlotArea draw_plot(Ui& ui, const Rect& place, const PlotModel& model) {
   if (model.axes) {
     if (!model.x.label.empty()) {
       ui.text(rest.take_bottom(18), axis_words(model.x),
-              {.font = Font::kTiny, .colour = Colour::kSoft, .align = Align::kCentre});
+              {.font = Font::kTiny,
+               .colour = Colour::kSoft,
+               .align = Align::kCentre,
+               .any_length = true});
     }
     if (!model.y.label.empty()) {
       ui.text(rest.take_top(18, 4), axis_words(model.y),
-              {.font = Font::kTiny, .colour = Colour::kSoft});
+              {.font = Font::kTiny, .colour = Colour::kSoft, .any_length = true});
     }
     rest.take_bottom(kTickHeight + 6);
     rest.take_top(8);

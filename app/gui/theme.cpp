@@ -30,6 +30,13 @@ std::uint32_t packed(std::uint32_t rgb, float alpha) {
 
 }  // namespace
 
+float scale_with_room(float wanted, float width_px, float height_px) noexcept {
+  constexpr float kSteps = 20, kRounding = 1e-3f;
+  const float most = std::min(width_px / kLeastWidth, height_px / kLeastHeight);
+  if (!(wanted > most)) return wanted;
+  return std::floor(most * kSteps + kRounding) / kSteps;
+}
+
 Theme::Theme(float scale, bool dark) : dark_(dark) { set_scale(scale); }
 
 void Theme::set_scale(float scale) noexcept {

@@ -44,6 +44,14 @@ enum class Colour {
 };
 inline constexpr int kNumColours = 14;
 
+/// What every view has room for, logical pixels.
+inline constexpr float kLeastWidth = 1024;
+inline constexpr float kLeastHeight = 640;
+
+/// The scale that is wanted, or the largest, in steps of a twentieth, at which a window of so
+/// many pixels still has room for every view.
+[[nodiscard]] float scale_with_room(float wanted, float width_px, float height_px) noexcept;
+
 /// Fonts, colours and scale. Colours are told apart by those who see no red or green, and every
 /// one stands with a word or a shape besides. Every colour of words has a contrast of at least
 /// 4.5 : 1 (WCAG 2.1, AA) on each ground it stands on, in both modes.

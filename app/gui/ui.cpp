@@ -91,6 +91,7 @@ void Ui::begin_frame(InputQueue& queue) {
     my.press_dialog = my.dialog_before;
   }
   my.is_repeating = false;
+  my.tooltip.reset();
   my.dialog_is_new = false;
   my.dialog.clear();
   my.fields.clear();
@@ -114,6 +115,7 @@ bool Ui::was_held() const noexcept { return my_->was_held; }
 
 const Drawn& Ui::end_frame() {
   Implementation& my = *my_;
+  draw_tooltip();
   ImGui::End();
   ImGui::Render();
   // A dialog that closed by itself kept this frame's keys and clicks from everybody.

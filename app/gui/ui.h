@@ -44,8 +44,13 @@ struct TextStyle {
   Colour colour = Colour::kInk;
   Align align = Align::kLeft;
   /// Broken into lines from the top of its place; centred lines are of about equal length. Else
-  /// one line in the middle of the place's height, cut with an ellipsis where it does not fit.
+  /// one line in the middle of the place's height. Where that has no room, the words stand on
+  /// as many lines as the place is high for, or in smaller letters; what then still has no room
+  /// is cut with an ellipsis, and shows whole when it is pointed at.
   bool wrap = false;
+  /// Words that somebody wrote, or a value: they may be so long that no place would do, so that
+  /// they may be cut. The program's own words are to have room.
+  bool any_length = false;
 };
 
 enum class Tone {
@@ -68,6 +73,8 @@ struct ButtonStyle {
   /// Its key counts once it has been let go for a moment: a key that is held is one press, also
   /// where the system tells it as many.
   bool fresh = false;
+  /// Its key is not printed, for want of room; it answers to it all the same.
+  bool hides_key = false;
 };
 
 /// What was drawn in one frame, so that a test can read the screen and click on it.
@@ -89,6 +96,8 @@ struct Drawn {
     Rect place;         ///< What of its letters can be seen, as high as a line of their font.
     Rect box;  ///< Where it was to be drawn; lower than its lines where they spill over.
     bool is_cut = false;  ///< For want of width: with an ellipsis, within a word, or clipped.
+    /// It is of any length, and what of it is cut shows whole when it is pointed at.
+    bool shows_whole = false;
     bool is_covered = false;  ///< Below a dialog.
   };
   std::string view;         ///< As the application calls what is on screen.
@@ -143,6 +152,7 @@ class Ui {
   [[nodiscard]] const Drawn& drawn() const noexcept;
   [[nodiscard]] Rect screen() const;
   [[nodiscard]] Theme& theme() noexcept { return theme_; }
+  [[nodiscard]] const Theme& theme() const noexcept { return theme_; }
   [[nodiscard]] ImDrawList& draw_list();
   /// To ImGui's own pixels.
   [[nodiscard]] float px(float logical) const noexcept;
@@ -174,8 +184,9 @@ class Ui {
   [[nodiscard]] float text_width(std::string_view words, Font font) const;
   [[nodiscard]] float line_height(Font font) const;
   /// Small capitals over a card: "SESSION". `unit` stays as it is written, for M/S is none.
+  /// Where capitals have no room it is in small letters. `any_length`: as of a `TextStyle`.
   void heading(const Rect& place, std::string_view words, std::string_view unit = "",
-               Align align = Align::kLeft);
+               Align align = Align::kLeft, bool any_length = false);
   /// 26 high. Returns its width.
   float chip(float x, float y, std::string_view words, Colour colour);
   [[nodiscard]] float chip_width(std::string_view words) const;
@@ -232,7 +243,8 @@ class Ui {
   Rect begin_dialog(std::string_view name, float width, float height);
   void end_dialog();
 
-  /// Over everything drawn in this frame, beside the point: the value under the mouse.
+  /// Over everything drawn in this frame, beside the point: the value under the mouse. Long
+  /// words are wrapped; of several in a frame the last one is shown.
   void tooltip(float x, float y, std::string_view words);
   /// A word for the log of what is drawn, where a test wants to know something that is a
   /// picture: "hand sign fist". With a place it is a widget of this name, to be pointed at.
@@ -241,6 +253,7 @@ class Ui {
  private:
   struct Implementation;
   struct Press;
+  struct ButtonWords;
   [[nodiscard]] Press press_on(const Rect& place, const ButtonStyle& style);
   void log_widget(std::string_view name, std::string_view label, const Chord& key,
                   const Rect& place, bool enabled);
@@ -249,6 +262,9 @@ class Ui {
   void draw_line_of_text(float x, float y, const Drawn::Line& line, Font font,
                          std::uint32_t colour);
   void log_line(const Rect& letters, Drawn::Line line);
+  void draw_tooltip();
+  [[nodiscard]] ButtonWords words_on_button(const Rect& place, std::string_view label,
+                                            const ButtonStyle& style) const;
   void draw_button(const Rect& place, std::string_view label, const ButtonStyle& style,
                    const Press& press);
   bool begin_field(std::string_view name, const Rect& place, const std::string& value,

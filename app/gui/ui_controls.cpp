@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "app/gui/text_layout.h"
 #include "app/gui/ui.h"
@@ -18,6 +19,17 @@ constexpr float kKeyCapGap = 9;
 Font font_of(const ButtonStyle& style) {
   if (style.large) return Font::kAnswer;
   return style.tone == Tone::kQuiet && !style.selected ? Font::kBody : Font::kStrong;
+}
+
+/// Smaller letters of a button, the larger first.
+std::vector<Font> smaller_fonts_of(const ButtonStyle& style) {
+  const bool is_regular = font_of(style) == Font::kBody;
+  if (style.large) return {Font::kStrong, Font::kSmallStrong, Font::kTiny};
+  return {is_regular ? Font::kSmall : Font::kSmallStrong, Font::kTiny};
+}
+
+bool shows_key(const ButtonStyle& style) {
+  return style.key.key != Key::kNone && !style.hides_key;
 }
 
 float padding_of(const ButtonStyle& style) {
@@ -74,8 +86,45 @@ bool Ui::button(std::string_view name, const Rect& place, std::string_view label
 
 float Ui::button_width(std::string_view label, const ButtonStyle& style) const {
   float width = text_width(label, font_of(style)) + 2 * padding_of(style);
-  if (style.key.key != Key::kNone) width += kKeyCapGap + key_cap_width(style.key);
+  if (shows_key(style)) width += kKeyCapGap + key_cap_width(style.key);
   return std::ceil(width);
+}
+
+/// How a label comes to stand on its button.
+struct Ui::ButtonWords {
+  Font font = Font::kStrong;
+  std::vector<std::string> lines;
+  bool has_key = false;
+  bool is_cut = false;
+};
+
+/// Words that are longer in another language are smaller, then on two lines, then without
+/// their key, before they are cut.
+Ui::ButtonWords Ui::words_on_button(const Rect& place, std::string_view label,
+                                    const ButtonStyle& style) const {
+  constexpr float kAround = 12, kClosestLines = 1.2f;
+  std::vector<Font> fonts = smaller_fonts_of(style);
+  fonts.insert(fonts.begin(), font_of(style));
+  const float cap = shows_key(style) ? key_cap_width(style.key) + kKeyCapGap : 0;
+  for (const bool has_key : {true, false}) {
+    if (has_key && cap == 0) continue;
+    const float room = place.width - kAround - (has_key ? cap : 0) + 1;
+    for (const Font font : fonts) {
+      if (text_width(label, font) <= room) return {font, {std::string(label)}, has_key};
+    }
+    for (const Font font : fonts) {
+      if (place.height < 2 * kClosestLines * theme_.size(font) || room < 2) continue;
+      const Measure measure = [&](std::string_view part) { return text_width(part, font); };
+      const auto lines = break_lines(label, room, measure, /*balanced=*/true);
+      if (lines.size() != 2) continue;
+      const bool breaks_word = lines[0].data() + lines[0].size() == lines[1].data();
+      if (!breaks_word) {
+        return {font, {std::string(lines[0]), std::string(lines[1])}, has_key};
+      }
+    }
+  }
+  const Measure measure = [&](std::string_view part) { return text_width(part, fonts.back()); };
+  return {fonts.back(), {shorten(label, place.width - kAround + 1, measure)}, false, true};
 }
 
 void Ui::draw_button(const Rect& place, std::string_view label, const ButtonStyle& style,
@@ -105,37 +154,37 @@ void Ui::draw_button(const Rect& place, std::string_view label, const ButtonStyl
   }
   if (!style.enabled) letters = Colour::kSoft;
 
-  const bool has_key = style.key.key != Key::kNone;
-  const float cap = has_key ? key_cap_width(style.key) + kKeyCapGap : 0;
-  const float room = place.width - cap - 12;
-  // Words that are longer in another language are smaller before they are cut.
-  Font font = font_of(style);
-  for (const Font smaller : {Font::kStrong, Font::kSmallStrong}) {
-    if (text_width(label, font) <= room + 1) break;
-    if (theme_.size(smaller) < theme_.size(font)) font = smaller;
-  }
-  const Measure measure = [&](std::string_view part) { return text_width(part, font); };
-  const std::string shown = shorten(label, room + 1, measure);
-  const float width = measure(shown);
-  float x = place.x + (place.width - width - cap) / 2;
+  const ButtonWords set = words_on_button(place, label, style);
+  const float cap = set.has_key ? key_cap_width(style.key) + kKeyCapGap : 0;
+  float width = 0;
+  for (const std::string& line : set.lines) width = std::max(width, text_width(line, set.font));
+  const float x = place.x + (place.width - width - cap) / 2;
+  const auto count = static_cast<float>(set.lines.size());
+  const float height = line_height(set.font);
   const float note_height = line_height(Font::kSmall);
-  const bool has_note = !style.note.empty() && place.height >= line_height(font) + note_height;
+  const bool has_note = !style.note.empty() && place.height >= count * height + note_height;
   const float middle = place.y + (place.height - (has_note ? note_height : 0)) / 2;
-  draw_line_of_text(x, middle - line_height(font) / 2,
-                    {.words = shown, .box = place, .is_cut = shown != label}, font,
-                    rgba(letters, style.enabled ? 1.0f : 0.7f));
+  const float step = std::min(height, (place.height - 4) / count);
+  float y = middle - (step * (count - 1) + height) / 2;
+  for (const std::string& line : set.lines) {
+    draw_line_of_text(x + (width - text_width(line, set.font)) / 2, y,
+                      {.words = line, .box = place, .is_cut = set.is_cut}, set.font,
+                      rgba(letters, style.enabled ? 1.0f : 0.7f));
+    y += step;
+  }
+  if (set.is_cut && press.hovered) tooltip(mouse_x(), mouse_y(), label);
   const bool is_on_fill = is_filled && style.enabled;
   if (has_note) {
-    const Rect below{place.x + 6, middle + line_height(font) / 2, place.width - 12,
-                     note_height};
+    const Rect below{place.x + 6, middle + count * height / 2, place.width - 12, note_height};
     text(below, style.note,
          {.font = Font::kSmall,
           .colour = is_on_fill ? letters : Colour::kSoft,
-          .align = Align::kCentre});
+          .align = Align::kCentre,
+          .any_length = true});
   }
-  if (!has_key) return;
-  x += width + kKeyCapGap;
-  key_cap(x, middle - kKeyCapHeight / 2, style.key, is_on_fill ? letters : Colour::kSoft);
+  if (!set.has_key) return;
+  key_cap(x + width + kKeyCapGap, middle - kKeyCapHeight / 2, style.key,
+          is_on_fill ? letters : Colour::kSoft);
 }
 
 Ui::Drag Ui::dragged(std::string_view name, const Rect& place) {

@@ -132,22 +132,30 @@ bool Ui::text_field(std::string_view name, const Rect& place, std::string& value
                     std::string_view hint, bool focus) {
   if (!begin_field(name, place, value, focus)) {
     const Rect inside = {place.x + kPadding, place.y, place.width - 2 * kPadding, place.height};
-    text(inside, value.empty() ? hint : value,
-         {.colour = value.empty() ? Colour::kSoft : Colour::kInk});
+    text(
+        inside, value.empty() ? hint : value,
+        {.colour = value.empty() ? Colour::kSoft : Colour::kInk, .any_length = !value.empty()});
     return false;
   }
+  Font font = Font::kBody;
   if (value.empty()) {
     log_text(hint);
     // ImGui draws it, and clips it at the field's end.
-    const float width = text_width(hint, Font::kBody), room = place.width - 2 * kPadding;
+    const float room = place.width - 2 * kPadding;
+    for (const Font smaller : {Font::kSmall, Font::kTiny}) {
+      if (text_width(hint, font) > room + 1) font = smaller;
+    }
+    const float width = text_width(hint, font);
     log_line({place.x + kPadding, place.y, std::min(width, room), place.height},
              {.words = std::string(hint), .box = place, .is_cut = width > room + 1});
   }
+  ImGui::PushFont(theme_.font(font));
   const float free = px(place.height) - ImGui::GetFontSize();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                       ImVec2(px(kPadding), std::round(std::max(0.0f, free / 2))));
   ImGui::InputTextWithHint("##text", std::string(hint).c_str(), &value);
   ImGui::PopStyleVar();
+  ImGui::PopFont();
   end_field(name, false);
   const bool is_ended = my_->enter_for_field && my_->active_before == name;
   if (is_ended) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/gui/text_layout.h"
 #include "app/gui/ui.h"
 #include "app/gui/ui_state.h"
 
@@ -95,20 +96,38 @@ void Ui::image(const Rect& place, std::uintptr_t texture, std::string_view what)
 void Ui::tooltip(float x, float y, std::string_view words) {
   if (my_->is_blocked()) return;
   log_text(words);
-  const float width = text_width(words, Font::kSmall) + 20;
-  const float height = line_height(Font::kSmall) + 10;
-  const Rect bounds = screen();
-  Rect place = {x + 14, y - height - 10, width, height};
-  if (place.right() > bounds.right() - 4) place.x = x - width - 14;
-  if (place.y < bounds.y + 4) place.y = y + 14;
-  place.x = std::max(place.x, bounds.x + 4);
+  my_->tooltip = {.x = x, .y = y, .words = std::string(words)};
+}
+
+void Ui::draw_tooltip() {
+  if (!my_->tooltip) return;
+  const auto& [x, y, words] = *my_->tooltip;
+  constexpr float kWidest = 560, kFromEdge = 4;
+  const Rect bounds = screen().inset(kFromEdge);
+  const float least = line_height(Font::kSmall);
+  const Measure measure = [this](std::string_view part) {
+    return text_width(part, Font::kSmall);
+  };
+  const auto lines =
+      break_lines(words, std::min(kWidest, bounds.width - 20), measure, /*balanced=*/false);
+  float width = 0;
+  for (const std::string_view line : lines) width = std::max(width, measure(line));
+  Rect place = {x + 14, 0, width + 20, least * static_cast<float>(lines.size()) + 10};
+  place.y = y - place.height - 10;
+  if (place.right() > bounds.right()) place.x = x - place.width - 14;
+  if (place.y < bounds.y) place.y = y + 14;
+  place.x = std::clamp(place.x, bounds.x, std::max(bounds.x, bounds.right() - place.width));
+  place.y = std::clamp(place.y, bounds.y, std::max(bounds.y, bounds.bottom() - place.height));
   const auto [low, high] = corners(*this, place);
   ImDrawList& list = *ImGui::GetForegroundDrawList();
   list.AddRectFilled(low, high, rgba(Colour::kInk), px(6));
   ImFont* font = theme_.font(Font::kSmall);
-  const float top = (high.y + low.y - font->FontSize) / 2;
-  list.AddText(font, font->FontSize, ImVec2(std::round(low.x + px(10)), std::round(top)),
-               rgba(Colour::kCard), words.data(), words.data() + words.size());
+  const float above = (px(least) - font->FontSize) / 2;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const float top = low.y + px(5 + least * static_cast<float>(i)) + above;
+    list.AddText(font, font->FontSize, ImVec2(std::round(low.x + px(10)), std::round(top)),
+                 rgba(Colour::kCard), lines[i].data(), lines[i].data() + lines[i].size());
+  }
 }
 
 }  // namespace jnd::app::gui

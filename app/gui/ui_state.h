@@ -65,6 +65,11 @@ struct Ui::Implementation {
   };
   std::map<std::string, Scroll, std::less<>> scrolls;
   std::string open_scroll;
+  struct Tooltip {
+    float x = 0, y = 0;
+    std::string words;
+  };
+  std::optional<Tooltip> tooltip;  ///< Of this frame.
   std::vector<Rect> clips;
 
   /// Drawn below a dialog: no keys, no clicks.

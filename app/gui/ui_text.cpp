@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "app/gui/text_layout.h"
 #include "app/gui/ui.h"
@@ -34,6 +37,91 @@ Measure measure_of(const ImFont& font) {
   return [&font](std::string_view text) { return run_width_px(font, text); };
 }
 
+/// In which words are set that have no room in this one.
+std::optional<Font> smaller(Font font) {
+  switch (font) {
+    case Font::kHuge:
+      return Font::kTitle;
+    case Font::kTitle:
+      return Font::kLarge;
+    case Font::kLarge:
+    case Font::kAnswer:
+      return Font::kStrong;
+    case Font::kStrong:
+      return Font::kSmallStrong;
+    case Font::kBody:
+      return Font::kSmall;
+    case Font::kSmall:
+    case Font::kSmallStrong:
+      return Font::kTiny;
+    case Font::kMono:
+      return Font::kKeyCap;
+    case Font::kTiny:
+    case Font::kCaps:
+    case Font::kKeyCap:
+      break;
+  }
+  return std::nullopt;
+}
+
+/// The next line begins where one ends only if there was no space to break at.
+bool breaks_word(const std::vector<std::string_view>& lines, std::size_t i) {
+  return i + 1 < lines.size() && lines[i].data() + lines[i].size() == lines[i + 1].data();
+}
+
+bool breaks_words(const std::vector<std::string_view>& lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (breaks_word(lines, i)) return true;
+  }
+  return false;
+}
+
+/// How words come to stand.
+struct SetWords {
+  Font font;
+  std::vector<std::string_view> lines;
+};
+
+/// Words that wrap are smaller before one of them is broken within.
+SetWords wrapped(const Theme& theme, std::string_view words, float width_px, Font font,
+                 bool balanced) {
+  const auto set = [&](Font in) {
+    return SetWords{in, break_lines(words, width_px, measure_of(*theme.font(in)), balanced)};
+  };
+  const SetWords wanted = set(font);
+  if (!breaks_words(wanted.lines)) return wanted;
+  for (std::optional<Font> next = smaller(font); next; next = smaller(*next)) {
+    SetWords tried = set(*next);
+    if (!breaks_words(tried.lines)) return tried;
+  }
+  return wanted;
+}
+
+/// Lines are no nearer to one another than this, of their em square.
+constexpr float kClosestLines = 1.15f;
+
+/// Words that are to stand in the middle of a place, on one line if they can; none where they
+/// have no room.
+std::optional<SetWords> fitted_into(const Theme& theme, const Rect& place,
+                                    std::string_view words, const TextStyle& style) {
+  // A rounding error is no reason for an ellipsis.
+  const float room_px = theme.scale() * place.width + 1;
+  std::optional<Font> font = style.font;
+  for (int step = 0; font; font = smaller(*font), ++step) {
+    // Values and titles are rather cut than hard to read.
+    if (style.any_length && step > 1) break;
+    const Measure measure = measure_of(*theme.font(*font));
+    if (measure(words) <= room_px) return SetWords{*font, {words}};
+    const auto most = static_cast<std::size_t>(
+        std::max(0.0f, place.height / (kClosestLines * theme.size(*font))));
+    // Numbers are smaller before they stand on two lines.
+    if (most < 2 || *font == Font::kMono || room_px < 2) continue;
+    auto lines = break_lines(words, room_px, measure, style.align == Align::kCentre);
+    if (lines.size() <= most && !breaks_words(lines)) return SetWords{*font, std::move(lines)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 float Ui::text_width(std::string_view words, Font font) const {
@@ -47,8 +135,8 @@ float Ui::line_height(Font font) const {
 
 float Ui::text_height(float width, std::string_view words, const TextStyle& style) const {
   if (!style.wrap) return line_height(style.font);
-  const auto lines = break_lines(words, px(width), measure_of(*theme_.font(style.font)), false);
-  return static_cast<float>(lines.size()) * line_height(style.font);
+  const SetWords set = wrapped(theme_, words, px(width), style.font, false);
+  return static_cast<float>(set.lines.size()) * line_height(set.font);
 }
 
 /// Every glyph on a whole pixel, as FreeType drew it, while the pen between them keeps the
@@ -87,53 +175,79 @@ void Ui::draw_line_of_text(float x, float y, const Drawn::Line& line, Font font_
 
 float Ui::text(const Rect& place, std::string_view words, const TextStyle& style) {
   log_text(words);
-  const Measure measure = measure_of(*theme_.font(style.font));
-  const float height = line_height(style.font);
-  const auto draw = [&](std::string_view line, float y, bool is_cut) {
-    const float free = place.width - measure(line) / theme_.scale();
+  const auto draw = [&](std::string_view line, Font font, float y, bool is_cut) {
+    const float free = place.width - run_width_px(*theme_.font(font), line) / theme_.scale();
     float x = place.x;
     if (style.align == Align::kCentre) x += free / 2;
     if (style.align == Align::kRight) x += free;
-    draw_line_of_text(x, y, {.words = std::string(line), .box = place, .is_cut = is_cut},
-                      style.font, rgba(style.colour));
+    draw_line_of_text(x, y,
+                      {.words = std::string(line),
+                       .box = place,
+                       .is_cut = is_cut,
+                       .shows_whole = is_cut && style.any_length},
+                      font, rgba(style.colour));
+    if (is_cut && hovered(place)) tooltip(mouse_x(), mouse_y(), words);
   };
-  if (!style.wrap) {
-    const float room = std::max(0.0f, place.height - height);
-    // A rounding error is no reason for an ellipsis.
-    const std::string shown = shorten(words, px(place.width) + 1, measure);
-    draw(shown, place.y + room / 2, shown != words);
-    return height;
+  if (style.wrap) {
+    const bool balanced = style.align == Align::kCentre;
+    const auto [font, lines] = wrapped(theme_, words, px(place.width), style.font, balanced);
+    const float height = line_height(font);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      draw(lines[i], font, place.y + static_cast<float>(i) * height, breaks_word(lines, i));
+    }
+    return static_cast<float>(lines.size()) * height;
   }
-  const auto lines =
-      break_lines(words, px(place.width), measure, style.align == Align::kCentre);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    // The next line begins where this one ends only if there was no space to break at.
-    const bool is_within_word =
-        i + 1 < lines.size() && lines[i].data() + lines[i].size() == lines[i + 1].data();
-    draw(lines[i], place.y + static_cast<float>(i) * height, is_within_word);
+  if (const auto set = fitted_into(theme_, place, words, style)) {
+    const auto count = static_cast<float>(set->lines.size());
+    const float height = line_height(set->font);
+    const float step = count > 1 ? std::min(height, place.height / count) : height;
+    const float room = std::max(0.0f, place.height - step * (count - 1) - height);
+    // Lines that are close to one another reach over the place by what has no letters in it.
+    float y = place.y + room / 2;
+    if (count > 1 && room <= 0) y = place.y + (step - height) / 2;
+    for (const std::string_view line : set->lines) {
+      draw(line, set->font, y, false);
+      y += step;
+    }
+    return height + step * (count - 1);
   }
-  return static_cast<float>(lines.size()) * height;
+  const std::string shown =
+      shorten(words, px(place.width) + 1, measure_of(*theme_.font(style.font)));
+  const float height = line_height(style.font);
+  draw(shown, style.font, place.y + std::max(0.0f, place.height - height) / 2, true);
+  return height;
 }
 
-void Ui::heading(const Rect& place, std::string_view words, std::string_view unit,
-                 Align align) {
+void Ui::heading(const Rect& place, std::string_view words, std::string_view unit, Align align,
+                 bool any_length) {
   log_text(words);
-  const std::string capitals = in_capitals(words);
-  const Measure measure = measure_of(*theme_.font(Font::kCaps));
   const float unit_width =
       unit.empty() ? 0 : text_width(unit, Font::kSmall) + text_width(" · ", Font::kSmall);
-  const std::string shown = shorten(capitals, px(place.width - unit_width) + 1, measure);
+  const float room_px = px(place.width - unit_width) + 1;
+  Font font = Font::kCaps;
+  std::string whole = in_capitals(words);
+  for (const Font small : {Font::kSmallStrong, Font::kTiny}) {
+    if (measure_of(*theme_.font(font))(whole) <= room_px) break;
+    font = small;
+    whole = words;
+  }
+  const Measure measure = measure_of(*theme_.font(font));
+  const std::string shown = shorten(whole, room_px, measure);
+  const bool is_cut = shown != whole;
   const float width = measure(shown) / theme_.scale();
   float x = place.x;
   if (align == Align::kCentre) x += (place.width - width - unit_width) / 2;
   if (align == Align::kRight) x += place.width - width - unit_width;
-  const float y = place.y + std::max(0.0f, place.height - line_height(Font::kCaps)) / 2;
-  draw_line_of_text(x, y, {.words = shown, .box = place, .is_cut = shown != capitals},
-                    Font::kCaps, rgba(Colour::kSoft));
+  const float y = place.y + std::max(0.0f, place.height - line_height(font)) / 2;
+  draw_line_of_text(
+      x, y,
+      {.words = shown, .box = place, .is_cut = is_cut, .shows_whole = is_cut && any_length},
+      font, rgba(Colour::kSoft));
+  if (is_cut && hovered(place)) tooltip(mouse_x(), mouse_y(), words);
   if (unit.empty()) return;
   log_text(unit);
   // On one base line with the capitals, whose letters are smaller.
-  const float lift = (line_height(Font::kSmall) - line_height(Font::kCaps)) / 2;
+  const float lift = (line_height(Font::kSmall) - line_height(font)) / 2;
   draw_line_of_text(x + width, y - lift, {.words = " · " + std::string(unit), .box = place},
                     Font::kSmall, rgba(Colour::kSoft));
 }

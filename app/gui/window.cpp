@@ -35,7 +35,10 @@ void Window::Implementation::prepare_fonts() {
     frames_left = std::max(frames_left, 2);
     return;
   }
-  theme.set_scale(monitor_scale * zoom);
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(main, &width, &height);
+  theme.set_scale(scale_with_room(monitor_scale * zoom, static_cast<float>(width),
+                                  static_cast<float>(height)));
   if (!theme.fonts_are_stale()) return;
   // This is no window that hangs.
   if (window.on_iteration) window.on_iteration();

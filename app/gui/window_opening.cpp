@@ -17,9 +17,6 @@
 namespace jnd::app::gui {
 namespace {
 
-// What every view has room for, logical pixels.
-constexpr float kLeastWidth = 1024;
-constexpr float kLeastHeight = 640;
 // Of the work area, so that the window's frame and title fit, too.
 constexpr float kMostOfMonitor = 0.96f;
 

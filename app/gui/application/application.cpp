@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/gui/views/keys_dialog.h"
+#include "app/gui/views/layout.h"
 #include "app/gui/views/participant_view.h"
 #include "app/language/words.h"
 #include "app/operator/kept_controls.h"
@@ -241,45 +242,44 @@ const Language* Application::next_language() const {
 }
 
 void Application::draw_corner(Ui& ui) {
-  Rect strip = ui.screen().take_bottom(40);
-  strip.take_right(12);
-  struct Corner {
-    const char *name, *label;
-    Chord key;
-    std::function<void()> act;
-  };
-  std::vector<Corner> corners = {
-      {"keys", tr("All keys"), {Key::kF1}, [this] { shows_keys_ = true; }}};
-  if (!shows(session_)) {
-    corners.push_back(
-        {"larger", tr("Larger"), {Key::kPlus, true}, [&] { zoom_ *= kZoomStep; }});
-    corners.push_back(
-        {"dark", ui.theme().dark() ? tr("Light") : tr("Dark"), {letter('D'), true}, [&] {
-           ui.theme().set_dark(!ui.theme().dark());
-         }});
-  }
   // What was made in a language stays in it, and at the start there is next to nothing.
   const Language* other = shows(start_) ? next_language() : nullptr;
-  if (other != nullptr) {
-    corners.push_back({"language", other->name.c_str(), {letter('L'), true}, [&] {
-                         wanted_language_ = other->code;
-                         closed_ = true;
-                       }});
+  const CornerLook look = corner_look(ui, other == nullptr ? "" : other->name);
+  Rect strip = ui.screen().take_bottom(40);
+  strip.take_right(12);
+  const auto button = [&](const char* name, const std::string& label, const Chord& key) {
+    const ButtonStyle style{
+        .tone = Tone::kQuiet, .key = key, .hides_key = !look.has_keys && !shows(session_)};
+    const Rect place = strip.take_right(ui.button_width(label, style), 2);
+    return ui.button(name, place.middle(place.width, 32), label, style);
+  };
+  const std::vector<CornerButton> buttons = corner_buttons(ui);
+  if (button(buttons[0].name, buttons[0].label, buttons[0].key)) shows_keys_ = true;
+  if (shows(session_)) return;
+  if (button(buttons[1].name, buttons[1].label, buttons[1].key)) make_larger(ui);
+  if (button(buttons[2].name, buttons[2].label, buttons[2].key)) {
+    ui.theme().set_dark(!ui.theme().dark());
   }
-  for (const Corner& corner : corners) {
-    const ButtonStyle style{.tone = Tone::kQuiet, .key = corner.key};
-    const Rect place = strip.take_right(ui.button_width(corner.label, style), 2);
-    if (ui.button(corner.name, place.middle(place.width, 32), corner.label, style)) {
-      corner.act();
-    }
+  if (other != nullptr && button("language", other->name, {letter('L'), true})) {
+    wanted_language_ = other->code;
+    closed_ = true;
   }
+}
+
+/// Not beyond what the window has room for, or "smaller" would do nothing for a while.
+void Application::make_larger(const Ui& ui) {
+  const Rect screen = ui.screen();
+  constexpr float kRounding = 1.02f;
+  const bool has_room =
+      screen.width > kRounding * kLeastWidth && screen.height > kRounding * kLeastHeight;
+  if (has_room) zoom_ *= kZoomStep;
 }
 
 void Application::take_global_keys(Ui& ui) {
   // Of other screens the buttons in the corner have these two.
   if (shows(session_)) {
     if (ui.pressed({letter('D'), true})) ui.theme().set_dark(!ui.theme().dark());
-    if (ui.pressed({Key::kPlus, true})) zoom_ *= kZoomStep;
+    if (ui.pressed({Key::kPlus, true})) make_larger(ui);
   }
   if (ui.pressed({Key::kMinus, true})) zoom_ /= kZoomStep;
   zoom_ = std::clamp(zoom_, 0.5f, 2.0f);

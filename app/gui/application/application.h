@@ -115,6 +115,7 @@ class Application final : private ScreenHost {
   void show_first();
   void keep_stopped() noexcept;
   void draw_corner(Ui& ui);
+  void make_larger(const Ui& ui);
   [[nodiscard]] const Language* next_language() const;
   void draw_message(Ui& ui);
   void take_global_keys(Ui& ui);

@@ -27,19 +27,23 @@ std::string loop_summary(const LoopView& loop) {
 /// What the session waits for, and how the loop is: here, too, nobody should miss it.
 void draw_what_goes_on(Ui& ui, const Rect& place, const SessionView& view) {
   ui.card(place);
-  Rect inside = place.middle(place.width - 2 * kPadding, ui.line_height(Font::kBody));
+  Rect inside = place.middle(place.width - 2 * kPadding, place.height - 4);
   const bool has_fault = !view.fault.empty();
   const bool is_late = view.loop.missed_ticks > 0 || view.loop.num_dropped_samples > 0;
   const std::string right =
       view.step == Step::kFault ? tr("F4: where it is armed again") : loop_summary(view.loop);
-  ui.text(inside.take_right(ui.text_width(right, Font::kSmall) + 2, 20), right,
-          {.font = Font::kSmall, .colour = is_late ? Colour::kAmber : Colour::kSoft});
+  const float at_right = std::min(ui.text_width(right, Font::kSmall) + 2, inside.width * 0.45f);
+  ui.text(inside.take_right(at_right, 20), right,
+          {.font = Font::kSmall,
+           .colour = is_late ? Colour::kAmber : Colour::kSoft,
+           .align = Align::kRight});
   const Colour red = Colour::kRed;
-  const float width = std::min(ui.text_width(view.heading, Font::kStrong) + 2, inside.width);
+  const float width =
+      std::min(ui.text_width(view.heading, Font::kStrong) + 2, inside.width * 0.5f);
   ui.text(inside.take_left(width, 14), view.heading,
           {.font = Font::kStrong, .colour = has_fault ? red : Colour::kInk});
   ui.text(inside, has_fault ? view.fault : view.sentence,
-          {.colour = has_fault ? red : Colour::kSoft});
+          {.colour = has_fault ? red : Colour::kSoft, .any_length = true});
 }
 
 void draw_hidden_apparatus(Ui& ui, const Rect& place) {
@@ -94,15 +98,24 @@ void draw_camera_buttons(Ui& ui, Rect strip, ApparatusViewState& state, bool& ho
                              {"camera_reset", tr_later("Reset"), 'R', camera_at_first}};
   constexpr float kNarrow = 640;
   const Tone tone = strip.width < kNarrow ? Tone::kQuiet : Tone::kPlain;
+  const char* label = state.held ? tr("Go on") : tr("Hold");
+  const float of_hold = ui.button_width(label, {.key = {letter('H')}}) + 16;
+  float wanted = of_hold;
   for (const View& view : kViews) {
-    const ButtonStyle style{
-        .tone = tone, .key = {letter(view.key)}, .selected = state.camera == view.camera()};
+    wanted += ui.button_width(tr(view.label), {.tone = tone, .key = {letter('A')}}) + 8;
+  }
+  const bool has_keys = wanted <= strip.width;
+  for (const View& view : kViews) {
+    const ButtonStyle style{.tone = tone,
+                            .key = {letter(view.key)},
+                            .selected = state.camera == view.camera(),
+                            .hides_key = !has_keys};
     const Rect its = strip.take_left(ui.button_width(tr(view.label), style), 8);
     if (ui.button(view.name, its, tr(view.label), style)) state.camera = view.camera();
   }
-  const ButtonStyle style{.key = {letter('H')}, .selected = state.held.has_value()};
-  const char* label = state.held ? tr("Go on") : tr("Hold");
-  const Rect its = strip.take_right(ui.button_width(label, style), 16);
+  const ButtonStyle style{
+      .key = {letter('H')}, .selected = state.held.has_value(), .hides_key = !has_keys};
+  const Rect its = strip.take_right(std::min(ui.button_width(label, style), strip.width), 16);
   hold = ui.button("hold", its, label, style);
   const char* hint = tr("Drag or arrow keys turn · wheel or + − zoom");
   if (ui.text_width(hint, Font::kSmall) > strip.width) return;

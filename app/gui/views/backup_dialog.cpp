@@ -7,11 +7,13 @@ namespace jnd::app::gui {
 
 bool draw_backup_dialog(Ui& ui, bool& asks, bool& is_new, std::string& folder) {
   if (!asks) return false;
-  Rect inside = ui.begin_dialog("backup_dialog", 640, 250);
+  const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
+  const char* words =
+      tr("A new folder, or an earlier backup: then only what is new is copied.");
+  Rect inside =
+      ui.begin_dialog("backup_dialog", 640, 250 + more_lines(ui, 640, words, soft, 1));
   ui.text(inside.take_top(34, 4), tr("Back up the study"), {.font = Font::kLarge});
-  ui.text(inside.take_top(26, 12),
-          tr("A new folder, or an earlier backup: then only what is new is copied."),
-          {.colour = Colour::kSoft});
+  ui.text(inside.take_top(ui.text_height(inside.width, words, soft), 12), words, soft);
   const bool entered = ui.text_field("backup_folder", inside.take_top(46), folder,
                                      tr("folder of the copy"), is_new);
   const DialogChoice choice =

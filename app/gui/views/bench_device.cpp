@@ -55,7 +55,8 @@ void draw_checks(Ui& ui, Rect& inside, const std::vector<DeviceView::Check>& che
     }
     line.take_left(18);
     ui.text(line.take_left(78, 8), checks[i].day, {.font = Font::kSmall});
-    ui.text(line, checks[i].words, {.font = Font::kSmall, .colour = Colour::kSoft});
+    ui.text(line, checks[i].words,
+            {.font = Font::kSmall, .colour = Colour::kSoft, .any_length = true});
   }
   if (checks.size() > kMost) {
     ui.text(inside.take_top(kLine),
@@ -88,7 +89,8 @@ void draw_choose_dialog(Ui& ui, const BenchModel& model, BenchViewState& state,
     const std::string name = choice.name + (choice.simulated ? tr(" · simulated") : "");
     ui.text(words.take_top(23), name, {.font = Font::kStrong});
     words.y -= 3;
-    ui.text(words, choice.description, {.font = Font::kSmall, .colour = Colour::kSoft});
+    ui.text(words, choice.description,
+            {.font = Font::kSmall, .colour = Colour::kSoft, .any_length = true});
   }
   inside.take_top(6);
   const bool entered =
@@ -107,7 +109,8 @@ void draw_push_dialog(Ui& ui, BenchViewState& state, BenchViewResult& result) {
          "has the stop at hand? It is held by a soft spring and pushed to and fro by 0.5 N for "
          "six seconds.");
   const TextStyle style{.wrap = true};
-  Rect inside = ui.begin_dialog("push_device", 560, 140 + ui.text_height(500, words, style));
+  Rect inside = ui.begin_dialog("push_device", 560,
+                                2 * 28 + 42 + 56 + 8 + ui.text_height(504, words, style));
   ui.text(inside.take_top(34, 8), tr("A force on a real device"), {.font = Font::kLarge});
   Rect buttons = inside.take_bottom(44, 12);
   ui.text(inside, words, style);
@@ -146,12 +149,17 @@ void draw_device_card(Ui& ui, const Rect& place, const BenchModel& model, BenchV
   const ButtonStyle change{.key = {letter('C')}, .enabled = !is_busy};
   const ButtonStyle again{.tone = Tone::kQuiet, .key = {letter('L')}, .enabled = !is_busy};
   Rect bottom = inside.take_bottom(42, 12);
-  if (ui.button("change_device", bottom.take_left(ui.button_width(tr("Change"), change), 10),
+  const float wanted =
+      ui.button_width(tr("Change"), change) + 10 + ui.button_width(tr("Look again"), again);
+  const float shrink = std::min(1.0f, bottom.width / wanted);
+  if (ui.button("change_device",
+                bottom.take_left(shrink * ui.button_width(tr("Change"), change), 10 * shrink),
                 tr("Change"), change)) {
     state.dialog = BenchViewState::Dialog::kChoose;
     state.address = device.name.find(':') == std::string::npos ? "" : device.name;
   }
-  if (ui.button("look_again", bottom.take_left(ui.button_width(tr("Look again"), again)),
+  if (ui.button("look_again",
+                bottom.take_left(shrink * ui.button_width(tr("Look again"), again)),
                 tr("Look again"), again)) {
     result.look_again = true;
   }
@@ -161,7 +169,7 @@ void draw_device_card(Ui& ui, const Rect& place, const BenchModel& model, BenchV
     const Rect chip = head.take_right(ui.chip_width(kind), 12);
     ui.chip(chip.x, chip.y + 6, kind, device.is_simulated ? Colour::kAmber : Colour::kBlue);
   }
-  ui.text(head, device.name, {.font = Font::kTitle});
+  ui.text(head, device.name, {.font = Font::kTitle, .any_length = true});
   inside = ui.begin_scroll("device", inside, state.left_height);
   const float top = inside.y;
   if (!device.problem.empty()) {

@@ -1,6 +1,7 @@
 #include "app/gui/views/bench_view.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "app/gui/views/bench_parts.h"
 #include "app/gui/views/layout.h"
@@ -28,18 +29,13 @@ void draw_header(Ui& ui, const Rect& place, const BenchModel& model, bool may_mo
             {.colour = Colour::kAmber});
     return;
   }
-  for (const StudyTabLook& tab : kStudyTabs) {
-    const bool leads_somewhere =
-        model.has_study || tab.tab == StudyTab::kStart || tab.tab == StudyTab::kDevice;
-    if (!leads_somewhere) continue;
-    const ButtonStyle style{.tone = Tone::kQuiet,
-                            .key = {.key = letter(tab.digit), .control = true},
-                            .selected = tab.tab == StudyTab::kDevice};
-    const Rect its = strip.take_right(ui.button_width(tr(tab.label), style));
-    if (ui.button(tab.name, its.middle(its.width, 36), tr(tab.label), style)) {
-      result.tab = tab.tab;
-    }
+  std::vector<StudyTabLook> tabs(kStudyTabs.begin(), kStudyTabs.end());
+  if (!model.has_study) {
+    std::erase_if(tabs, [](const StudyTabLook& tab) {
+      return tab.tab != StudyTab::kStart && tab.tab != StudyTab::kDevice;
+    });
   }
+  result.tab = draw_tabs(ui, strip, tabs, StudyTab::kDevice, 0);
 }
 
 }  // namespace

@@ -38,24 +38,65 @@ void draw_pages(Ui& ui, Rect strip, const DeviceView& device, BenchViewState& st
                         {Page::kDaily, "page_daily", tr("Daily check"), '2'},
                         {Page::kForce, "page_force", tr("Try a force"), '3'},
                         {Page::kWatch, "page_watch", tr("Watch"), '4'}};
+  const auto style_of = [&](const Look& look, bool has_keys) {
+    return ButtonStyle{.tone = Tone::kQuiet,
+                       .key = {letter(look.key)},
+                       .enabled = !is_busy(device),
+                       .selected = state.page == look.page,
+                       .hides_key = !has_keys};
+  };
+  const auto wanted = [&](bool has_keys) {
+    float width = 0;
+    for (const Look& look : looks) {
+      width += ui.button_width(look.label, style_of(look, has_keys)) + 6;
+    }
+    return width;
+  };
+  const bool has_keys = wanted(true) <= strip.width;
+  const float shrink = std::min(1.0f, strip.width / wanted(has_keys));
   for (const Look& look : looks) {
-    const ButtonStyle style{.tone = Tone::kQuiet,
-                            .key = {letter(look.key)},
-                            .enabled = !is_busy(device),
-                            .selected = state.page == look.page};
-    const Rect its = strip.take_left(ui.button_width(look.label, style), 6);
+    const ButtonStyle style = style_of(look, has_keys);
+    const Rect its = strip.take_left(shrink * ui.button_width(look.label, style), 6 * shrink);
     if (ui.button(look.name, its, look.label, style)) state.page = look.page;
   }
+}
+
+constexpr float kBesideStep = 36, kBetweenSteps = 8;
+
+/// As many side by side as have room for their names.
+std::size_t steps_in_row(const Ui& ui, float width) {
+  float widest = 0;
+  for (const char* name : kStepNames) {
+    widest = std::max(widest, ui.text_width(tr(name), Font::kSmallStrong));
+  }
+  const float step = kBesideStep + widest + 6 + kBetweenSteps;
+  const std::size_t count = kStepNames.size();
+  for (const std::size_t rows : {std::size_t{1}, std::size_t{2}, std::size_t{3}}) {
+    const std::size_t in_row = (count + rows - 1) / rows;
+    if (static_cast<float>(in_row) * step - kBetweenSteps <= width) return in_row;
+  }
+  return 2;
+}
+
+float height_of_steps(const Ui& ui, float width) {
+  const std::size_t in_row = steps_in_row(ui, width);
+  const std::size_t rows = (kStepNames.size() + in_row - 1) / in_row;
+  const float row = rows > 1 ? 34 : 44;
+  return static_cast<float>(rows) * (row + kBetweenSteps) - kBetweenSteps;
 }
 
 void draw_step_strip(Ui& ui, const Rect& strip, const DeviceView& device,
                      BenchViewState& state) {
   const std::size_t shown = shown_step(device, state);
-  const auto num_steps = static_cast<float>(device.steps.size());
-  const float width = (strip.width - (num_steps - 1) * 8) / num_steps;
+  const std::size_t in_row = steps_in_row(ui, strip.width);
+  const std::size_t num_rows = (device.steps.size() + in_row - 1) / in_row;
+  const auto per_row = static_cast<float>(in_row), rows = static_cast<float>(num_rows);
+  const float width = (strip.width - (per_row - 1) * kBetweenSteps) / per_row;
+  const float height = (strip.height - (rows - 1) * kBetweenSteps) / rows;
   for (std::size_t i = 0; i < device.steps.size(); ++i) {
-    const Rect cell{strip.x + static_cast<float>(i) * (width + 8), strip.y, width,
-                    strip.height};
+    const Rect cell{strip.x + static_cast<float>(i % in_row) * (width + kBetweenSteps),
+                    strip.y + static_cast<float>(i / in_row) * (height + kBetweenSteps), width,
+                    height};
     const bool is_shown = i == shown;
     if (is_shown) ui.fill(cell, Colour::kBlueSoft, 8);
     ui.outline(cell, is_shown ? Colour::kBlue : Colour::kLine, 8);
@@ -70,7 +111,8 @@ void draw_step_strip(Ui& ui, const Rect& strip, const DeviceView& device,
     } else {
       ui.ring(cell.x + 20, middle, 6, device.steps[i].waits ? Colour::kLine : Colour::kInk);
     }
-    ui.text({cell.x + 36, cell.y, cell.width - 40, cell.height}, tr(kStepNames[i]),
+    ui.text({cell.x + kBesideStep, cell.y, cell.width - kBesideStep - 4, cell.height},
+            tr(kStepNames[i]),
             {.font = is_shown ? Font::kStrong : Font::kBody,
              .colour = is_shown ? Colour::kBlue : Colour::kInk});
   }
@@ -88,14 +130,25 @@ void draw_scene(Ui& ui, const Rect& place, const BenchPicture& picture,
   ui.fill(left, Colour::kGround, 8);
   draw_bench_picture(ui, left.inset(8), picture);
   const TextStyle large{.font = Font::kLarge, .wrap = true};
-  const TextStyle plain{.wrap = true};
+  TextStyle plain{.wrap = true};
   const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
   rest.take_top(4);
+  const auto height_of = [&](float width) {
+    return ui.text_height(width, title, large) + 10 +
+           (words.empty() ? 0 : ui.text_height(width, words, plain) + 10) +
+           (below.empty() ? 0 : ui.text_height(width, below, soft));
+  };
+  if (height_of(rest.width) > rest.height) plain.font = Font::kSmall;
+  // Narrower, where a thumb stands beside it.
+  const bool scrolls = height_of(rest.width) > rest.height;
+  const float content = scrolls ? height_of(rest.width - 16) : rest.height;
+  rest = ui.begin_scroll("scene_words", rest, content);
   ui.text(rest.take_top(ui.text_height(rest.width, title, large), 10), title, large);
   if (!words.empty()) {
     ui.text(rest.take_top(ui.text_height(rest.width, words, plain), 10), words, plain);
   }
   if (!below.empty()) ui.text(rest, below, soft);
+  ui.end_scroll();
 }
 
 std::string num_words(const std::vector<Eigen::Vector3d>& marks_m,
@@ -146,7 +199,10 @@ void draw_outcome(Ui& ui, Rect& inside, const DeviceView& device, Page page) {
                         .colour = device.outcome_is_good ? Colour::kGreen : Colour::kRed,
                         .wrap = true};
   const float height = ui.text_height(inside.width, device.outcome, style);
-  ui.text(inside.take_bottom(std::min(height, 80.0f), 10), device.outcome, style);
+  Rect place = inside.take_bottom(std::min(height, 80.0f), 10);
+  place = ui.begin_scroll("outcome", place, height);
+  ui.text(place, device.outcome, style);
+  ui.end_scroll();
 }
 
 /// At the bottom while something goes on: how far it is, Done, Stop.
@@ -188,9 +244,10 @@ void draw_rehearsal(Ui& ui, Rect& bottom, const DeviceView& device, BenchViewSta
   const ButtonStyle style{
       .tone = Tone::kQuiet, .key = {letter('Q')}, .selected = state.rehearses};
   const char* label = tr("Rehearse");
-  if (ui.button_width(label, style) > bottom.width) return;
-  if (ui.button("rehearse", bottom.take_left(ui.button_width(label, style), 12), label,
-                style)) {
+  constexpr float kLeast = 60;
+  if (bottom.width < kLeast) return;
+  const float width = std::min(ui.button_width(label, style), bottom.width);
+  if (ui.button("rehearse", bottom.take_left(width, 12), label, style)) {
     state.rehearses = !state.rehearses;
   }
 }
@@ -250,7 +307,7 @@ void draw_found(Ui& ui, const Rect& place, const std::vector<DeviceLine>& lines,
 }
 
 void draw_commission(Ui& ui, Rect inside, const DeviceView& device, BenchViewState& state) {
-  draw_step_strip(ui, inside.take_top(44, 14), device, state);
+  draw_step_strip(ui, inside.take_top(height_of_steps(ui, inside.width), 14), device, state);
   if (is_busy(device) && device.work != DeviceWork::kLooking) {
     return draw_under_way(ui, inside.take_top(std::min(inside.height, kTallest)), device,
                           state);
@@ -278,9 +335,10 @@ void draw_commission(Ui& ui, Rect inside, const DeviceView& device, BenchViewSta
 }
 
 void draw_checked(Ui& ui, const Rect& place, const DeviceView& device, BenchViewState& state) {
-  const std::vector<ColumnLook> columns = {{tr("Quantity"), 1.3f},
-                                           {tr("Found"), 1.3f, Align::kRight},
-                                           {tr("Passes within"), 0.85f, Align::kRight}};
+  std::vector<ColumnLook> columns = {{tr("Quantity"), 1.3f},
+                                     {tr("Found"), 1.3f, Align::kRight},
+                                     {tr("Passes within"), 0.85f, Align::kRight}};
+  need_room_for_titles(ui, columns);
   Rect inside = ui.begin_scroll("found", place, state.found_height);
   const float top = inside.y;
   draw_table_head(ui, inside, columns);
@@ -369,8 +427,8 @@ void draw_watch(Ui& ui, Rect inside, const DeviceView& device, BenchViewState& s
   for (const DeviceLine& line : device.live) {
     Rect its = inside.take_top(34);
     ui.fill({its.x, its.y + its.height - 1, its.width, 1}, Colour::kLine, 0);
-    ui.text(its.take_left(its.width * 0.5f, 12), line.what, {.colour = Colour::kSoft});
-    ui.text(its, line.value, {.font = Font::kStrong, .align = Align::kRight});
+    draw_name_and_value(ui, its, line.what, {.colour = Colour::kSoft}, line.value,
+                        {.font = Font::kStrong, .any_length = true});
   }
 }
 

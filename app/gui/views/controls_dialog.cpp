@@ -39,7 +39,9 @@ void draw_action(Ui& ui, const Rect& place, std::size_t index, const core::Contr
       !state.waits && !state.asks_about) {
     state.chosen = index;
   }
-  Rect inside = place.inset(4);
+  Rect inside = place;
+  inside.take_left(4);
+  inside.take_right(4);
   const Rect light = inside.take_left(22);
   const float x = light.x + 11, y = light.y + light.height / 2;
   if (is_lit) {
@@ -53,7 +55,8 @@ void draw_action(Ui& ui, const Rect& place, std::size_t index, const core::Contr
           {.font = Font::kSmall,
            .colour = waits    ? Colour::kBlue
                      : is_lit ? Colour::kGreen
-                              : Colour::kSoft});
+                              : Colour::kSoft,
+           .any_length = !waits});
 }
 
 std::string device_words(const core::ControlReader::DeviceState& device) {
@@ -72,36 +75,38 @@ void draw_devices_of_controls(Ui& ui, Rect place,
             {.font = Font::kSmall, .colour = Colour::kSoft});
   }
   for (const core::ControlReader::DeviceState& device : devices) {
-    if (place.height < kDeviceRow) break;
     Rect row = place.take_top(kDeviceRow);
-    ui.text(row.take_left(row.width * 0.4f, 12), device.device, {.font = Font::kSmall});
+    ui.text(row.take_left(row.width * 0.4f, 12), device.device,
+            {.font = Font::kSmall, .any_length = true});
     ui.text(row, device_words(device),
             {.font = Font::kSmall,
              .colour = device.problem.empty() ? Colour::kSoft : Colour::kAmber});
   }
 }
 
-/// What is asked about a device that may be the keyboard: above the buttons.
-void draw_what_happens(Ui& ui, const Rect& place, const ControlsState& state) {
-  const TextStyle style{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
+/// What is asked about a device that may be the keyboard, or what was pressed: above the
+/// buttons.
+std::string what_happens(const ControlsState& state) {
   if (state.asks_about) {
-    ui.text(place,
-            tr("{} has the keys of a whole keyboard, as many pedals have. While a session is "
-               "prepared or runs, nothing on it types; Esc on it stays the emergency stop. Is "
-               "it a pedal or a pad, not the keyboard that you type on?",
-               state.asks_about->device),
-            {.font = Font::kSmall, .colour = Colour::kAmber, .wrap = true});
-  } else if (state.waits) {
-    ui.text(place,
-            tr("Press the pedal or the button for “{}”. F2 leaves it as it was.",
-               action_words(chosen_action(state))),
-            style);
-  } else {
-    ui.text(place,
-            state.newest ? tr("Pressed last: {}.", core::words_of(*state.newest))
-                         : std::string(tr("Press anything to try it: its line lights up.")),
-            style);
+    return tr(
+        "{} has the keys of a whole keyboard, as many pedals have. While a session is prepared "
+        "or runs, nothing on it types; Esc on it stays the emergency stop. Is it a pedal or a "
+        "pad, not the keyboard that you type on?",
+        state.asks_about->device);
   }
+  if (state.waits) {
+    return tr("Press the pedal or the button for “{}”. F2 leaves it as it was.",
+              action_words(chosen_action(state)));
+  }
+  return state.newest ? tr("Pressed last: {}.", core::words_of(*state.newest))
+                      : std::string(tr("Press anything to try it: its line lights up."));
+}
+
+void draw_what_happens(Ui& ui, const Rect& place, const ControlsState& state) {
+  ui.text(place, what_happens(state),
+          {.font = Font::kSmall,
+           .colour = state.asks_about ? Colour::kAmber : Colour::kSoft,
+           .wrap = true});
 }
 
 }  // namespace
@@ -142,13 +147,19 @@ ControlsResult draw_controls_dialog(
   Rect inside = ui.begin_dialog("controls", std::min(1240.0f, ui.screen().width - 24),
                                 std::min(room, 700.0f));
   ui.text(inside.take_top(34, 2), tr("Pedals and buttons"), {.font = Font::kLarge});
-  ui.text(inside.take_top(22, 10),
-          tr("Kept on this machine, for every study. A mapped device does nothing else while a "
-             "session is prepared or runs."),
-          {.font = Font::kSmall, .colour = Colour::kSoft});
+  const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
+  const char* kept =
+      tr("Kept on this machine, for every study. A mapped device does nothing else while a "
+         "session is prepared or runs.");
+  ui.text(inside.take_top(ui.text_height(inside.width, kept, soft), 8), kept, soft);
   Rect buttons = inside.take_bottom(44, 10);
-  const Rect happens = inside.take_bottom(58, 6);
-  Rect actions = inside.take_top(static_cast<float>(kRows) * kActionRow, 14);
+  const float happening = ui.text_height(inside.width, what_happens(state), soft);
+  const Rect happens = inside.take_bottom(std::max(58.0f, happening), 6);
+  const float of_actions = static_cast<float>(kRows) * kActionRow + 14;
+  const float of_devices =
+      18 + 6 + kDeviceRow * static_cast<float>(std::max<std::size_t>(1, devices.size()));
+  inside = ui.begin_scroll("controls_and_devices", inside, of_actions + of_devices);
+  Rect actions = inside.take_top(of_actions - 14, 14);
   const float width = (actions.width - 12) / static_cast<float>(kActionColumns);
   for (std::size_t i = 0; i < core::kControlActions.size(); ++i) {
     const Rect place{actions.x + static_cast<float>(i / kRows) * (width + 12),
@@ -157,6 +168,7 @@ ControlsResult draw_controls_dialog(
     draw_action(ui, place, i, map, state);
   }
   draw_devices_of_controls(ui, inside, devices);
+  ui.end_scroll();
   draw_what_happens(ui, happens, state);
 
   const auto button = [&](const char* name, const char* label, const ButtonStyle& style) {

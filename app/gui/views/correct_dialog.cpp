@@ -38,9 +38,13 @@ class CorrectDialog {
  public:
   CorrectDialog(Ui& ui, CorrectState& state) : ui_(ui), state_(state), form_(state.line.form) {}
 
-  [[nodiscard]] float height() const {
-    if (is_typed_again(form_) && !form_.is_hidden) return 396;
-    return form_.kind == AnswerKind::kStep ? 404 : 356;
+  /// Of what it draws in a dialog of this width.
+  [[nodiscard]] float height(float width) const {
+    if (is_typed_again(form_)) {
+      return form_.is_hidden ? ui_.text_height(width, hidden_words(), kHiddenStyle) + 18
+                             : 46.0f + 6 + 22 + 8;
+    }
+    return form_.kind == AnswerKind::kStep ? kCorrectScale + 14 : kCorrectButton + 18;
   }
 
   /// What is to be stored instead.
@@ -65,15 +69,19 @@ class CorrectDialog {
     state_.asks_why = true;
   }
 
+  static constexpr TextStyle kHiddenStyle{.colour = Colour::kSoft, .wrap = true};
+  [[nodiscard]] const char* hidden_words() const {
+    return state_.line.can_run_again
+               ? tr("What was set is hidden and cannot be typed. Run the trial again.")
+               : tr("What was set is hidden and cannot be typed, and its block is over. "
+                    "Write a note.");
+  }
+
   void draw_field(Rect& inside) {
     if (form_.is_hidden) {
-      const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
-      ui_.text(inside.take_top(kCorrectButton, 18),
-               state_.line.can_run_again
-                   ? tr("What was set is hidden and cannot be typed. Run the trial again.")
-                   : tr("What was set is hidden and cannot be typed, and its block is over. "
-                        "Write a note."),
-               soft);
+      const char* words = hidden_words();
+      ui_.text(inside.take_top(ui_.text_height(inside.width, words, kHiddenStyle), 18), words,
+               kHiddenStyle);
       return;
     }
     const char* hint = form_.kind == AnswerKind::kPercent  ? tr("percent")
@@ -89,8 +97,7 @@ class CorrectDialog {
         ui_.text_field("correct_value", row, state_.typed, hint, state_.is_new);
     if (state_.typed != before) state_.runs_again = false;
     const std::string problem = problem_of_correction(form_, state_.typed);
-    ui_.text(inside.take_top(22, 8), problem,
-             {.font = Font::kSmall, .colour = Colour::kAmber, .wrap = true});
+    ui_.text(inside.take_top(22, 8), problem, {.font = Font::kSmall, .colour = Colour::kAmber});
     const std::optional<double> value = typed_number(state_.typed);
     state_.has_choice = value && problem.empty();
     state_.value = state_.has_choice ? value : std::nullopt;
@@ -134,14 +141,27 @@ void draw_correct_dialog(Ui& ui, RunViewState& run, RunViewResult& result) {
   CorrectState& state = run.correct;
   const AnswerLine& line = state.line;
   CorrectDialog dialog(ui, state);
-  Rect inside = ui.begin_dialog("dialog", 680, dialog.height());
-  ui.text(inside.take_top(34, 4), tr("Set an answer right"), {.font = Font::kLarge});
+  constexpr float kWidth = 680, kInside = kWidth - 2 * 28;
   const TextStyle strong{.font = Font::kStrong, .wrap = true};
   const std::string which =
       tr("{}, trial {}: the answer was {}.", line.block, line.in_block, in_quotes(line.answer));
-  ui.text(inside.take_top(ui.text_height(inside.width, which, strong), 4), which, strong);
   const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
   const char* words = tr("The old answer stays in the log; what was felt is not touched.");
+  const char* verb = state.runs_again ? tr("Run it again") : tr("Correct");
+  const ButtonStyle again{.key = {Key::kF5}, .selected = state.runs_again};
+  const char* again_words = tr("Run the trial again");
+  // Beside the others, where all three have room.
+  const float of_buttons = ui.button_width(again_words, again) + 12 +
+                           ui.button_width(tr("Cancel"), {.key = {Key::kEnter}}) + 12 +
+                           ui.button_width(verb, {.key = {Key::kEnter}});
+  const float above = line.can_run_again && of_buttons > kInside ? 48 + 8 : 0;
+  const float of_words =
+      ui.text_height(kInside, which, strong) + 4 + ui.text_height(kInside, words, soft) + 14;
+  Rect inside = ui.begin_dialog(
+      "dialog", kWidth,
+      2 * 28 + 38 + of_words + dialog.height(kInside) + 46 + 14 + 20 + 48 + above);
+  ui.text(inside.take_top(34, 4), tr("Set an answer right"), {.font = Font::kLarge});
+  ui.text(inside.take_top(ui.text_height(inside.width, which, strong), 4), which, strong);
   ui.text(inside.take_top(ui.text_height(inside.width, words, soft), 14), words, soft);
   dialog.draw_answer(inside);
   const bool is_ready = state.has_choice || state.runs_again;
@@ -152,7 +172,6 @@ void draw_correct_dialog(Ui& ui, RunViewState& run, RunViewResult& result) {
   }
   Rect row = inside.take_bottom(48);
   const bool may_store = is_ready && !is_blank(run.reason);
-  const char* verb = state.runs_again ? tr("Run it again") : tr("Correct");
   const ButtonStyle store{.tone = Tone::kPrimary, .key = {Key::kEnter}, .enabled = may_store};
   const Rect place = row.take_right(ui.button_width(verb, store), 12);
   const bool done = ui.button("dialog_do", place, verb, store) || (entered && may_store);
@@ -161,9 +180,9 @@ void draw_correct_dialog(Ui& ui, RunViewState& run, RunViewResult& result) {
       ui.button("dialog_cancel", row.take_right(ui.button_width(tr("Cancel"), cancel), 12),
                 tr("Cancel"), cancel);
   if (line.can_run_again) {
-    const ButtonStyle again{.key = {Key::kF5}, .selected = state.runs_again};
-    const Rect at_left = row.take_left(ui.button_width(tr("Run the trial again"), again));
-    if (ui.button("correct_run_again", at_left, tr("Run the trial again"), again)) {
+    if (above > 0) row = inside.take_bottom(48, 8);
+    const Rect at_left = row.take_left(ui.button_width(again_words, again));
+    if (ui.button("correct_run_again", at_left, again_words, again)) {
       state.runs_again = state.asks_why = true;
     }
   }

@@ -24,11 +24,23 @@ struct FitColumn {
   std::function<DataValue(const DataGroup&)> value_of;
 };
 
+/// Of an end that is open, the words come with the numbers beside the curve.
+std::string shown_interval(const DataValue& value) {
+  return value.interval.substr(0, value.interval.find(" ("));
+}
+
 /// As many as have room, what matters most first to stay.
-std::vector<FitColumn> fit_columns(const DataResults& results, float width) {
-  constexpr float kLeastWidth = 92, kName = 150;
+std::vector<FitColumn> fit_columns(const Ui& ui, const DataResults& results, float width) {
+  constexpr float kName = 150;
+  float least_column = 92;
+  for (std::size_t i = 0; i < std::min<std::size_t>(results.groups.size(), 30); ++i) {
+    for (const DataValue* value : {&results.groups[i].pse, &results.groups[i].jnd}) {
+      least_column =
+          std::max(least_column, ui.text_width(shown_interval(*value), Font::kTiny) + 4);
+    }
+  }
   const auto most =
-      static_cast<std::size_t>(std::max(2.0f, (width - kName) / (kLeastWidth + 18)));
+      static_cast<std::size_t>(std::max(2.0f, (width - kName) / (least_column + 18)));
   const auto column = [](std::string title, DataValue DataGroup::*value) {
     return FitColumn{{std::move(title), 1.0f, Align::kRight},
                      [value](const DataGroup& group) { return group.*value; }};
@@ -57,16 +69,17 @@ std::vector<FitColumn> fit_columns(const DataResults& results, float width) {
   return columns;
 }
 
-std::vector<ColumnLook> looks_of(const std::vector<FitColumn>& columns) {
+std::vector<ColumnLook> looks_of(const Ui& ui, const std::vector<FitColumn>& columns) {
   std::vector<ColumnLook> looks = {{"", 1.5f}};
   for (const FitColumn& column : columns) looks.push_back(column.look);
+  need_room_for_titles(ui, looks);
   return looks;
 }
 
 void draw_fit_row(Ui& ui, const Rect& row, const DataResults& results, std::size_t place,
                   const std::vector<FitColumn>& columns, bool is_selected) {
   const DataGroup& group = results.groups[place];
-  const std::vector<Rect> cells = cells_of(row, looks_of(columns));
+  const std::vector<Rect> cells = cells_of(row, looks_of(ui, columns));
   Rect name = cells[0];
   if (results.groups.size() > 1 && results.groups.size() <= 6) {
     ui.dot(name.x + 6, row.y + row.height / 2, 5, group_colour(place));
@@ -76,7 +89,8 @@ void draw_fit_row(Ui& ui, const Rect& row, const DataResults& results, std::size
   const Rect mark = is_doubtful ? name.take_right(12, 4) : Rect{};
   ui.text(name, group.name,
           {.font = is_selected ? Font::kStrong : Font::kBody,
-           .colour = is_selected ? Colour::kBlue : Colour::kInk});
+           .colour = is_selected ? Colour::kBlue : Colour::kInk,
+           .any_length = true});
   if (is_doubtful) ui.dot(mark.x + 6, row.y + row.height / 2, 4, Colour::kAmber);
   if (!group.reason.empty()) {
     Rect rest = row;
@@ -84,7 +98,7 @@ void draw_fit_row(Ui& ui, const Rect& row, const DataResults& results, std::size
     ui.text(cells[1], std::to_string(group.num_trials),
             {.font = Font::kMono, .align = Align::kRight});
     ui.text(rest, tr("no curve: {}", group.reason),
-            {.font = Font::kSmall, .colour = Colour::kAmber});
+            {.font = Font::kSmall, .colour = Colour::kAmber, .any_length = true});
     return;
   }
   for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -93,12 +107,13 @@ void draw_fit_row(Ui& ui, const Rect& row, const DataResults& results, std::size
     const bool has_interval = !value.interval.empty();
     if (has_interval) cell.take_top(3);
     ui.text(has_interval ? cell.take_top(21) : cell, value.value,
-            {.font = Font::kMono, .align = Align::kRight});
+            {.font = Font::kMono, .align = Align::kRight, .any_length = true});
     if (has_interval) {
-      // Of an end that is open, the words come with the numbers beside the curve.
-      const std::string shown = value.interval.substr(0, value.interval.find(" ("));
-      ui.text(cell.take_top(16), shown,
-              {.font = Font::kTiny, .colour = Colour::kSoft, .align = Align::kRight});
+      ui.text(cell.take_top(16), shown_interval(value),
+              {.font = Font::kTiny,
+               .colour = Colour::kSoft,
+               .align = Align::kRight,
+               .any_length = true});
     }
   }
 }
@@ -114,8 +129,8 @@ void draw_fits(Ui& ui, const Rect& place, const DataResults& results, DataViewSt
   };
   Rect head = padded(inside);
   if (scrolls) head.take_right(16);
-  const std::vector<FitColumn> columns = fit_columns(results, head.width);
-  draw_table_head(ui, head, looks_of(columns));
+  const std::vector<FitColumn> columns = fit_columns(ui, results, head.width);
+  draw_table_head(ui, head, looks_of(ui, columns));
   inside.take_top(32);
   Rect rows = ui.begin_scroll("fits", inside, content);
   for (std::size_t i = 0; i < results.groups.size(); ++i) {
@@ -146,15 +161,23 @@ void draw_numbers(Ui& ui, const Rect& place, const DataResults& results, DataVie
   if (!group.reason.empty()) say(tr("no curve: {}", group.reason), kSmallAmber, 8);
   for (const std::string& caution : group.cautions) say(caution, kSmallAmber, 8);
   if (group.reason.empty()) say(results.formula, kSmallSoft, 8);
+  float of_names = 60;
+  for (const DataNumber& number : group.numbers) {
+    of_names = std::max(of_names, ui.text_width(number.name, Font::kSmall) + 2);
+  }
+  of_names = std::min(of_names, 0.42f * inside.width);
   for (const DataNumber& number : group.numbers) {
     const Rect row = inside.take_top(kNumberRow);
     Rect cells = row;
-    ui.text(cells.take_left(row.width * 0.31f, 6), number.name, {.font = Font::kSmall});
+    ui.text(cells.take_left(of_names, 6), number.name, {.font = Font::kSmall});
     ui.text(cells.take_left(row.width * 0.23f, 8), number.number.value,
             {.font = Font::kMono, .align = Align::kRight});
     const bool has_interval = !number.number.interval.empty();
     ui.text(cells, has_interval ? number.number.interval : number.remark,
-            {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight});
+            {.font = Font::kSmall,
+             .colour = Colour::kSoft,
+             .align = Align::kRight,
+             .any_length = true});
     ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
     if (ui.hovered(row) && !(number.remark + number.number.interval).empty()) {
       std::string words = number.name + " " + number.number.value;

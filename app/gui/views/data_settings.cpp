@@ -87,8 +87,8 @@ std::vector<Setting> curve_settings(const CurveRequest& request) {
 }
 
 /// Its name at the left, its value in a frame with its key.
-bool draw_setting(Ui& ui, Rect line, const Setting& setting) {
-  ui.text(line.take_left(116, 8), setting.label,
+bool draw_setting(Ui& ui, Rect line, const Setting& setting, float label_width) {
+  ui.text(line.take_left(label_width, 8), setting.label,
           {.font = Font::kSmall, .colour = Colour::kSoft});
   const Rect box = line.middle(line.width, kSettingRow - 6);
   const Chord key{letter(setting.key)};
@@ -102,7 +102,8 @@ bool draw_setting(Ui& ui, Rect line, const Setting& setting) {
   ui.key_cap(cap.x, cap.y + (cap.height - Ui::kKeyCapHeight) / 2, key);
   ui.text(inside, setting.value,
           {.font = Font::kSmallStrong,
-           .colour = setting.is_lacking ? Colour::kAmber : Colour::kInk});
+           .colour = setting.is_lacking ? Colour::kAmber : Colour::kInk,
+           .any_length = !setting.is_lacking});
   return is_used;
 }
 
@@ -115,8 +116,14 @@ const Setting* draw_settings_card(Ui& ui, const Rect& place, const char* heading
                                   const std::vector<Setting>& settings) {
   Rect inside = draw_card(ui, place, heading);
   const Setting* used = nullptr;
+  // Names have half at most, where they may stand on two lines.
+  float label_width = 0;
   for (const Setting& setting : settings) {
-    if (draw_setting(ui, inside.take_top(kSettingRow), setting)) used = &setting;
+    label_width = std::max(label_width, ui.text_width(setting.label, Font::kSmall) + 2);
+  }
+  label_width = std::clamp(label_width, 90.0f, 0.44f * inside.width);
+  for (const Setting& setting : settings) {
+    if (draw_setting(ui, inside.take_top(kSettingRow), setting, label_width)) used = &setting;
   }
   return used;
 }

@@ -46,12 +46,13 @@ std::vector<ShownColumn> shown_columns(Ui& ui, const Rect& place, const DataView
   return shown;
 }
 
-/// Which columns stand there, and ways to the others.
-void draw_column_pager(Ui& ui, Rect line, const DataView& data,
-                       const std::vector<ShownColumn>& shown, DataViewState& state) {
+/// Which columns stand there, and ways to the others, at the right. Returns its width.
+float draw_column_pager(Ui& ui, Rect line, const DataView& data,
+                        const std::vector<ShownColumn>& shown, DataViewState& state) {
   const std::size_t count = data.preview->columns.size();
   const std::size_t last = shown.empty() ? 0 : shown.back().place + 1;
-  if (state.first_column == 0 && last >= count) return;
+  if (state.first_column == 0 && last >= count) return 0;
+  const float whole = line.width;
   const ButtonStyle right{.key = {Key::kRight}, .enabled = last < count};
   const ButtonStyle left{.key = {Key::kLeft}, .enabled = state.first_column > 0};
   const char *more = tr("Further columns"), *fewer = tr("Back");
@@ -64,8 +65,11 @@ void draw_column_pager(Ui& ui, Rect line, const DataView& data,
                 left)) {
     state.first_column -= std::min(state.first_column, step);
   }
-  ui.text(line, tr("columns {} to {} of {}", state.first_column + 1, last, count),
+  const std::string which = tr("columns {} to {} of {}", state.first_column + 1, last, count);
+  const float width = std::min(ui.text_width(which, Font::kSmall) + 2, 0.5f * line.width);
+  ui.text(line.take_right(width, 16), which,
           {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight});
+  return whole - line.width;
 }
 
 void draw_column_head(Ui& ui, const Rect& head, const DataView& data, const ShownColumn& column,
@@ -82,7 +86,7 @@ void draw_column_head(Ui& ui, const Rect& head, const DataView& data, const Show
   cell.take_left(kCellPadding);
   cell.take_right(kCellPadding);
   cell.take_top(5);
-  ui.text(cell.take_top(21), name, {.font = Font::kSmallStrong});
+  ui.text(cell.take_top(21), name, {.font = Font::kSmallStrong, .any_length = true});
   ui.text(cell.take_top(20), role_words(role), {.font = Font::kSmall, .colour = Colour::kBlue});
 }
 
@@ -96,8 +100,7 @@ void draw_data_table(Ui& ui, const Rect& place, const DataView& data, DataViewSt
   const std::vector<ShownColumn> shown = shown_columns(ui, inside, data, state.first_column);
   Rect line = inside.take_top(34, 10);
   Rect words = line;
-  draw_column_pager(ui, line, data, shown, state);
-  words.width *= 0.45f;
+  words.width -= draw_column_pager(ui, line, data, shown, state);
   ui.text(words, tr("Click a column's heading to say what it is."),
           {.font = Font::kSmall, .colour = Colour::kSoft});
   const Rect head = inside.take_top(kHeadHeight, 4);
@@ -122,7 +125,8 @@ void draw_data_table(Ui& ui, const Rect& place, const DataView& data, DataViewSt
                                  ColumnRole::kNone
                              ? Colour::kSoft
                              : Colour::kInk,
-               .align = is_number ? Align::kRight : Align::kLeft});
+               .align = is_number ? Align::kRight : Align::kLeft,
+               .any_length = true});
     }
     ui.line(rows.x, y + kDataRow, rows.right(), y + kDataRow, Colour::kLine);
   }

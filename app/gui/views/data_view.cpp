@@ -1,6 +1,8 @@
 #include "app/gui/views/data_view.h"
 
 #include <algorithm>
+#include <functional>
+#include <vector>
 
 #include "app/gui/views/data_parts.h"
 #include "app/gui/views/layout.h"
@@ -25,34 +27,64 @@ void draw_data_header(Ui& ui, const Rect& place, const DataView& data, DataViewS
   Rect strip = place;
   strip.take_left(20);
   strip.take_right(20);
-  if (!data.file.empty()) {
-    const ButtonStyle open{.key = {letter('O'), true}};
-    const Rect at_right = strip.take_right(ui.button_width(tr("Open another file"), open), 12);
-    if (ui.button("open_another", at_right.middle(at_right.width, 38), tr("Open another file"),
-                  open)) {
-      open_data_dialog(state, DataDialog::kFile);
-    }
-  }
-  const auto save = [&](const char* name, const char* label, char letter_of, DataDialog dialog,
-                        const char* ending) {
-    const ButtonStyle style{.key = {letter(letter_of), true}, .enabled = !data.is_saving};
-    const Rect at_right = strip.take_right(ui.button_width(label, style), 10);
-    if (ui.button(name, at_right.middle(at_right.width, 38), label, style)) {
-      open_data_dialog(state, dialog, free_file_beside(data.file, ending).string());
-    }
+  const bool may_save = data.results && !data.results->groups.empty();
+  struct Button {
+    const char *name, *label;
+    ButtonStyle style;
+    float height;
+    std::function<void()> act;
   };
-  if (data.results && !data.results->groups.empty()) {
-    save("save_picture", tr("Save picture"), 'S', DataDialog::kPicture, ".svg");
-    save("save_table", tr("Save table"), 'E', DataDialog::kTable, ".csv");
+  std::vector<Button> buttons;
+  if (!data.file.empty()) {
+    buttons.push_back(
+        {"open_another", tr("Open another file"), {.key = {letter('O'), true}}, 38, [&] {
+           open_data_dialog(state, DataDialog::kFile);
+         }});
   }
-  const ButtonStyle start{.tone = Tone::kQuiet, .key = {letter('0'), true}};
-  const Rect tab = strip.take_right(ui.button_width(tr("Start"), start), 12);
-  if (ui.button("tab_start", tab.middle(tab.width, 36), tr("Start"), start)) {
-    result.tab = StudyTab::kStart;
+  const auto add_save = [&](const char* name, const char* label, char letter_of,
+                            DataDialog dialog, const char* ending) {
+    buttons.push_back({name,
+                       label,
+                       {.key = {letter(letter_of), true}, .enabled = !data.is_saving},
+                       38,
+                       [&data, &state, dialog, ending] {
+                         open_data_dialog(state, dialog,
+                                          free_file_beside(data.file, ending).string());
+                       }});
+  };
+  if (may_save) {
+    add_save("save_picture", tr("Save picture"), 'S', DataDialog::kPicture, ".svg");
+    add_save("save_table", tr("Save table"), 'E', DataDialog::kTable, ".csv");
+  }
+  buttons.push_back(
+      {"tab_start", tr("Start"), {.tone = Tone::kQuiet, .key = {letter('0'), true}}, 36, [&] {
+         result.tab = StudyTab::kStart;
+       }});
+  // The file's name keeps some room; keys give way before words do.
+  constexpr float kLeastName = 140, kBetween = 10;
+  const float room = strip.width - ui.text_width("jnd", Font::kLarge) - 18 - kLeastName;
+  float wanted = 0;
+  for (const bool has_keys : {true, false}) {
+    wanted = 0;
+    for (Button& button : buttons) {
+      button.style.hides_key = !has_keys;
+      wanted += ui.button_width(button.label, button.style) + kBetween;
+    }
+    if (wanted <= room) break;
+  }
+  const float shrink = std::min(1.0f, room / wanted);
+  for (const Button& button : buttons) {
+    const Rect its =
+        strip.take_right(shrink * ui.button_width(button.label, button.style), kBetween);
+    if (ui.button(button.name, its.middle(its.width, button.height), button.label,
+                  button.style)) {
+      button.act();
+    }
   }
   ui.text(strip.take_left(ui.text_width("jnd", Font::kLarge) + 1, 18), "jnd",
           {.font = Font::kLarge});
-  ui.text(strip, data.file.empty() ? tr("Your own data") : data.file.filename().string(), {});
+  ui.text(strip, data.file.empty() ? tr("Your own data") : data.file.filename().string(),
+          {.any_length = !data.file.empty()});
 }
 
 void draw_without_file(Ui& ui, const Rect& place, const DataView& data, DataViewState& state) {

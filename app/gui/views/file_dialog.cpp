@@ -86,7 +86,8 @@ FileDialogResult draw_file_dialog(Ui& ui, const FileDialogWords& words,
   }
   const std::vector<FolderEntry>& entries = state.entries;
   if (!entries.empty()) draw_list_keys(ui, where);
-  ui.text(where, state.browsing.string(), {.font = Font::kMono, .colour = Colour::kSoft});
+  ui.text(where, state.browsing.string(),
+          {.font = Font::kMono, .colour = Colour::kSoft, .any_length = true});
   if (entries.empty()) draw_notice(ui, inside, words.nothing);
   if (move_in_list(ui, entries.size(), state.chosen)) {
     ui.scroll_into_view("entries", kRow * static_cast<float>(*state.chosen), kRow);
@@ -97,7 +98,7 @@ FileDialogResult draw_file_dialog(Ui& ui, const FileDialogWords& words,
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const std::string label = entries[i].path.filename().string();
     if (draw_choice(ui, "entry_" + label, rows.take_top(kRow), label, kind_of(entries[i].kind),
-                    key_of_choice(i), state.chosen == i)) {
+                    key_of_choice(i), state.chosen == i, /*any_length=*/true)) {
       taken = i;
     }
   }

@@ -17,4 +17,11 @@ std::string fitted(const Ui& ui, const Rect& place, std::string words, const Tex
   return shown;
 }
 
+float draw_fitted(Ui& ui, const Rect& place, const std::string& words, const TextStyle& style) {
+  const std::string shown = fitted(ui, place, words, style);
+  if (shown.empty()) return 0;
+  if (shown != words && ui.hovered(place)) ui.tooltip(ui.mouse_x(), ui.mouse_y(), words);
+  return ui.text(place, shown, style);
+}
+
 }  // namespace jnd::app::gui

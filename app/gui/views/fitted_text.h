@@ -11,4 +11,7 @@ namespace jnd::app::gui {
 [[nodiscard]] std::string fitted(const Ui& ui, const Rect& place, std::string words,
                                  const TextStyle& style);
 
+/// Draws as many; where some are left out, all of them show when they are pointed at.
+float draw_fitted(Ui& ui, const Rect& place, const std::string& words, const TextStyle& style);
+
 }  // namespace jnd::app::gui

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "app/gui/views/layout.h"
 #include "app/gui/views/run_parts.h"
 #include "app/gui/views/typed_number.h"
 #include "app/language/words.h"
@@ -251,10 +252,10 @@ void draw_answered(Ui& ui, const Rect& place, const SessionView& view, RunViewSt
     if (area.height < 32) break;
     Rect line = area.take_top(32);
     if (ui.row("change_" + item.name, line, item.text)) state.changed_item = item.name;
-    line = line.middle(line.width - 12, ui.line_height(Font::kBody));
+    line = line.middle(line.width - 12, line.height);
     Rect answer = line.take_right(line.width * 0.3f, 12);
-    ui.text(line, item.text, {.colour = Colour::kSoft});
-    ui.text(answer, item.answer, {.align = Align::kRight});
+    ui.text(line, item.text, {.colour = Colour::kSoft, .any_length = true});
+    ui.text(answer, item.answer, {.align = Align::kRight, .any_length = true});
   }
 }
 
@@ -273,8 +274,8 @@ int draw_scale(Ui& ui, const Rect& place, const std::string& name, int num_steps
     const bool typed = i <= 10 && ui.pressed({static_cast<Key>('0' + i % 10)});
     if (ui.button(name + number, box, number, {.selected = i == selected}) || typed) chosen = i;
   }
-  ui.text(labels, low_label, {.colour = Colour::kSoft});
-  ui.text(labels, high_label, {.colour = Colour::kSoft, .align = Align::kRight});
+  draw_name_and_value(ui, labels, low_label, {.colour = Colour::kSoft, .any_length = true},
+                      high_label, {.colour = Colour::kSoft, .any_length = true});
   return chosen;
 }
 

@@ -57,13 +57,16 @@ bool draw_keys_dialog(Ui& ui, std::vector<Drawn::Widget> widgets) {
   const ButtonStyle close{.tone = Tone::kPrimary, .key = {Key::kF1}};
   Rect row = inside.take_bottom(44, 8);
   const float width = inside.width / static_cast<float>(columns);
+  float keys = 0;
+  for (const Line& line : lines) keys = std::max(keys, ui.text_width(line.key, Font::kMono));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t column = i / used;
     Rect place = {inside.x + width * static_cast<float>(column),
                   inside.y + kLine * static_cast<float>(i % used), width - 12, kLine};
-    ui.text(place.take_left(140, 12), lines[i].key,
+    ui.text(place.take_left(std::min(140.0f, keys + 2), 12), lines[i].key,
             {.font = Font::kMono, .colour = Colour::kSoft});
-    ui.text(place, lines[i].what, {});
+    // A button may be called by what somebody wrote.
+    ui.text(place, lines[i].what, {.any_length = true});
   }
   const bool closed =
       ui.button("keys_close", row.take_right(ui.button_width(tr("Close"), close)), tr("Close"),

@@ -15,15 +15,93 @@ Rect draw_card(Ui& ui, const Rect& place, std::string_view heading, std::string_
   return inside;
 }
 
+std::vector<CornerButton> corner_buttons(const Ui& ui) {
+  const bool is_dark = ui.theme().dark();
+  return {{"keys", tr("All keys"), {Key::kF1}},
+          {"larger", tr("Larger"), {Key::kPlus, true}},
+          {"dark", is_dark ? tr("Light") : tr("Dark"), {letter('D'), true}}};
+}
+
+CornerLook corner_look(const Ui& ui, std::string_view language) {
+  constexpr float kBetween = 2, kFromEdge = 12;
+  CornerLook look;
+  for (const bool has_keys : {true, false}) {
+    look = {.width = kFromEdge, .has_keys = has_keys};
+    const auto add = [&](std::string_view label, Chord key) {
+      look.width +=
+          ui.button_width(label, {.tone = Tone::kQuiet, .key = key, .hides_key = !has_keys}) +
+          kBetween;
+    };
+    for (const CornerButton& button : corner_buttons(ui)) add(button.label, button.key);
+    if (!language.empty()) add(language, {letter('L'), true});
+    // At the start, where it stands, the footer says next to nothing.
+    const float most = language.empty() ? 0.5f : 0.75f;
+    if (look.width <= most * ui.screen().width) break;
+  }
+  return look;
+}
+
+void need_room(const Ui& ui, ColumnLook& column, std::string_view words, Font font) {
+  column.least_width = std::max(column.least_width, ui.text_width(words, font) + 1);
+}
+
+static float widest_word(const Ui& ui, std::string_view words, Font font) {
+  float widest = 0;
+  while (!words.empty()) {
+    const std::string_view word = words.substr(0, words.find(' '));
+    widest = std::max(widest, ui.text_width(word, font));
+    words.remove_prefix(std::min(word.size() + 1, words.size()));
+  }
+  return widest;
+}
+
+void need_room_for_titles(const Ui& ui, std::vector<ColumnLook>& columns) {
+  for (ColumnLook& column : columns) {
+    const float widest = widest_word(ui, column.title, Font::kSmallStrong);
+    if (widest > 0) column.least_width = std::max(column.least_width, widest + 1);
+  }
+}
+
+/// A column gets what its words need before the others share what is left; where all of them
+/// have too little, each has as much less.
+static std::vector<float> widths_of(const std::vector<ColumnLook>& columns, float room) {
+  std::vector<float> widths(columns.size(), 0.0f);
+  float least = 0;
+  for (const ColumnLook& column : columns) least += column.least_width;
+  if (least >= room) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      widths[i] = columns[i].least_width * room / least;
+    }
+    return widths;
+  }
+  std::vector<bool> is_set(columns.size(), false);
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    float shares = 0, left = room;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (is_set[i]) {
+        left -= widths[i];
+      } else {
+        shares += columns[i].share;
+      }
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (is_set[i]) continue;
+      widths[i] = left * columns[i].share / shares;
+      if (widths[i] >= columns[i].least_width) continue;
+      widths[i] = columns[i].least_width;
+      is_set[i] = goes_on = true;
+    }
+  }
+  return widths;
+}
+
 std::vector<Rect> cells_of(const Rect& line, const std::vector<ColumnLook>& columns,
                            float between) {
-  float shares = 0;
-  for (const ColumnLook& column : columns) shares += column.share;
   const float room = line.width - between * static_cast<float>(columns.size() - 1);
   std::vector<Rect> cells;
   float x = line.x;
-  for (const ColumnLook& column : columns) {
-    const float width = room * column.share / shares;
+  for (const float width : widths_of(columns, room)) {
     cells.push_back({x, line.y, width, line.height});
     x += width + between;
   }
@@ -69,8 +147,16 @@ DialogChoice draw_dialog_buttons(Ui& ui, Rect row, std::string_view verb, bool e
   return choice;
 }
 
+float more_lines(const Ui& ui, float dialog_width, std::string_view words,
+                 const TextStyle& style, int num_lines) {
+  constexpr float kAround = 2 * 28 + 2 * 12;
+  const float width = std::min(dialog_width, ui.screen().width) - kAround;
+  const float usual = static_cast<float>(num_lines) * ui.line_height(style.font);
+  return std::max(0.0f, ui.text_height(width, words, style) - usual);
+}
+
 bool draw_choice(Ui& ui, const std::string& name, const Rect& place, const std::string& label,
-                 const std::string& kind, Chord key, bool selected) {
+                 const std::string& kind, Chord key, bool selected, bool any_length) {
   if (selected) ui.fill(place, Colour::kBlueSoft, 8);
   const bool chosen = ui.row(name, place, label, key);
   Rect words = place;
@@ -80,13 +166,18 @@ bool draw_choice(Ui& ui, const std::string& name, const Rect& place, const std::
     const Rect cap = words.take_right(ui.key_cap_width(key), 12);
     ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, key);
   }
-  const float width = ui.text_width(kind, Font::kSmall) + 2;
+  // What it is gives way to its name, but for half of the row.
+  const float of_label = ui.text_width(label, selected ? Font::kStrong : Font::kBody);
+  const float least = std::max(words.width / 2, words.width - of_label - 16);
+  const float width = std::min(ui.text_width(kind, Font::kSmall) + 2, least);
   if (!kind.empty()) {
-    ui.text(words.take_right(width, 12), kind, {.font = Font::kSmall, .colour = Colour::kSoft});
+    ui.text(words.take_right(width, 12), kind,
+            {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight});
   }
   ui.text(words, label,
           {.font = selected ? Font::kStrong : Font::kBody,
-           .colour = selected ? Colour::kBlue : Colour::kInk});
+           .colour = selected ? Colour::kBlue : Colour::kInk,
+           .any_length = any_length});
   return chosen;
 }
 
@@ -108,6 +199,42 @@ Colour colour_of(PreflightLine::Status status) noexcept {
       break;
   }
   return Colour::kSoft;
+}
+
+void draw_name_and_value(Ui& ui, const Rect& line, std::string_view name,
+                         const TextStyle& name_style, std::string_view value,
+                         const TextStyle& value_style) {
+  constexpr float kBetween = 10;
+  const float of_name = ui.text_width(name, name_style.font) + 1;
+  const float of_value = ui.text_width(value, value_style.font) + 1;
+  const float room = line.width - kBetween;
+  float width = of_value;
+  if (of_name + of_value > room) {
+    // A short one has all it needs; else both are narrower by as much, and a word of the name
+    // still has room.
+    const float few = 0.4f * room;
+    width = of_name < few    ? room - of_name
+            : of_value < few ? of_value
+                             : room * std::clamp(of_value / (of_name + of_value), 0.35f, 0.65f);
+    const float least_name = std::min(widest_word(ui, name, Font::kTiny) + 1, 0.7f * room);
+    width = std::min(width, room - least_name);
+  }
+  Rect rest = line;
+  TextStyle at_right = value_style;
+  at_right.align = Align::kRight;
+  ui.text(rest.take_right(width, kBetween), value, at_right);
+  ui.text(rest, name, name_style);
+}
+
+Rect Flow::next(float width) {
+  width = std::min(width, area_.width);
+  if (x_ > area_.x && x_ + width > area_.right() + 0.5f) {
+    x_ = area_.x;
+    y_ += height_ + gap_;
+  }
+  const Rect place{x_, y_, width, height_};
+  x_ += width + gap_;
+  return place;
 }
 
 void draw_notice(Ui& ui, const Rect& place, std::string_view words, Colour colour) {

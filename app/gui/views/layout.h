@@ -15,8 +15,21 @@ inline constexpr float kHeaderHeight = 56;
 inline constexpr float kFooterHeight = 40;
 inline constexpr float kGap = 16;
 inline constexpr float kPadding = 18;  ///< Within a card.
-/// At the right end of every footer: the application's own buttons.
-inline constexpr float kCornerWidth = 460;
+
+/// At the right end of every footer stand the application's own buttons, whose keys give way
+/// where another language has longer words.
+struct CornerLook {
+  float width = 0;
+  bool has_keys = true;
+};
+/// `language`: what the button of the next language says; "" for none.
+[[nodiscard]] CornerLook corner_look(const Ui& ui, std::string_view language = "");
+/// The labels of those that stand on every view but that of a session, from the right.
+struct CornerButton {
+  const char *name, *label;
+  Chord key;
+};
+[[nodiscard]] std::vector<CornerButton> corner_buttons(const Ui& ui);
 
 /// A card with its heading; returns what is left inside.
 Rect draw_card(Ui& ui, const Rect& place, std::string_view heading, std::string_view unit = "");
@@ -27,7 +40,13 @@ struct ColumnLook {
   float share = 1.0f;
   Align align = Align::kLeft;
   std::string unit;
+  float least_width = 0;  ///< What its words need, before the others share what is left.
 };
+
+/// What these words of a column need.
+void need_room(const Ui& ui, ColumnLook& column, std::string_view words, Font font);
+/// What the titles of all need, where each may stand on two lines.
+void need_room_for_titles(const Ui& ui, std::vector<ColumnLook>& columns);
 
 /// The cells of a line, a little apart.
 [[nodiscard]] std::vector<Rect> cells_of(const Rect& line,
@@ -48,13 +67,38 @@ struct DialogChoice {
 [[nodiscard]] DialogChoice draw_dialog_buttons(Ui& ui, Rect row, std::string_view verb,
                                                bool enabled, bool entered);
 
+/// How much higher a dialog of this width is than one with so many lines of these words.
+[[nodiscard]] float more_lines(const Ui& ui, float dialog_width, std::string_view words,
+                               const TextStyle& style, int num_lines);
+
 /// One of several things in a list, `kind` in soft words at its end. True when it was chosen.
+/// `any_length`: the label is a name that somebody gave.
 bool draw_choice(Ui& ui, const std::string& name, const Rect& place, const std::string& label,
-                 const std::string& kind, Chord key, bool selected);
+                 const std::string& kind, Chord key, bool selected, bool any_length = false);
 /// Ctrl and a digit, of the first nine.
 [[nodiscard]] Chord key_of_choice(std::size_t place) noexcept;
 
 [[nodiscard]] Colour colour_of(PreflightLine::Status status) noexcept;
+
+/// A name at the left and what it is at the right of a line; where both have too little room,
+/// each has its part of it.
+void draw_name_and_value(Ui& ui, const Rect& line, std::string_view name,
+                         const TextStyle& name_style, std::string_view value,
+                         const TextStyle& value_style);
+
+/// Places side by side, of one height, that go on in the next row where one is full.
+class Flow {
+ public:
+  Flow(const Rect& area, float height, float gap)
+      : area_(area), height_(height), gap_(gap), x_(area.x), y_(area.y) {}
+  [[nodiscard]] Rect next(float width);
+  /// Of all rows so far.
+  [[nodiscard]] float height() const noexcept { return y_ + height_ - area_.y; }
+
+ private:
+  Rect area_;
+  float height_, gap_, x_, y_;
+};
 
 /// Words in the middle of a place where there is nothing else.
 void draw_notice(Ui& ui, const Rect& place, std::string_view words,

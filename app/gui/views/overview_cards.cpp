@@ -14,9 +14,8 @@ constexpr float kBalanceRow = 32;
 constexpr float kFigureButton = 42;
 
 void draw_words(Ui& ui, Rect& inside, const std::string& words, const TextStyle& style) {
-  const std::string shown = fitted(ui, inside, words, style);
-  if (shown.empty()) return;
-  ui.text(inside.take_top(ui.text_height(inside.width, shown, style), 4), shown, style);
+  const float height = draw_fitted(ui, inside, words, style);
+  if (height > 0) inside.take_top(height, 4);
 }
 
 constexpr TextStyle kSoftWords{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
@@ -53,7 +52,8 @@ void draw_next(Ui& ui, const Rect& place, const StudyOverview& overview,
                OverviewResult& result) {
   Rect inside = draw_card(ui, place, tr("Next participant"));
   const Rect bottom = inside.take_bottom(kFigureButton, 8);
-  ui.text(inside.take_top(40, 4), overview.next_participant, {.font = Font::kTitle});
+  ui.text(inside.take_top(40, 4), overview.next_participant,
+          {.font = Font::kTitle, .any_length = true});
   if (overview.hides_levels) {
     draw_words(ui, inside, tr("Double-blind: the order is assigned, and hidden."), kSoftWords);
   } else if (!overview.cell_problem.empty()) {
@@ -104,6 +104,11 @@ int most_in(const StudyOverview& overview) {
   return most;
 }
 
+std::string counts_words(const BalanceLine& line) {
+  return line.num_open > 0 ? tr("{}, {} open", line.num_done, line.num_open)
+                           : std::to_string(line.num_done);
+}
+
 /// Where the parts of a line stand.
 struct BalanceCells {
   Rect words, chip, bar, counts;
@@ -112,7 +117,8 @@ struct BalanceCells {
 BalanceCells cells_of_balance(const Ui& ui, Rect row, const BalanceLine& line) {
   BalanceCells cells{};
   row.take_right(2);
-  cells.counts = row.take_right(line.num_open > 0 ? 96.0f : 30.0f, 10);
+  const float counts = ui.text_width(counts_words(line), Font::kMono) + 2;
+  cells.counts = row.take_right(std::max(counts, line.num_open > 0 ? 96.0f : 30.0f), 10);
   cells.bar = row.take_right(std::max(60.0f, row.width * 0.2f), 14);
   if (line.is_next) cells.chip = row.take_right(ui.chip_width(tr("next")), 10);
   cells.words = row;
@@ -139,10 +145,7 @@ void draw_balance_line(Ui& ui, const Rect& row, const BalanceLine& line, int mos
   const float open = one * static_cast<float>(line.num_open);
   if (open > 0) ui.fill({bar.x, bar.y, done + open, bar.height}, Colour::kAmber, 4, 0.55f);
   if (done > 0) ui.fill({bar.x, bar.y, done, bar.height}, Colour::kBlue, 4);
-  ui.text(cells.counts,
-          line.num_open > 0 ? tr("{}, {} open", line.num_done, line.num_open)
-                            : std::to_string(line.num_done),
-          {.font = Font::kMono, .align = Align::kRight});
+  ui.text(cells.counts, counts_words(line), {.font = Font::kMono, .align = Align::kRight});
   if (line.is_next) {
     ui.chip(cells.chip.x, cells.chip.y + (cells.chip.height - 26) / 2, tr("next"),
             Colour::kBlue);
@@ -191,7 +194,7 @@ void draw_balance(Ui& ui, const Rect& place, const StudyOverview& overview) {
   inside = ui.begin_scroll("balance", inside, height_of_groups(ui, inside.width, overview));
   for (const BalanceGroup& group : overview.balance) {
     if (!group.title.empty()) {
-      ui.text(inside.take_top(26, 4), group.title, {.font = Font::kStrong});
+      ui.text(inside.take_top(26, 4), group.title, {.font = Font::kStrong, .any_length = true});
     }
     for (const BalanceLine& line : group.lines) {
       draw_balance_line(ui, inside.take_top(height_of_balance(ui, inside.width, line)), line,

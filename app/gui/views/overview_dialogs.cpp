@@ -31,12 +31,13 @@ bool end_with(Ui& ui, Rect& inside, const char* verb, bool ready, bool entered,
 }
 
 void draw_plan_dialog(Ui& ui, OverviewState& state, OverviewResult& result) {
-  Rect inside = ui.begin_dialog("plan_dialog", 560, 290);
-  ui.text(inside.take_top(34, 4), tr("How many are planned?"), {.font = Font::kLarge});
   const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
   const char* words =
       tr("Participants with a complete session. It is written down with the study, and may be "
          "written down anew.");
+  const float more = more_lines(ui, 560, words, soft, 2);
+  Rect inside = ui.begin_dialog("plan_dialog", 560, 290 + more);
+  ui.text(inside.take_top(34, 4), tr("How many are planned?"), {.font = Font::kLarge});
   ui.text(inside.take_top(ui.text_height(inside.width, words, soft), 12), words, soft);
   const bool entered = ui.text_field("planned_number", inside.take_top(46, 10), state.number,
                                      tr("number of participants"), state.dialog_is_new);
@@ -44,11 +45,12 @@ void draw_plan_dialog(Ui& ui, OverviewState& state, OverviewResult& result) {
 }
 
 void draw_appointment_dialog(Ui& ui, OverviewState& state, OverviewResult& result) {
-  Rect inside = ui.begin_dialog("appointment_dialog", 620, 410);
-  ui.text(inside.take_top(34, 4), tr("Who comes when?"), {.font = Font::kLarge});
   const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
   const char* words =
       tr("A pseudonym alone: who it is stands in a list of your own, which is kept elsewhere.");
+  const float more = more_lines(ui, 620, words, soft, 2);
+  Rect inside = ui.begin_dialog("appointment_dialog", 620, 410 + more);
+  ui.text(inside.take_top(34, 4), tr("Who comes when?"), {.font = Font::kLarge});
   ui.text(inside.take_top(ui.text_height(inside.width, words, soft), 12), words, soft);
   ui.heading(inside.take_top(18, 6), tr("Pseudonym"));
   bool entered = ui.text_field("appointment_participant", inside.take_top(46, 12),
@@ -74,7 +76,8 @@ void draw_cancel_dialog(Ui& ui, const StudyOverview& overview, OverviewState& st
   const ScheduleLine& line = overview.schedule[*state.appointment];
   Rect inside = ui.begin_dialog("cancel_dialog", 560, 220);
   ui.text(inside.take_top(34, 6), tr("Cancel this appointment?"), {.font = Font::kLarge});
-  ui.text(inside.take_top(26, 6), tr("{}, {}", line.participant, line.when), {});
+  ui.text(inside.take_top(26, 6), tr("{}, {}", line.participant, line.when),
+          {.any_length = true});
   if (end_with(ui, inside, tr("Cancel it"), true, false, state)) {
     result.cancel_appointment = line.appointment;
   }

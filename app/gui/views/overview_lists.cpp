@@ -14,13 +14,14 @@ using List = OverviewState::List;
 constexpr float kQualityRow = 36;
 constexpr float kScheduleRow = 38;
 
-std::vector<ColumnLook> columns_of_quality(const StudyOverview& overview) {
+std::vector<ColumnLook> columns_of_quality(const Ui& ui, const StudyOverview& overview) {
   std::vector<ColumnLook> columns = {{tr("Participant"), 1.1f},
                                      {tr("Missed ticks"), 1.0f, Align::kRight},
                                      {tr("Faults"), 0.7f, Align::kRight},
                                      {tr("Run again"), 0.8f, Align::kRight},
                                      {tr("Unlikely"), 0.8f, Align::kRight}};
   if (!overview.hides_levels) columns.push_back({tr("No stroke"), 0.8f, Align::kRight});
+  need_room_for_titles(ui, columns);
   return columns;
 }
 
@@ -54,16 +55,17 @@ void draw_quality_row(Ui& ui, const Rect& row, const StudyOverview& overview, st
   Rect inside = row;
   inside.take_left(8);
   inside.take_right(8);
-  const std::vector<Rect> cells = cells_of(inside, columns_of_quality(overview));
+  const std::vector<Rect> cells = cells_of(inside, columns_of_quality(ui, overview));
   Rect who = cells[0];
   const Colour dot = quality.is_doubtful() ? Colour::kAmber : Colour::kGreen;
   ui.dot(who.x + 5, who.y + who.height / 2, 4.5f, dot);
   who.take_left(18);
   ui.text(who, quality.pilot ? tr("{}, pilot", quality.participant) : quality.participant,
-          {.font = Font::kStrong});
+          {.font = Font::kStrong, .any_length = true});
   if (!quality.problem.empty()) {
     const Rect words{cells[1].x, row.y, inside.right() - cells[1].x, row.height};
-    ui.text(words, quality.problem, {.font = Font::kSmall, .colour = Colour::kRed});
+    ui.text(words, quality.problem,
+            {.font = Font::kSmall, .colour = Colour::kRed, .any_length = true});
     return;
   }
   ui.text(cells[1], missed_words(quality),
@@ -106,7 +108,7 @@ void draw_schedule_row(Ui& ui, const Rect& row, const StudyOverview& overview,
   inside.take_right(8);
   const ScheduleLook look = look_of_appointment(line.state);
   ui.text(inside.take_left(inside.width * 0.24f, 10), line.participant,
-          {.font = Font::kStrong});
+          {.font = Font::kStrong, .any_length = true});
   const float width = ui.text_width(look.words, Font::kSmallStrong) + 2;
   ui.text(inside.take_right(width, 10), look.words,
           {.font = Font::kSmallStrong, .colour = look.colour, .align = Align::kRight});
@@ -146,7 +148,7 @@ void draw_quality(Ui& ui, const Rect& place, const StudyOverview& overview,
   Rect head = inside;
   head.take_left(8);
   head.take_right(content > inside.height - kHead ? 24 : 8);
-  draw_table_head(ui, head, columns_of_quality(overview));
+  draw_table_head(ui, head, columns_of_quality(ui, overview));
   inside.take_top(kHead);
   if (moved) {
     ui.scroll_into_view("quality", kQualityRow * static_cast<float>(*state.session),

@@ -47,7 +47,8 @@ OverviewResult draw_overview(Ui& ui, const OverviewModel& model, OverviewState& 
   const StudyOverview& overview = *model.overview;
   choose_list(ui, overview, state);
   Rect right = rest.take_right(std::clamp(rest.width * 0.38f, 380.0f, 600.0f), kGap);
-  draw_overview_figures(ui, rest.take_top(206, kGap), model, state, result);
+  const float figures = std::clamp(rest.height * 0.42f, 206.0f, 236.0f);
+  draw_overview_figures(ui, rest.take_top(figures, kGap), model, state, result);
   draw_quality(ui, rest, overview, state, result);
   if (!model.work.running.empty() || !model.work.outcome.problems.empty()) {
     Rect work = right.take_bottom(84, kGap);

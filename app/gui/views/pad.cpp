@@ -48,11 +48,11 @@ void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
   ui.dot(hand_x, hand_y, 22, Colour::kBlue);
   ui.note_drawn("pad", place);
   if (!ui.hovered(place)) {
-    ui.text({place.x, place.y + 12, place.width, 24},
+    ui.text({place.x + 12, place.y + 8, place.width - 24, 44},
             tr("Move the mouse here, to and fro: the blue hand follows through the fluid."),
             {.colour = Colour::kSoft, .align = Align::kCentre});
   } else if (place.height > 120) {
-    ui.text({place.x, place.bottom() - 32, place.width, 20},
+    ui.text({place.x + 12, place.bottom() - 42, place.width - 24, 34},
             tr("The line is your pull on the hand: the thicker the fluid, the longer."),
             {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kCentre});
   }

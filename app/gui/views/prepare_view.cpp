@@ -1,6 +1,8 @@
 #include "app/gui/views/prepare_view.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "app/gui/views/layout.h"
 #include "app/language/words.h"
@@ -57,33 +59,42 @@ std::string obstacle(const PrepareModel& model, const PrepareViewState& state) {
                                                        : "";
 }
 
+/// Below the field: what is wrong with the name, or which order it gets.
+std::pair<std::string, Colour> words_of_participant(const PrepareModel& model,
+                                                    const PrepareViewState& state) {
+  std::string problem = participant_problem(model, state.participant);
+  if (!problem.empty()) return {std::move(problem), Colour::kRed};
+  const std::string like = lookalike(state.participant, model.taken);
+  if (!like.empty()) {
+    return {tr("Another person than {}, who has taken part?", like), Colour::kPilot};
+  }
+  return {model.study.hides_levels ? std::string(tr("Order assigned, but hidden."))
+          : state.fields.size() < model.fields.size() ? tr("Order: as chosen below.")
+          : model.assigned.empty()                    ? tr("The same order for everyone.")
+                                                      : tr("Order: {}.", model.assigned),
+          Colour::kSoft};
+}
+
 void draw_participant(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state,
                       bool& entered) {
   ui.heading(inside.take_top(18, 6), tr("Participant"));
   entered =
       ui.text_field("participant", inside.take_top(46, 6), state.participant, tr("pseudonym"));
-  const std::string problem = participant_problem(model, state.participant);
-  const std::string like = lookalike(state.participant, model.taken);
-  std::string words = problem;
-  Colour colour = Colour::kRed;
-  if (problem.empty() && !like.empty()) {
-    words = tr("Another person than {}, who has taken part?", like);
-    colour = Colour::kPilot;
-  } else if (problem.empty()) {
-    colour = Colour::kSoft;
-    words = model.study.hides_levels ? std::string(tr("Order assigned, but hidden."))
-            : state.fields.size() < model.fields.size() ? tr("Order: as chosen below.")
-            : model.assigned.empty()                    ? tr("The same order for everyone.")
-                                                        : tr("Order: {}.", model.assigned);
-  }
-  ui.text(inside.take_top(38, 6), words,
-          {.font = Font::kSmall, .colour = colour, .wrap = true});
+  const auto [words, colour] = words_of_participant(model, state);
+  ui.text(inside, words, {.font = Font::kSmall, .colour = colour, .wrap = true});
 }
 
 bool is_simulated(const PrepareModel& model, const PrepareViewState& state) {
   const auto device =
       std::ranges::find(model.devices, state.device, &PrepareModel::Device::name);
   return device != model.devices.end() && device->simulated;
+}
+
+const char* words_of_kind(const PrepareModel& model, const PrepareViewState& state) {
+  return state.pilot ? tr("Marked for good, left out of results.")
+         : is_simulated(model, state)
+             ? tr("Its answers are data, though the device is simulated.")
+             : tr("Its answers are data.");
 }
 
 void draw_kind(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state) {
@@ -101,10 +112,7 @@ void draw_kind(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState
     state.kind_is_chosen = true;
   }
   const bool is_odd = !state.pilot && is_simulated(model, state);
-  ui.text(inside.take_top(38, 6),
-          state.pilot ? tr("Marked for good, left out of results.")
-          : is_odd    ? tr("Its answers are data, though the device is simulated.")
-                      : tr("Its answers are data."),
+  ui.text(inside, words_of_kind(model, state),
           {.font = Font::kSmall,
            .colour = state.pilot ? Colour::kPilot
                      : is_odd    ? Colour::kAmber
@@ -135,8 +143,11 @@ void draw_devices(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewSt
       ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, key);
     }
     ui.text(words.take_top(22), device.name + (device.simulated ? tr(" · simulated") : ""),
-            {.font = Font::kStrong, .colour = selected ? Colour::kBlue : Colour::kInk});
-    ui.text(words, device.description, {.font = Font::kSmall, .colour = Colour::kSoft});
+            {.font = Font::kStrong,
+             .colour = selected ? Colour::kBlue : Colour::kInk,
+             .any_length = true});
+    ui.text(words, device.description,
+            {.font = Font::kSmall, .colour = Colour::kSoft, .any_length = true});
   }
   inside.take_top(16);
 }
@@ -170,8 +181,9 @@ void draw_fields(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewSta
                    [&](const auto& one) { return !state.fields.contains(one.name); });
   for (std::size_t i = 0; i < model.fields.size(); ++i) {
     const experiments::ParticipantField& field = model.fields[i];
-    ui.heading(inside.take_top(18, 6), in_language(field.question, language));
-    Rect line = inside.take_top(42, 20);
+    ui.heading(inside.take_top(18, 6), in_language(field.question, language), "", Align::kLeft,
+               /*any_length=*/true);
+    Flow answers(inside, 42, 10);
     const bool has_key =
         open == model.fields.end() ? i + 1 == model.fields.size() : field.name == open->name;
     const auto chosen =
@@ -187,12 +199,13 @@ void draw_fields(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewSta
                               .selected = option == chosen};
       const std::string& label = in_language(option->label, language);
       const float width = std::max(90.0f, ui.button_width(label, style));
-      if (ui.button("field_" + field.name + '_' + option->value, line.take_left(width, 10),
-                    label, style)) {
+      if (ui.button("field_" + field.name + '_' + option->value, answers.next(width), label,
+                    style)) {
         state.fields[field.name] = option->value;
         result.fields_changed = true;
       }
     }
+    inside.take_top(answers.height(), 20);
   }
 }
 
@@ -202,10 +215,14 @@ void draw_fitting(Ui& ui, Rect& inside, PrepareViewState& state) {
   (void)ui.text_field("fitting", inside.take_top(46, 6), state.fitting,
                       tr("glove=M, thumb=thin pad; may be left empty"));
   const std::string problem = fitting_problem(state);
-  ui.text(inside.take_top(20, 16),
-          problem.empty() ? std::string(tr("Kept with the session, and with the points held."))
-                          : problem,
-          {.font = Font::kSmall, .colour = problem.empty() ? Colour::kSoft : Colour::kRed});
+  const std::string words =
+      problem.empty() ? std::string(tr("Kept with the session, and with the points held."))
+                      : problem;
+  const TextStyle style{.font = Font::kSmall,
+                        .colour = problem.empty() ? Colour::kSoft : Colour::kRed,
+                        .wrap = true};
+  const float height = std::max(20.0f, ui.text_height(inside.width, words, style));
+  ui.text(inside.take_top(height, 16), words, style);
 }
 
 void draw_seed(Ui& ui, Rect place, const PrepareModel& model) {
@@ -234,11 +251,9 @@ void draw_line(Ui& ui, Rect& inside, const PreflightLine& line, bool is_next) {
     ui.dot(words.x + 6, middle, 5, colour_of(line.status));
   }
   words.take_left(22);
-  Rect first = words.take_top(40);
-  const float name = std::min(ui.text_width(line.name, Font::kBody) + 2, first.width / 2);
-  ui.text(first.take_left(name, 16), line.name, {});
   const std::string waiting = is_next ? tr("looking …") : "";
-  ui.text(first, line.status == Status::kWaiting ? waiting : line.found, found);
+  draw_name_and_value(ui, words.take_top(40), line.name, {},
+                      line.status == Status::kWaiting ? waiting : line.found, found);
   if (!line.remedy.empty()) ui.text(words, line.remedy, remedy);
   ui.line(whole.x, whole.bottom(), whole.right(), whole.bottom(), Colour::kLine);
 }
@@ -247,19 +262,24 @@ void draw_lines(Ui& ui, const Rect& place, const PrepareModel& model, PrepareVie
                 PrepareViewResult& result) {
   Rect inside = draw_card(ui, place, tr("Is everything ready?"));
   Rect bottom = inside.take_bottom(46, 12);
-  const ButtonStyle style{.key = {.key = letter('L'), .control = true},
-                          .enabled = !model.looking};
+  ButtonStyle style{.key = {.key = letter('L'), .control = true}, .enabled = !model.looking};
+  ButtonStyle map{.key = {Key::kF7}};
+  constexpr float kProgress = 60;
+  const float wanted = ui.button_width(tr("Look again"), style) + 40 + kProgress +
+                       ui.button_width(tr("Pedals and buttons"), map);
+  style.hides_key = map.hides_key = wanted > bottom.width;
   if (ui.button("look_again", bottom.take_right(ui.button_width(tr("Look again"), style), 20),
                 tr("Look again"), style)) {
     result.look_again = true;
   }
-  const ButtonStyle map{.key = {Key::kF7}};
   if (ui.button("map_controls",
                 bottom.take_left(ui.button_width(tr("Pedals and buttons"), map), 20),
                 tr("Pedals and buttons"), map)) {
     result.map_controls = true;
   }
-  if (model.looking) ui.progress(bottom.middle(bottom.width, 8), model.progress);
+  if (model.looking && bottom.width > 0) {
+    ui.progress(bottom.middle(bottom.width, 8), model.progress);
+  }
   Rect lines = ui.begin_scroll("lines", inside, state.lines_height);
   const float top = lines.y;
   bool waited = false;
@@ -293,12 +313,23 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
   inside = ui.begin_scroll("session", inside, state.session_height);
   const float top = inside.y;
   ui.text(inside.take_top(40, 14), tr("Prepare a session"), {.font = Font::kTitle});
-  Rect pair = inside.take_top(116);
-  Rect who = pair.take_left((pair.width - 24) * 0.44f, 24);
+  const float of_who = (inside.width - 24) * 0.44f;
+  const TextStyle small{.font = Font::kSmall, .wrap = true};
+  const float below = std::max(
+      {38.0f, ui.text_height(of_who, words_of_participant(model, state).first, small),
+       ui.text_height(inside.width - 24 - of_who, words_of_kind(model, state), small)});
+  Rect pair = inside.take_top(18 + 6 + 46 + 6 + below, 12);
+  Rect who = pair.take_left(of_who, 24);
   draw_participant(ui, who, model, state, entered);
   draw_kind(ui, pair, model, state);
-  Rect both = inside.take_top(70, 12);
-  draw_seed(ui, both.take_right(std::min(300.0f, both.width / 2), 16), model);
+  // Side by side where their headings have room.
+  const float of_seed = std::min(300.0f, inside.width / 2);
+  const bool is_beside =
+      ui.text_width(tr("Seed of every order"), Font::kSmallStrong) <= of_seed &&
+      ui.text_width(tr("Language of the participant"), Font::kSmallStrong) <=
+          inside.width - of_seed - 16;
+  Rect both = inside.take_top(is_beside ? 70 : 2 * 70 + 12, 12);
+  draw_seed(ui, is_beside ? both.take_right(of_seed, 16) : both.take_bottom(70, 12), model);
   draw_languages(ui, both, model, state);
   draw_fields(ui, inside, model, state, result);
   // Above the list of devices, which is long: who prepares a session must see it.
@@ -325,7 +356,9 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
           !why_not.empty() ? why_not
           : state.pilot    ? tr("{}, pilot, with {}.", state.participant, state.device)
                            : tr("{}, with {}.", state.participant, state.device),
-          {.font = Font::kLarge, .colour = why_not.empty() ? Colour::kInk : Colour::kSoft});
+          {.font = Font::kLarge,
+           .colour = why_not.empty() ? Colour::kInk : Colour::kSoft,
+           .any_length = why_not.empty()});
   draw_study_footer(ui, footer, tr("Nothing is stored before the session starts."), "");
   return result;
 }

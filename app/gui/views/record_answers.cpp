@@ -13,12 +13,13 @@ namespace {
 constexpr float kAnswerRow = 34;
 constexpr float kAnswerDetail = 96;
 
-std::vector<ColumnLook> columns_of_answers(const SessionRecord& record) {
+std::vector<ColumnLook> columns_of_answers(const Ui& ui, const SessionRecord& record) {
   std::vector<ColumnLook> columns = {{tr("Trial"), 0.7f, Align::kRight}, {tr("Block"), 1.8f}};
   if (!record.hides_levels) columns.push_back({tr("Stimulus"), 1.8f});
   columns.push_back({tr("Answer"), 1.0f});
   columns.push_back({tr("Took"), 0.6f, Align::kRight});
   columns.push_back({tr("Remarks"), 1.4f});
+  need_room_for_titles(ui, columns);
   return columns;
 }
 
@@ -46,21 +47,23 @@ void draw_answer_row(Ui& ui, const Rect& row, const SessionRecord& record, std::
   Rect inside = row;
   inside.take_left(8);
   inside.take_right(8);
-  const std::vector<Rect> cells = cells_of(inside, columns_of_answers(record));
+  const std::vector<Rect> cells = cells_of(inside, columns_of_answers(ui, record));
   const Colour ink = answer.excluded ? Colour::kSoft : Colour::kInk;
-  const TextStyle small{.font = Font::kSmall, .colour = ink};
+  const TextStyle small{.font = Font::kSmall, .colour = ink, .any_length = true};
   std::size_t next = 0;
   ui.text(cells[next++], std::to_string(answer.trial),
           {.font = Font::kMono, .colour = Colour::kSoft, .align = Align::kRight});
   ui.text(cells[next++], short_title(answer.block) + " · " + std::to_string(answer.in_block),
           small);
   if (!record.hides_levels) ui.text(cells[next++], answer.stimulus, small);
-  ui.text(cells[next++], answer.answer, {.font = Font::kStrong, .colour = ink});
+  ui.text(cells[next++], answer.answer,
+          {.font = Font::kStrong, .colour = ink, .any_length = true});
   ui.text(cells[next++],
           answer.response_time_s ? formatted("%.1f s", *answer.response_time_s) : "",
           {.font = Font::kMono, .colour = ink, .align = Align::kRight});
   const auto [words, colour] = remark_of(answer);
-  ui.text(cells[next], words, {.font = Font::kSmall, .colour = colour});
+  // It is told at length below, once its row is chosen.
+  ui.text(cells[next], words, {.font = Font::kSmall, .colour = colour, .any_length = true});
 }
 
 /// Everything that is known of the one that is chosen.
@@ -117,7 +120,7 @@ void draw_record_answers(Ui& ui, const Rect& place, const SessionRecord& record,
   Rect head = inside;
   head.take_left(8);
   head.take_right(content > inside.height - kHead ? 24 : 8);
-  draw_table_head(ui, head, columns_of_answers(record));
+  draw_table_head(ui, head, columns_of_answers(ui, record));
   inside.take_top(kHead);
   if (move_in_list(ui, record.answers.size(), state.answer)) {
     ui.scroll_into_view("answers", kAnswerRow * static_cast<float>(*state.answer), kAnswerRow);

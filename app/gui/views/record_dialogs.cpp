@@ -142,15 +142,17 @@ void draw_record_dialog(Ui& ui, const SessionRecord& record, RecordViewState& st
   const RecordDialogWords words = words_of_record_dialog(record, state);
   constexpr float kWidth = 620;
   const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
+  const bool is_note = state.dialog == Asked::kNote;
+  const char* adverse_words = tr("Store as adverse event");
   const float explained = ui.text_height(kWidth - 56, words.explanation, soft);
+  const float above = is_note ? adverse_row(ui, kWidth - 56, words.verb, adverse_words) : 0;
   Rect inside =
-      ui.begin_dialog("record_dialog", kWidth, 56 + 38 + explained + 16 + 46 + 18 + 48);
+      ui.begin_dialog("record_dialog", kWidth, 56 + 38 + explained + 16 + 46 + 18 + 48 + above);
   ui.text(inside.take_top(34, 4), words.title, {.font = Font::kLarge});
   ui.text(inside.take_top(explained, 16), words.explanation, soft);
   const bool entered = ui.text_field("reason", inside.take_top(46, 18), state.typed, words.hint,
                                      state.dialog_is_new);
   const bool is_withdrawal = state.dialog == Asked::kWithdraw;
-  const bool is_note = state.dialog == Asked::kNote;
   const bool has_text =
       is_withdrawal ? state.typed == record.line.participant : !is_blank(state.typed);
   const bool ready = has_text && (!is_note || record.is_over);
@@ -167,9 +169,10 @@ void draw_record_dialog(Ui& ui, const SessionRecord& record, RecordViewState& st
   bool adverse = false;
   if (is_note) {
     const ButtonStyle style{.key = {letter('E'), true}, .enabled = has_text};
-    const char* label = tr("Store as adverse event");
-    adverse = ui.button("dialog_adverse_event", row.take_left(ui.button_width(label, style)),
-                        label, style);
+    if (above > 0) row = inside.take_bottom(48, 8);
+    adverse =
+        ui.button("dialog_adverse_event", row.take_left(ui.button_width(adverse_words, style)),
+                  adverse_words, style);
   }
   ui.end_dialog();
   // Enter without what is needed: the field keeps the keyboard.

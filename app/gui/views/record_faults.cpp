@@ -72,7 +72,8 @@ void draw_fault(Ui& ui, const Rect& row, const RecordFault& fault, std::size_t p
           {.font = Font::kMono, .colour = Colour::kRed});
   ui.text(inside.take_top(ui.text_height(inside.width, fault.words, {.wrap = true})),
           fault.words, {.wrap = true});
-  ui.text(inside.take_top(24), fault.where, {.font = Font::kSmall, .colour = Colour::kSoft});
+  ui.text(inside.take_top(24), fault.where,
+          {.font = Font::kSmall, .colour = Colour::kSoft, .any_length = true});
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ PlotModel answers_over_time(const SessionRecord& record) {
 void draw_span(Ui& ui, const Rect& bar, const RecordSpan& span, Colour ground, Colour ink) {
   ui.fill(bar, ground, 5);
   if (bar.width > 34) {
-    ui.text(bar.inset(4), span.title, {.font = Font::kTiny, .colour = ink});
+    ui.text(bar.inset(4), span.title, {.font = Font::kTiny, .colour = ink, .any_length = true});
   }
   if (ui.hovered(bar)) {
     ui.tooltip(ui.mouse_x(), ui.mouse_y(),

@@ -13,7 +13,8 @@
 namespace jnd::app::gui {
 namespace {
 
-constexpr float kRecordButton = 42;
+/// In a low window buttons are lower, too.
+float record_button(const Ui& ui) { return ui.screen().height < 720 ? 38 : 42; }
 
 struct PageLook {
   RecordPage page;
@@ -52,11 +53,19 @@ std::string status_words(const SessionRecord& record) {
 void draw_strip_of_record(Ui& ui, Rect strip, const SessionRecord& record,
                           RecordViewState& state) {
   float wanted = 0;
+  bool has_keys = true;
   const auto style_of = [&](const PageLook& look) {
-    return ButtonStyle{.key = {letter(look.digit)}, .selected = look.page == state.page};
+    return ButtonStyle{.key = {letter(look.digit)},
+                       .selected = look.page == state.page,
+                       .hides_key = !has_keys};
   };
-  for (const PageLook& look : kRecordPages) {
-    wanted += ui.button_width(label_of(look, record), style_of(look)) + 8;
+  for (const bool keys : {true, false}) {
+    has_keys = keys;
+    wanted = 0;
+    for (const PageLook& look : kRecordPages) {
+      wanted += ui.button_width(label_of(look, record), style_of(look)) + 8;
+    }
+    if (wanted - 8 <= strip.width * 0.66f) break;
   }
   Rect pages = strip.take_right(std::min(wanted - 8, strip.width * 0.74f), 20);
   const float shrink = std::min(1.0f, (pages.width + 8) / wanted);
@@ -69,7 +78,7 @@ void draw_strip_of_record(Ui& ui, Rect strip, const SessionRecord& record,
   }
   const std::string name = record.line.participant;
   ui.text(strip.take_left(std::min(ui.text_width(name, Font::kTitle) + 2, strip.width), 14),
-          name, {.font = Font::kTitle});
+          name, {.font = Font::kTitle, .any_length = true});
   ui.text(strip,
           tr("session {} · {}", record.line.session, status_words(record)) +
               (record.line.when.empty() ? "" : " · " + record.line.when),
@@ -77,11 +86,9 @@ void draw_strip_of_record(Ui& ui, Rect strip, const SessionRecord& record,
 }
 
 void draw_fact_line(Ui& ui, Rect& inside, const std::string& name, const std::string& value) {
-  Rect line = inside.take_top(26);
-  const float width = ui.text_width(value, Font::kSmallStrong) + 2;
-  const Rect at_right = line.take_right(std::min(width, line.width * 0.6f), 10);
-  ui.text(at_right, value, {.font = Font::kSmallStrong, .align = Align::kRight});
-  ui.text(line, name, {.font = Font::kSmall, .colour = Colour::kSoft});
+  draw_name_and_value(ui, inside.take_top(26), name,
+                      {.font = Font::kSmall, .colour = Colour::kSoft}, value,
+                      {.font = Font::kSmallStrong, .any_length = true});
 }
 
 void draw_record_facts(Ui& ui, Rect& column, const SessionRecord& record, float most) {
@@ -98,10 +105,9 @@ void draw_record_facts(Ui& ui, Rect& column, const SessionRecord& record, float 
   const float wanted = 28 + 26 * static_cast<float>(facts.size()) + 2 * kPadding;
   Rect inside =
       draw_card(ui, column.take_top(std::min(wanted, most), kGap), tr("This session"));
-  for (const auto& [name, value] : facts) {
-    if (inside.height < 26) break;
-    draw_fact_line(ui, inside, name, value);
-  }
+  inside = ui.begin_scroll("facts", inside, 26 * static_cast<float>(facts.size()));
+  for (const auto& [name, value] : facts) draw_fact_line(ui, inside, name, value);
+  ui.end_scroll();
 }
 
 /// What a key does on the page that stands there.
@@ -112,7 +118,7 @@ class RecordActions {
       : ui_(ui), record_(record), state_(state), result_(result), is_idle_(is_idle) {}
 
   /// Returns how high they are.
-  float height() const { return static_cast<float>(count()) * (kRecordButton + 8); }
+  float height() const { return static_cast<float>(count()) * (record_button(ui_) + 8); }
 
   void draw(Rect& column) {
     const bool may_write = is_idle_ && !record_.is_backup;
@@ -147,7 +153,7 @@ class RecordActions {
   }
   bool button(Rect& column, const char* name, const std::string& label,
               const ButtonStyle& style) {
-    return ui_.button(name, column.take_top(kRecordButton, 8), label, style);
+    return ui_.button(name, column.take_top(record_button(ui_), 8), label, style);
   }
 
   void draw_of_answers(Rect& column, bool may_write) {
@@ -243,11 +249,17 @@ RecordViewResult draw_record_view(Ui& ui, const RecordViewModel& model,
   draw_record_facts(ui, column, record,
                     std::max(96.0f, column.height - actions.height() - kGap - below));
   draw_page_of_record(ui, rest, model, state, result);
+  // What goes on is drawn below, and everything scrolls where there is too little room.
+  column = ui.begin_scroll("record_actions", column, state.actions_height);
+  const float top = column.y;
   actions.draw(column);
   if (!hint.empty()) {
     ui.text(column.take_top(ui.text_height(column.width, hint, soft), 10), hint, soft);
   }
-  if (draw_work(ui, column, model.work)) result.cancel = true;
+  const Rect work = column.take_top(work_height(ui, column.width, model.work));
+  if (draw_work(ui, work, model.work)) result.cancel = true;
+  state.actions_height = column.y - top;
+  ui.end_scroll();
   draw_study_footer(ui, footer, model.work.outcome.sentence,
                     record.hides_levels ? tr("levels hidden: double-blind") : "");
   draw_record_dialog(ui, record, state, result);

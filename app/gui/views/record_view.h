@@ -42,6 +42,7 @@ struct RecordViewState {
   RunViewState correcting;     ///< Of the dialog that sets an answer right.
   DoubleClick clicks;
   float timeline_height = 0, detail_height = 0, notes_height = 0, faults_height = 0;
+  float actions_height = 0;
 };
 
 /// What was asked. One of them in a frame.

@@ -107,7 +107,8 @@ void draw_summary(Ui& ui, const Rect& place, const ResultsModel& results,
                   inside.height};
       const float name = ui.text_height(width, figures[i].name, soft);
       ui.text(column.take_top(name, 2), figures[i].name, soft);
-      ui.text(column.take_top(32, 2), figures[i].value, {.font = Font::kAnswer});
+      ui.text(column.take_top(32, 2), figures[i].value,
+              {.font = Font::kAnswer, .any_length = true});
       const float detail = ui.text_height(width, figures[i].detail, soft);
       ui.text(column.take_top(detail), figures[i].detail, soft);
       height = std::max(height, name + 36 + detail);

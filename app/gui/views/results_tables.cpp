@@ -42,13 +42,17 @@ void draw_participants_head(Ui& ui, Rect& place, const std::vector<ColumnLook>& 
   const std::vector<Rect> cells = cells_of(head, columns, kBetweenNumbers);
   for (std::size_t i = 1; i < columns.size(); ++i) {
     Rect cell = cells[i];
-    const TextStyle style{.font = Font::kTiny, .colour = Colour::kSoft, .align = Align::kRight};
-    const std::string& title = columns[i].title;
-    const std::size_t space = title.find(' ');
-    const bool two = columns[i].unit.empty() && space != std::string::npos;
-    ui.text(cell.take_top(kHead / 2 - 2), two ? title.substr(0, space) : title, style);
-    ui.text(cell.take_top(kHead / 2 - 2), two ? title.substr(space + 1) : columns[i].unit,
-            style);
+    // They name what the study measures, in its own words.
+    const TextStyle style{.font = Font::kTiny,
+                          .colour = Colour::kSoft,
+                          .align = Align::kRight,
+                          .any_length = true};
+    if (columns[i].unit.empty()) {
+      ui.text(cell, columns[i].title, style);
+      continue;
+    }
+    ui.text(cell.take_top(kHead / 2 - 2), columns[i].title, style);
+    ui.text(cell.take_top(kHead / 2 - 2), columns[i].unit, style);
   }
   ui.line(head.x, head.bottom(), head.right(), head.bottom(), Colour::kLine);
 }
@@ -59,7 +63,8 @@ void draw_participant(Ui& ui, const Rect& row, const TableRow& line,
   Rect name = cells[0];
   ui.text(name, line.participant,
           {.font = selected ? Font::kStrong : Font::kBody,
-           .colour = selected ? Colour::kBlue : Colour::kInk});
+           .colour = selected ? Colour::kBlue : Colour::kInk,
+           .any_length = true});
   if (!line.note.empty()) {
     const float x = name.x + ui.text_width(line.participant, Font::kStrong) + 12;
     ui.dot(x, row.y + row.height / 2, 4, Colour::kAmber);
@@ -69,7 +74,8 @@ void draw_participant(Ui& ui, const Rect& row, const TableRow& line,
     ui.text(cells[i + 1], value ? table_number(*value) : "-",
             {.font = Font::kMono,
              .colour = value ? Colour::kInk : Colour::kAmber,
-             .align = Align::kRight});
+             .align = Align::kRight,
+             .any_length = true});
   }
   if (!line.note.empty() && ui.hovered(row)) {
     ui.tooltip(ui.mouse_x(), ui.mouse_y(), line.note);
@@ -131,6 +137,7 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
   Rect inside = draw_card(ui, place, tr("Every number"));
   Rect head = inside;
   head.take_right(16);
+  need_room_for_titles(ui, columns);
   draw_table_head(ui, head, columns);
   inside.take_top(32);
   inside = ui.begin_scroll("numbers", inside, state.page_height);
@@ -139,7 +146,7 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
   for (const NumberLine& line : results.numbers) {
     if (line.section != section) {
       section = line.section;
-      ui.heading(inside.take_top(34), section);
+      ui.heading(inside.take_top(34), section, "", Align::kLeft, /*any_length=*/true);
     }
     const bool is_sure = line.caution.empty();
     const std::string label = is_sure ? line.label : tr("{}: caution", line.label);
@@ -148,8 +155,11 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
     const float width = cells_of(inside, columns)[0].width;
     const Rect row = inside.take_top(std::max(30.0f, ui.text_height(width, label, name) + 12));
     const std::vector<Rect> cells = cells_of(row, columns);
-    const TextStyle number{.font = Font::kMono, .align = Align::kRight};
-    const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight};
+    const TextStyle number{.font = Font::kMono, .align = Align::kRight, .any_length = true};
+    const TextStyle soft{.font = Font::kSmall,
+                         .colour = Colour::kSoft,
+                         .align = Align::kRight,
+                         .any_length = true};
     ui.text(cells[0].middle(cells[0].width, ui.text_height(width, label, name)), label, name);
     ui.text(cells[1], line.value.empty() ? "-" : line.value, number);
     const std::string start = "95 % ";

@@ -14,15 +14,27 @@ namespace {
 const ButtonStyle kExport{.key = {letter('E'), true}};
 const ButtonStyle kReport{.tone = Tone::kPrimary, .key = {letter('R'), true}};
 
+/// Keys give way where the tabs and the title would have too little room beside them.
+bool own_keys_have_room(const Ui& ui) {
+  const float wanted = ui.button_width(tr("Export"), kExport) + 10 +
+                       ui.button_width(tr("Write report"), kReport);
+  return wanted < 0.3f * ui.screen().width;
+}
+
+ButtonStyle own_style(const Ui& ui, ButtonStyle style) {
+  style.hides_key = !own_keys_have_room(ui);
+  return style;
+}
+
 float own_width(const Ui& ui) {
-  return ui.button_width(tr("Export"), kExport) + 10 +
-         ui.button_width(tr("Write report"), kReport);
+  return ui.button_width(tr("Export"), own_style(ui, kExport)) + 10 +
+         ui.button_width(tr("Write report"), own_style(ui, kReport));
 }
 
 void draw_own_buttons(Ui& ui, Rect strip, const ResultsViewModel& model,
                       ResultsViewState& state, ResultsViewResult& result) {
-  ButtonStyle report = kReport;
-  ButtonStyle exporting = kExport;
+  ButtonStyle report = own_style(ui, kReport);
+  ButtonStyle exporting = own_style(ui, kExport);
   report.enabled = exporting.enabled = model.results != nullptr && model.work.running.empty();
   Rect place = strip.take_right(ui.button_width(tr("Write report"), report), 10);
   result.write_report =
@@ -45,14 +57,20 @@ void draw_strip(Ui& ui, Rect strip, const std::vector<ResultsPageLook>& pages,
                 const ResultsViewModel& model, ResultsViewState& state,
                 ResultsViewResult& result) {
   const ResultsModel& results = *model.results;
-  const auto style_of = [&state](std::size_t i) {
+  bool has_keys = true;
+  const auto style_of = [&](std::size_t i) {
     return ButtonStyle{.key = {letter(static_cast<char>('1' + i))},
-                       .selected = i == state.page};
+                       .selected = i == state.page,
+                       .hides_key = !has_keys};
   };
-  float wanted = 0;
-  for (std::size_t i = 0; i < pages.size(); ++i) {
-    wanted += ui.button_width(pages[i].label, style_of(i)) + 8;
-  }
+  const auto wanted_width = [&] {
+    float width = 0;
+    for (std::size_t i = 0; i < pages.size(); ++i) {
+      width += ui.button_width(pages[i].label, style_of(i)) + 8;
+    }
+    return width;
+  };
+  float wanted = wanted_width();
   const auto figures = figures_of_page(pages[state.page].page);
   const ButtonStyle save{.key = {letter('S'), true},
                          .enabled = figures.has_value() && model.work.running.empty()};
@@ -60,6 +78,10 @@ void draw_strip(Ui& ui, Rect strip, const std::vector<ResultsPageLook>& pages,
   const char* label = has_room ? tr("Save picture") : tr("Save");
   const Rect at_right = strip.take_right(ui.button_width(label, save), 8);
   if (ui.button("save_picture", at_right, label, save)) result.save_picture = figures;
+  if (wanted > strip.width) {
+    has_keys = false;
+    wanted = wanted_width();
+  }
   const float shrink = std::min(1.0f, strip.width / wanted);
   for (std::size_t i = 0; i < pages.size(); ++i) {
     const ButtonStyle style = style_of(i);
@@ -103,12 +125,13 @@ void draw_without_results(Ui& ui, const Rect& place, const ResultsViewModel& mod
 }
 
 void draw_unblind_dialog(Ui& ui, ResultsViewState& state, ResultsViewResult& result) {
-  Rect inside = ui.begin_dialog("unblind_dialog", 620, 290);
-  ui.text(inside.take_top(34, 4), tr("Unblind the study"), {.font = Font::kLarge});
   const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
   const char* words = tr(
       "From now on levels, orders and results can be seen by everybody who opens this folder. "
       "When and why is stored with the study and cannot be taken back.");
+  Rect inside =
+      ui.begin_dialog("unblind_dialog", 620, 290 + more_lines(ui, 620, words, soft, 3));
+  ui.text(inside.take_top(34, 4), tr("Unblind the study"), {.font = Font::kLarge});
   ui.text(inside.take_top(ui.text_height(inside.width, words, soft), 16), words, soft);
   const bool entered = ui.text_field("unblind_reason", inside.take_top(46), state.reason,
                                      tr("reason"), state.dialog_is_new);
@@ -148,7 +171,7 @@ void draw_export_dialog(Ui& ui, ResultsViewState& state, ResultsViewResult& resu
     words.take_left(10);
     const Rect cap = words.take_right(ui.key_cap_width(key), 12);
     ui.key_cap(cap.x, cap.y + (cap.height - Ui::kKeyCapHeight) / 2, key);
-    ui.text(words.take_left(84), tr(format.label), {.font = Font::kStrong});
+    ui.text(words.take_left(70), tr(format.label), {.font = Font::kStrong});
     ui.text(words, tr(format.words), {.colour = Colour::kSoft});
   }
   const ButtonStyle samples{.key = {letter('R')}, .selected = state.with_recordings};
@@ -180,7 +203,8 @@ void draw_written_card(Ui& ui, Rect& rest, const StudyWork& work, ResultsViewRes
   const std::size_t num_problems = work.outcome.problems.size();
   const std::string first = num_problems == 0 ? "" : " · " + work.outcome.problems.front();
   ui.text(inside, work.outcome.sentence + first,
-          {.colour = work.outcome.ok && num_problems == 0 ? Colour::kInk : Colour::kAmber});
+          {.colour = work.outcome.ok && num_problems == 0 ? Colour::kInk : Colour::kAmber,
+           .any_length = true});
 }
 
 /// What goes on, or what came of it, above the footer.

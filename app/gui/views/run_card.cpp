@@ -238,42 +238,28 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
                    RunViewState& state, RunViewResult& result) {
   ui.card(place);
   Rect inside = place;
-  if (!view.refusal.empty()) {
-    Rect strip = inside.take_bottom(40);
-    ui.text(strip.middle(strip.width - 32, ui.line_height(Font::kBody)),
-            tr("Not done: {}.", view.refusal),
-            {.colour = Colour::kAmber, .align = Align::kCentre});
-  }
+  // Below everything else of the card, as high as it takes.
+  const auto say = [&](const std::string& words, Font font) {
+    const TextStyle amber{
+        .font = font, .colour = Colour::kAmber, .align = Align::kCentre, .wrap = true};
+    const float height = ui.text_height(inside.width - 32, words, amber) + 16;
+    Rect strip = inside.take_bottom(height);
+    strip = strip.middle(strip.width - 32, height - 16);
+    ui.text(strip, words, amber);
+  };
+  if (!view.refusal.empty()) say(tr("Not done: {}.", view.refusal), Font::kBody);
   const bool may_rest = view.step == Step::kReady || view.step == Step::kRest ||
                         view.step == Step::kStageDone || view.step == Step::kItem;
   if (!view.advice.empty() && may_rest) {
-    Rect strip = inside.take_bottom(40);
-    ui.text(strip.middle(strip.width - 32, ui.line_height(Font::kBody)),
-            tr("The study's limit is passed: {}.", view.advice),
-            {.colour = Colour::kAmber, .align = Align::kCentre});
+    say(tr("The study's limit is passed: {}.", view.advice), Font::kBody);
   }
   if (!view.sound_warning.empty()) {
-    const TextStyle amber{
-        .font = Font::kSmall, .colour = Colour::kAmber, .align = Align::kCentre, .wrap = true};
-    const std::string words = tr("Sound: {}.", view.sound_warning);
-    const float height = ui.text_height(inside.width - 32, words, amber) + 16;
-    ui.text(inside.take_bottom(height).inset(8), words, amber);
+    say(tr("Sound: {}.", view.sound_warning), Font::kSmall);
   }
   if (!view.caution.empty() && view.step == Step::kStageDone) {
-    const TextStyle amber{
-        .font = Font::kSmall, .colour = Colour::kAmber, .align = Align::kCentre, .wrap = true};
-    const std::string words = tr("Caution: {}.", view.caution);
-    const float height = ui.text_height(inside.width - 32, words, amber) + 16;
-    ui.text(inside.take_bottom(height).inset(8), words, amber);
+    say(tr("Caution: {}.", view.caution), Font::kSmall);
   }
-  if (!view.remark.empty() && view.step == Step::kBegin) {
-    Rect strip = inside.take_bottom(60);
-    ui.text(strip.inset(8), view.remark,
-            {.font = Font::kSmall,
-             .colour = Colour::kAmber,
-             .align = Align::kCentre,
-             .wrap = true});
-  }
+  if (!view.remark.empty() && view.step == Step::kBegin) say(view.remark, Font::kSmall);
   draw_points(ui, inside, view, state);
   switch (view.step) {
     case Step::kBegin:

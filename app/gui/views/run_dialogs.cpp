@@ -1,5 +1,6 @@
 // What is asked before something is undone, noted or left. Escape stays the emergency stop.
 
+#include <algorithm>
 #include <span>
 #include <utility>
 
@@ -76,6 +77,10 @@ std::span<const char* const> reasons_of(Dialog dialog) {
   return {};
 }
 
+float room_of_dialog(const Ui& ui, float width) {
+  return std::min(width, ui.screen().width - 24) - 2 * 28;
+}
+
 constexpr float kReasonRow = 42;
 constexpr float kReasonGap = 8;
 
@@ -133,16 +138,31 @@ void request(const SessionView& view, const RunViewState& state, RunViewResult& 
 
 }  // namespace
 
+float adverse_row(const Ui& ui, float room, std::string_view verb, std::string_view adverse) {
+  const ButtonStyle with_key{.key = {Key::kEnter}};
+  const float wanted = ui.button_width(adverse, {.key = {letter('E'), true}}) + 12 +
+                       ui.button_width(tr("Cancel"), with_key) + 12 +
+                       ui.button_width(verb, with_key);
+  return wanted <= room ? 0 : 48 + 8;
+}
+
 void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
                      RunViewResult& result) {
   if (state.dialog == Dialog::kCorrect) return draw_correct_dialog(ui, state, result);
   const DialogWords words = words_of(state.dialog);
   const bool has_reasons = !reasons_of(state.dialog).empty() && !state.writes_reason;
   const float rows = static_cast<float>(reasons_of(state.dialog).size() + 1);
-  const float height = has_reasons ? 214 + rows * (kReasonRow + kReasonGap) : 260;
-  Rect inside = ui.begin_dialog("dialog", 560, height);
-  ui.text(inside.take_top(34, 4), words.title, {.font = Font::kLarge});
+  constexpr float kWidth = 560;
   const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
+  const float room = room_of_dialog(ui, kWidth);
+  const float explained = ui.text_height(room, words.explanation, soft);
+  const bool is_note = state.dialog == Dialog::kNote;
+  const char* words_of_adverse = tr("Store as adverse event");
+  const float above = is_note ? adverse_row(ui, room, words.verb, words_of_adverse) : 0;
+  const float answers =
+      has_reasons ? rows * (kReasonRow + kReasonGap) + 10 : 46.0f + 18 + above;
+  Rect inside = ui.begin_dialog("dialog", kWidth, 2 * 28 + 38 + explained + 16 + answers + 48);
+  ui.text(inside.take_top(34, 4), words.title, {.font = Font::kLarge});
   ui.text(inside.take_top(ui.text_height(inside.width, words.explanation, soft), 16),
           words.explanation, soft);
   bool entered = false;
@@ -166,9 +186,9 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
   const Rect cancel_place = row.take_right(ui.button_width(leave, cancel), 12);
   const bool cancelled = ui.button("dialog_cancel", cancel_place, leave, cancel);
   bool adverse = false;
-  if (state.dialog == Dialog::kNote) {
-    const char* words_of_adverse = tr("Store as adverse event");
+  if (is_note) {
     const ButtonStyle style{.enabled = ready};
+    if (above > 0) row = inside.take_bottom(48, 8);
     adverse = ui.button("dialog_adverse_event",
                         row.take_left(ui.button_width(words_of_adverse, style)),
                         words_of_adverse, style);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "app/gui/views/layout.h"
 #include "app/gui/views/run_parts.h"
@@ -32,21 +34,35 @@ std::vector<Chip> chips_of(const SessionView& view) {
   return chips;
 }
 
+/// Of those chips that are never left out, with what is between them.
+float least_title_width(const Ui& ui, const SessionView& view) {
+  constexpr float kTitle = 40, kAfterTitle = 18, kBetween = 10;
+  float width = kTitle + kAfterTitle;
+  const std::vector<Chip> chips = chips_of(view);
+  // Who it is, and whether it is a pilot.
+  const std::size_t never_left_out = view.pilot ? 2 : 1;
+  for (std::size_t i = 0; i < std::min(chips.size(), never_left_out); ++i) {
+    width += ui.chip_width(chips[i].words) + kBetween;
+  }
+  return width;
+}
+
 /// Title and chips. A long title gives way to who it is and whether it is a pilot; chips that
 /// then still have no room are left out from the end.
 void draw_title(Ui& ui, const Rect& strip, const SessionView& view) {
   constexpr float kBetween = 10;
   constexpr float kAfterTitle = 18;
-  constexpr std::size_t kNeverLeftOut = 2;
+  const std::size_t never_left_out = view.pilot ? 2 : 1;
   const std::vector<Chip> chips = chips_of(view);
   float needed = 0;
-  for (std::size_t i = 0; i < std::min(chips.size(), kNeverLeftOut); ++i) {
+  for (std::size_t i = 0; i < std::min(chips.size(), never_left_out); ++i) {
     needed += ui.chip_width(chips[i].words) + kBetween;
   }
   const float middle = strip.y + strip.height / 2;
   const float title = std::clamp(strip.width - kAfterTitle - needed, 0.0f,
                                  ui.text_width(view.study, Font::kBody) + 2);
-  ui.text({strip.x, middle - ui.line_height(Font::kBody) / 2, title, 24}, view.study, {});
+  ui.text({strip.x, middle - ui.line_height(Font::kBody) / 2, title, 24}, view.study,
+          {.any_length = true});
   float x = strip.x + title + kAfterTitle;
   for (const Chip& chip : chips) {
     if (x + ui.chip_width(chip.words) > strip.right()) return;
@@ -54,22 +70,72 @@ void draw_title(Ui& ui, const Rect& strip, const SessionView& view) {
   }
 }
 
-/// A dot, then words of which those *between stars* stand out; returns the width.
-float draw_health(Ui& ui, float x, const Rect& strip, Colour dot, std::string_view words) {
+/// What of the session's health stands in the footer: a dot, then words of which those
+/// *between stars* stand out.
+struct Health {
+  Colour dot;
+  std::string words;
+};
+
+constexpr float kBeforeHealth = 16;
+
+float health_width(const Ui& ui, std::string_view words, Font font) {
+  float width = kBeforeHealth;
+  while (!words.empty()) {
+    const std::string_view part = words.substr(0, words.find('*'));
+    words.remove_prefix(std::min(part.size() + 1, words.size()));
+    width += ui.text_width(part, font);
+  }
+  return width;
+}
+
+void draw_health(Ui& ui, float x, const Rect& strip, const Health& health, Font font) {
   const float middle = strip.y + strip.height / 2;
-  const float start = x;
-  ui.dot(x + 4.5f, middle, 4.5f, dot);
-  x += 16;
+  ui.dot(x + 4.5f, middle, 4.5f, health.dot);
+  x += kBeforeHealth;
+  std::string_view words = health.words;
   for (bool is_strong = false; !words.empty(); is_strong = !is_strong) {
     const std::string_view part = words.substr(0, words.find('*'));
     words.remove_prefix(std::min(part.size() + 1, words.size()));
     if (part.empty()) continue;
-    const float width = ui.text_width(part, Font::kSmall);
-    ui.text({x, middle - ui.line_height(Font::kSmall) / 2, width + 2, 20}, part,
-            {.font = Font::kSmall, .colour = is_strong ? Colour::kInk : Colour::kSoft});
+    const float width = ui.text_width(part, font);
+    ui.text({x, middle - ui.line_height(font) / 2, width + 2, 20}, part,
+            {.font = font, .colour = is_strong ? Colour::kInk : Colour::kSoft});
     x += width;
   }
-  return x - start + 26;
+}
+
+/// From the left, as large and as far apart as there is room for. Where there is too little,
+/// what is well is left out from the end, and never what is not.
+void draw_healths(Ui& ui, const Rect& strip, std::vector<Health> healths) {
+  struct Look {
+    Font font;
+    float between;
+  };
+  constexpr Look kLooks[] = {{Font::kSmall, 26}, {Font::kSmall, 14}, {Font::kTiny, 14}};
+  Look look = kLooks[0];
+  const auto wanted = [&] {
+    float width = -look.between;
+    for (const Health& health : healths) {
+      width += health_width(ui, health.words, look.font) + look.between;
+    }
+    return width;
+  };
+  for (const Look& tried : kLooks) {
+    look = tried;
+    if (wanted() <= strip.width) break;
+  }
+  while (healths.size() > 1 && wanted() > strip.width) {
+    const auto well = std::find_if(healths.rbegin(), healths.rend(),
+                                   [](const Health& one) { return one.dot == Colour::kGreen; });
+    if (well == healths.rend()) break;
+    healths.erase(std::next(well).base());
+  }
+  float x = strip.x;
+  for (const Health& health : healths) {
+    draw_health(ui, x, strip, health, look.font);
+    x += health_width(ui, health.words, look.font) + look.between;
+  }
 }
 
 std::string loop_words(const LoopView& loop) {
@@ -129,10 +195,31 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
        begun && view.step != Step::kFault && !view.answers.empty() &&
            view.answers.front().can_undo,
        Dialog::kUndo}};
+  const ButtonStyle apparatus_style{.tone = Tone::kQuiet, .key = {Key::kF4}};
+  const bool has_apparatus = running && !view.is_alone;
+  const char* apparatus_label =
+      state.shows_apparatus ? tr("Back to the session") : tr("Apparatus");
+  // Keys give way to who takes part and whether it is a pilot; then words are narrower.
+  const float room =
+      strip.width - ui.text_width("jnd", Font::kLarge) - 18 - least_title_width(ui, view);
+  const auto wanted = [&](bool has_keys) {
+    const auto of = [&](const char* label, const Chord& key) {
+      return ui.button_width(label,
+                             {.tone = Tone::kQuiet, .key = key, .hides_key = !has_keys}) +
+             4;
+    };
+    float width = has_apparatus ? of(apparatus_label, apparatus_style.key) : 0.0f;
+    for (const Command& command : commands) width += of(command.label, command.key);
+    return width;
+  };
+  const bool has_keys = wanted(true) <= room;
+  const float shrink = std::min(1.0f, std::max(0.5f, room / wanted(has_keys)));
   for (const Command& command : commands) {
-    const ButtonStyle style{
-        .tone = Tone::kQuiet, .key = command.key, .enabled = command.enabled};
-    const Rect its = strip.take_right(ui.button_width(command.label, style), 4);
+    const ButtonStyle style{.tone = Tone::kQuiet,
+                            .key = command.key,
+                            .enabled = command.enabled,
+                            .hides_key = !has_keys};
+    const Rect its = strip.take_right(shrink * ui.button_width(command.label, style), 4);
     if (!ui.button(command.name, its.middle(its.width, 36), command.label, style)) continue;
     if (command.dialog == Dialog::kWhyPaused) {
       // The hand is let go first; why is asked once the pause holds.
@@ -143,11 +230,11 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
     }
   }
   // Who is alone would read the answer from it.
-  if (running && !view.is_alone) {
-    const ButtonStyle style{.tone = Tone::kQuiet, .key = {Key::kF4}};
-    const char* label = state.shows_apparatus ? tr("Back to the session") : tr("Apparatus");
-    const Rect its = strip.take_right(ui.button_width(label, style), 4);
-    if (ui.button("apparatus", its.middle(its.width, 36), label, style)) {
+  if (has_apparatus) {
+    ButtonStyle style = apparatus_style;
+    style.hides_key = !has_keys;
+    const Rect its = strip.take_right(shrink * ui.button_width(apparatus_label, style), 4);
+    if (ui.button("apparatus", its.middle(its.width, 36), apparatus_label, style)) {
       state.shows_apparatus = !state.shows_apparatus;
     }
   }
@@ -160,16 +247,15 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
 void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
   ui.fill(place, Colour::kCard);
   ui.line(place.x, place.y, place.right(), place.y, Colour::kLine);
-  float x = place.x + 20;
+  std::vector<Health> healths;
   const LoopView& loop = view.loop;
   const bool late = loop.missed_ticks > 0 || loop.num_dropped_samples > 0;
-  x += draw_health(ui, x, place,
-                   view.step == Step::kFault || view.step == Step::kFailed ? Colour::kRed
-                   : late                                                  ? Colour::kAmber
-                                                                           : Colour::kGreen,
-                   loop_words(loop));
+  healths.push_back({view.step == Step::kFault || view.step == Step::kFailed ? Colour::kRed
+                     : late                                                  ? Colour::kAmber
+                                                                             : Colour::kGreen,
+                     loop_words(loop)});
   if (view.hides_levels || view.is_alone) {
-    x += draw_health(ui, x, place, Colour::kGreen, tr("Force *within limits*"));
+    healths.push_back({Colour::kGreen, tr("Force *within limits*")});
   } else {
     const core::PlainVector& force = view.telemetry.total_force_n;
     const double force_n =
@@ -177,39 +263,48 @@ void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
     const core::PlainVector& velocity = view.telemetry.hand_velocity_m_per_s;
     const double speed_m_per_s = std::sqrt(
         velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2]);
-    x += draw_health(ui, x, place, view.telemetry.limited ? Colour::kAmber : Colour::kGreen,
-                     tr("Force *{:.1f} N* of {:.0f} N · {:.2f} m/s", force_n,
-                        view.max_total_force_n, speed_m_per_s));
+    healths.push_back({view.telemetry.limited ? Colour::kAmber : Colour::kGreen,
+                       tr("Force *{:.1f} N* of {:.0f} N · {:.2f} m/s", force_n,
+                          view.max_total_force_n, speed_m_per_s)});
   }
-  x += draw_health(ui, x, place, view.step == Step::kFailed ? Colour::kRed : Colour::kGreen,
-                   stored_up_to(view));
+  healths.push_back(
+      {view.step == Step::kFailed ? Colour::kRed : Colour::kGreen, stored_up_to(view)});
   const int attached = __builtin_popcount(view.telemetry.sample.attached_bits);
   if (view.telemetry.warning != core::Fault::kNone) {
-    draw_health(
-        ui, x, place, Colour::kAmber,
-        "*" + std::string(tr(core::warning_words(view.telemetry.warning).data())) + "*");
+    healths.push_back(
+        {Colour::kAmber,
+         "*" + std::string(tr(core::warning_words(view.telemetry.warning).data())) + "*"});
   } else {
-    draw_health(ui, x, place,
-                attached == view.num_contact_points ? Colour::kGreen : Colour::kAmber,
-                tr("*{}* of {} points attached", attached, view.num_contact_points));
+    healths.push_back({attached == view.num_contact_points ? Colour::kGreen : Colour::kAmber,
+                       tr("*{}* of {} points attached", attached, view.num_contact_points)});
   }
   const ButtonStyle keys{.tone = Tone::kQuiet, .key = {Key::kF1}};
   Rect strip = place;
+  strip.take_left(20);
   strip.take_right(16);
   (void)strip.take_right(ui.button_width(tr("All keys"), keys),
                          8);  // Drawn by the application.
+  float wanted = 0;
+  for (const Health& health : healths) {
+    wanted += health_width(ui, health.words, Font::kSmall) + 26;
+  }
+  // Its name stands where the session was prepared, too: it gives way first.
   const float width = ui.text_width(view.device, Font::kSmall) + 2;
-  ui.text(strip.take_right(width).middle(width, ui.line_height(Font::kSmall)), view.device,
-          {.font = Font::kSmall, .colour = Colour::kSoft});
+  if (wanted + width <= strip.width) {
+    ui.text(strip.take_right(width, 10), view.device,
+            {.font = Font::kSmall, .colour = Colour::kSoft});
+  }
+  draw_healths(ui, strip, std::move(healths));
 }
 
 void draw_stage_list(Ui& ui, const Rect& place, const SessionView& view) {
   ui.card(place);
   Rect inside = place.inset(18);
-  Rect times = inside.take_bottom(82, 10);
+  Rect times = inside.take_bottom(84, 10);
   ui.heading(inside.take_top(16, 10), tr("Session"));
   // A long session shows the part around the stage under way.
-  constexpr float kLine = 38;
+  constexpr float kLine = 38, kNarrow = 220;
+  const bool is_narrow = place.width < kNarrow;
   const auto room = static_cast<std::size_t>(std::max(1.0f, inside.height / kLine));
   const std::size_t count = view.stages.size();
   const auto now = static_cast<std::size_t>(std::max<std::int64_t>(0, view.stage));
@@ -230,16 +325,18 @@ void draw_stage_list(Ui& ui, const Rect& place, const SessionView& view) {
       if (!is_now) ui.dot(x, middle, 4.6f, Colour::kCard);
     }
     line.take_left(40);
-    ui.text(line.middle(line.width, ui.line_height(Font::kBody)), stage.title,
-            {.font = is_now ? Font::kStrong : Font::kBody,
+    ui.text(line, stage.title,
+            {.font = is_narrow ? (is_now ? Font::kSmallStrong : Font::kSmall)
+                     : is_now  ? Font::kStrong
+                               : Font::kBody,
              .colour = is_now                                      ? Colour::kBlue
                        : stage.status == StageLine::Status::kLater ? Colour::kSoft
-                                                                   : Colour::kInk});
+                                                                   : Colour::kInk,
+             .any_length = true});
   }
   const auto time_line = [&](const char* name, const std::string& value) {
-    const Rect line = times.take_top(26);
-    ui.text(line, name, {.colour = Colour::kSoft});
-    ui.text(line, value, {.font = Font::kStrong, .align = Align::kRight});
+    draw_name_and_value(ui, times.take_top(28), name, {.colour = Colour::kSoft}, value,
+                        {.font = Font::kStrong});
   };
   if (view.num_trials > 0) {
     time_line(tr("Answers"), view.num_trials_is_expected
@@ -283,8 +380,8 @@ void draw_progress_card(Ui& ui, const Rect& place, const SessionView& view) {
                 ? tr("{} of {}", view.medium->index, view.medium->count)
                 : "";
   }
-  ui.text(words, left, {.font = Font::kStrong});
-  ui.text(words, right, {.colour = Colour::kSoft, .align = Align::kRight});
+  draw_name_and_value(ui, words, left, {.font = Font::kStrong}, right,
+                      {.colour = Colour::kSoft, .any_length = true});
   ui.progress(inside.take_top(8), ratio);
 }
 
@@ -292,25 +389,23 @@ void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewSta
   ui.card(place);
   Rect inside = place.inset(14);
   const Rect head = inside.take_top(24);
-  const auto columns = [](const Rect& line) {
-    struct {
-      Rect trial, answer, time, act;
-    } cells{.trial = line, .answer = line, .time = line, .act = line};
-    cells.trial.width = line.width * 0.42f;
-    cells.answer.width = line.width * 0.62f;
-    cells.time.width = line.width * 0.80f;
-    return cells;
-  };
+  std::vector<ColumnLook> columns = {{tr("Last answers"), 0.42f},
+                                     {tr("answer"), 0.2f, Align::kRight},
+                                     {tr("time"), 0.18f, Align::kRight},
+                                     {"", 0.2f, Align::kRight}};
+  need_room_for_titles(ui, columns);
+  need_room(ui, columns[2], as_is("00.0 s"), Font::kMono);
+  need_room(ui, columns[3], tr("change"), Font::kBody);
   const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft};
-  TextStyle soft_right = soft;
-  soft_right.align = Align::kRight;
   Rect padded = head;
   padded.x += 8;
   padded.width -= 16;
-  auto cells = columns(padded);
-  ui.text(cells.trial, tr("Last answers"), soft);
-  ui.text(cells.answer, tr("answer"), soft_right);
-  ui.text(cells.time, tr("time"), soft_right);
+  std::vector<Rect> cells = cells_of(padded, columns, 10);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    TextStyle style = soft;
+    style.align = columns[i].align;
+    ui.text(cells[i], columns[i].title, style);
+  }
   ui.line(inside.x, inside.y, inside.right(), inside.y, Colour::kLine);
   constexpr float kLine = 34;
   const bool may_correct = view.step != Step::kFinished && view.step != Step::kFailed &&
@@ -326,20 +421,27 @@ void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewSta
     }
     line.x += 8;
     line.width -= 16;
-    line = line.middle(line.width, ui.line_height(Font::kBody));
-    cells = columns(line);
-    ui.text(cells.trial, label, {});
-    if (!answer.hint.empty()) {
-      Rect beside = cells.trial;
-      beside.take_left(ui.text_width(label, Font::kBody), 14);
-      ui.text(beside, answer.hint, {.font = Font::kSmall, .colour = Colour::kAmber});
-      if (ui.hovered(beside)) ui.tooltip(ui.mouse_x(), ui.mouse_y(), answer.hint);
+    cells = cells_of(line, columns, 10);
+    Rect trial = cells[0];
+    const float width = ui.text_width(label, Font::kBody) + 2;
+    // What speaks against it stands beside it where there is room, and is pointed at elsewhere.
+    constexpr float kLeastHint = 80;
+    const bool has_hint = !answer.hint.empty() && trial.width - width - 14 >= kLeastHint;
+    ui.text(has_hint ? trial.take_left(width, 14) : trial, label,
+            {.colour = answer.hint.empty() || has_hint ? Colour::kInk : Colour::kAmber,
+             .any_length = true});
+    if (has_hint) {
+      ui.text(trial, answer.hint,
+              {.font = Font::kSmall, .colour = Colour::kAmber, .any_length = true});
     }
-    ui.text(cells.answer, answer.answer, {.align = Align::kRight});
-    ui.text(cells.time, formatted("%.1f s", answer.response_time_s),
+    if (!answer.hint.empty() && ui.hovered(cells[0])) {
+      ui.tooltip(ui.mouse_x(), ui.mouse_y(), answer.hint);
+    }
+    ui.text(cells[1], answer.answer, {.align = Align::kRight, .any_length = true});
+    ui.text(cells[2], formatted("%.1f s", answer.response_time_s),
             {.font = Font::kMono, .align = Align::kRight});
     if (may_correct) {
-      ui.text(cells.act, tr("change"), {.colour = Colour::kSoft, .align = Align::kRight});
+      ui.text(cells[3], tr("change"), {.colour = Colour::kSoft, .align = Align::kRight});
     }
     ui.line(inside.x, inside.y, inside.right(), inside.y, Colour::kLine);
   }

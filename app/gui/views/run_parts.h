@@ -52,6 +52,11 @@ void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
                              const std::string& low_label, const std::string& high_label,
                              int selected = 0);
 
+/// How high the row is that "Store as adverse event" needs of its own above the buttons of a
+/// dialog with so much room: 0 where it stands beside them.
+[[nodiscard]] float adverse_row(const Ui& ui, float room, std::string_view verb,
+                                std::string_view adverse);
+
 void open_dialog(RunViewState& state, RunViewState::Dialog dialog);
 /// Why, once the pause that was asked for here holds.
 void ask_why_paused(const SessionView& view, RunViewState& state);

@@ -152,9 +152,9 @@ void draw_channel_chooser(Ui& ui, bool with_joints, ScopePanelState& state) {
     if (i == state.selected) ui.fill(line, Colour::kBlueSoft, 6);
     if (ui.row("channel_" + channel.name, line, channel.label)) chosen = channel.name;
     const Rect words = line.inset(0).middle(line.width - 24, ui.line_height(Font::kBody));
-    ui.text(words, channel.label,
-            {.colour = i == state.selected ? Colour::kBlue : Colour::kInk});
-    ui.text(words, channel.unit, {.colour = Colour::kSoft, .align = Align::kRight});
+    draw_name_and_value(ui, words, channel.label,
+                        {.colour = i == state.selected ? Colour::kBlue : Colour::kInk},
+                        channel.unit, {.colour = Colour::kSoft});
   }
   if (count == 0) draw_notice(ui, inside, tr("No channel has all of these words in its name."));
   float x = buttons.x;

@@ -11,6 +11,8 @@ namespace jnd::app::gui {
 namespace {
 
 constexpr float kSessionHeight = 38;
+/// From the dot of a state to its word.
+constexpr float kAfterDot = 17;
 
 const InterruptedSession* interrupted_in(const StudyFolder& study, std::int64_t session) {
   for (const InterruptedSession& open : study.interrupted) {
@@ -47,7 +49,10 @@ std::string marks_of(const SessionLine& line) {
   return marks;
 }
 
-std::vector<ColumnLook> columns_of(const StudyFolder& study) {
+constexpr float kBetweenColumns = 18;
+constexpr std::size_t kDeviceColumn = 4;
+
+std::vector<ColumnLook> all_columns_of(const Ui& ui, const StudyFolder& study) {
   std::vector<ColumnLook> columns = {{tr("Participant"), 1.05f},
                                      {tr("State"), 1.2f},
                                      {tr("Answers"), 1.05f, Align::kRight},
@@ -55,6 +60,37 @@ std::vector<ColumnLook> columns_of(const StudyFolder& study) {
                                      {tr("Device"), 0.75f}};
   if (!study.hides_levels) columns.push_back({tr("Order"), 2.0f});
   columns.push_back({tr("Marks"), 1.0f});
+  need_room_for_titles(ui, columns);
+  // Of very many sessions, as many as tell how long the words are.
+  constexpr std::size_t kMostLooked = 60;
+  constexpr float kMostOrder = 150;
+  const std::size_t order = study.hides_levels ? columns.size() : columns.size() - 2;
+  for (std::size_t i = 0; i < std::min(kMostLooked, study.sessions.size()); ++i) {
+    const SessionLine& line = study.sessions[i];
+    need_room(ui, columns[1], look_of(line.status).words, Font::kSmall);
+    if (line.pilot) need_room(ui, columns.back(), tr("pilot"), Font::kSmall);
+    if (line.simulated) need_room(ui, columns.back(), tr("simulated"), Font::kSmall);
+    if (order < columns.size()) {
+      const float wanted = ui.text_width(line.cells, Font::kSmall) + 1;
+      columns[order].least_width =
+          std::max(columns[order].least_width, std::min(wanted, kMostOrder));
+    }
+  }
+  columns[1].least_width += kAfterDot;
+  need_room(ui, columns[2], as_is("000/000"), Font::kMono);
+  need_room(ui, columns[3], as_is("00.00. 00:00"), Font::kSmall);
+  return columns;
+}
+
+/// Of a table of this width. The device stands on the session's page, too: it gives way where
+/// the words of the other columns have too little room.
+std::vector<ColumnLook> columns_of(const Ui& ui, const StudyFolder& study, float width,
+                                   bool& has_device) {
+  std::vector<ColumnLook> columns = all_columns_of(ui, study);
+  float least = -kBetweenColumns;
+  for (const ColumnLook& column : columns) least += column.least_width + kBetweenColumns;
+  has_device = least <= width;
+  if (!has_device) columns.erase(columns.begin() + kDeviceColumn);
   return columns;
 }
 
@@ -69,21 +105,23 @@ void draw_session(Ui& ui, const Rect& row, const StudyFolder& study, const Sessi
   Rect inside = row;
   inside.take_left(8);
   inside.take_right(8);
-  const std::vector<Rect> cells = cells_of(inside, columns_of(study));
-  ui.text(cells[0], line.participant, {.font = Font::kStrong});
+  bool has_device = true;
+  const std::vector<ColumnLook> columns = columns_of(ui, study, inside.width, has_device);
+  const std::vector<Rect> cells = cells_of(inside, columns, kBetweenColumns);
+  ui.text(cells[0], line.participant, {.font = Font::kStrong, .any_length = true});
   const StatusLook look = look_of(line.status);
   Rect status = cells[1];
   ui.dot(status.x + 5, status.y + status.height / 2, 4.5f, look.colour);
-  status.take_left(17);
+  status.take_left(kAfterDot);
   ui.text(status, look.words, {.colour = look.colour});
   const std::string answers = line.num_is_expected
                                   ? tr("{} of about {}", line.num_answers, line.num_trials)
                                   : tr("{} of {}", line.num_answers, line.num_trials);
   ui.text(cells[2], answers, {.font = Font::kMono, .align = Align::kRight});
-  const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft};
+  const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .any_length = true};
   ui.text(cells[3], line.when.empty() ? "-" : line.when, soft);
-  ui.text(cells[4], line.device, soft);
-  std::size_t next = 5;
+  std::size_t next = kDeviceColumn;
+  if (has_device) ui.text(cells[next++], line.device, soft);
   if (!study.hides_levels) ui.text(cells[next++], line.cells.empty() ? "-" : line.cells, soft);
   ui.text(cells[next], marks_of(line), {.font = Font::kSmall, .colour = Colour::kAmber});
 }
@@ -125,7 +163,8 @@ void draw_table(Ui& ui, const Rect& place, const StudyFolder& study, SessionsVie
   Rect head = inside;
   head.take_left(8);
   head.take_right(scrolls ? 24 : 8);
-  draw_table_head(ui, head, columns_of(study));
+  bool has_device = true;
+  draw_table_head(ui, head, columns_of(ui, study, head.width, has_device));
   inside.take_top(kHead);
   move_selection(ui, study, state);
   Rect rows = ui.begin_scroll("sessions", inside, content);
@@ -137,21 +176,22 @@ void draw_table(Ui& ui, const Rect& place, const StudyFolder& study, SessionsVie
   ui.end_scroll();
 }
 
+bool is_low(const Ui& ui) { return ui.screen().height < 760; }
+float height_of_fact(const Ui& ui) { return is_low(ui) ? 25 : 28; }
+
 /// A soft name, and a value that stands out.
 void draw_fact(Ui& ui, Rect& inside, const std::string& name, const std::string& value,
                Colour colour = Colour::kInk) {
-  Rect line = inside.take_top(28);
-  const float width = ui.text_width(value, Font::kStrong) + 2;
-  const Rect at_right = line.take_right(std::min(width, line.width * 0.62f), 10);
-  ui.text(at_right, value, {.font = Font::kStrong, .colour = colour, .align = Align::kRight});
-  ui.text(line, name, {.colour = Colour::kSoft});
+  draw_name_and_value(ui, inside.take_top(height_of_fact(ui)), name, {.colour = Colour::kSoft},
+                      value, {.font = Font::kStrong, .colour = colour});
 }
 
 void draw_study_card(Ui& ui, Rect& column, const StudyFolder& study,
                      SessionsViewResult& result) {
   const bool blind = study.blinding == experiments::Blinding::kDouble;
   const float lines = 5.0f + (blind ? 1.0f : 0.0f);
-  Rect inside = draw_card(ui, column.take_top(34 + 28 * lines + 2 * kPadding, kGap), "");
+  Rect inside =
+      draw_card(ui, column.take_top(34 + height_of_fact(ui) * lines + 2 * kPadding, kGap), "");
   Rect head = inside.take_top(28, 6);
   const ButtonStyle overview{.tone = Tone::kQuiet, .key = {letter('O')}};
   const Rect button = head.take_right(ui.button_width(tr("Overview"), overview), 12);
@@ -177,7 +217,7 @@ void ask_for_backup(SessionsViewState& state) {
   state.dialog_is_new = true;
 }
 
-void draw_actions(Ui& ui, Rect column, const StudyFolder& study, const StudyWork& work,
+void draw_actions(Ui& ui, Rect& column, const StudyFolder& study, const StudyWork& work,
                   SessionsViewState& state, SessionsViewResult& result) {
   const InterruptedSession* open = resumable(study, state.selected);
   const bool idle = work.running.empty();
@@ -189,7 +229,8 @@ void draw_actions(Ui& ui, Rect column, const StudyFolder& study, const StudyWork
     const float width = column.width - 2 * kPadding;
     const float text = ui.text_height(width, sentence, strong);
     const float small = ui.text_height(width, safe, soft);
-    const Rect card = column.take_top(text + small + 4 + 14 + 48 + 2 * kPadding, kGap);
+    const float button = is_low(ui) ? 42 : 48;
+    const Rect card = column.take_top(text + small + 4 + 14 + button + 2 * kPadding, kGap);
     ui.fill(card, Colour::kCard, 10);
     ui.outline(card, Colour::kAmber, 10, 1.5f);
     Rect inside = card.inset(kPadding);
@@ -206,7 +247,8 @@ void draw_actions(Ui& ui, Rect column, const StudyFolder& study, const StudyWork
            "itself. Where that is lost, `jnd restore` makes a study of the backup.");
     const TextStyle soft{.colour = Colour::kAmber, .wrap = true};
     ui.text(column.take_top(ui.text_height(column.width, words, soft), kGap), words, soft);
-  } else if (ui.button("new_session", column.take_top(60, 12), tr("New session"),
+  } else if (ui.button("new_session", column.take_top(is_low(ui) ? 50 : 60, 12),
+                       tr("New session"),
                        {.tone = open == nullptr ? Tone::kPrimary : Tone::kPlain,
                         .key = {letter('N')},
                         .large = true})) {
@@ -223,7 +265,8 @@ void draw_actions(Ui& ui, Rect column, const StudyFolder& study, const StudyWork
                 {.key = {letter('B')}, .enabled = idle && !study.is_backup})) {
     ask_for_backup(state);
   }
-  if (draw_work(ui, column, work)) result.cancel = true;
+  const Rect work_place = column.take_top(work_height(ui, column.width, work));
+  if (draw_work(ui, work_place, work)) result.cancel = true;
 }
 
 }  // namespace
@@ -238,8 +281,12 @@ SessionsViewResult draw_sessions_view(Ui& ui, const StudyFolder& study, const St
   rest = rest.inset(kGap);
   Rect column = rest.take_right(std::clamp(rest.width * 0.27f, 320.0f, 420.0f), kGap);
   draw_table(ui, rest, study, state, result);
+  column = ui.begin_scroll("beside_sessions", column, state.column_height);
+  const float top = column.y;
   draw_study_card(ui, column, study, result);
   draw_actions(ui, column, study, work, state, result);
+  state.column_height = column.y - top;
+  ui.end_scroll();
   draw_study_footer(ui, footer, work.outcome.sentence,
                     trn("{} session", "{} sessions", study.num_sessions));
   result.back_up =

@@ -25,6 +25,7 @@ struct SessionsViewState {
   bool dialog_is_new = false;
   std::string backup_folder;  ///< Proposed by the application: the known one, or beside it.
   DoubleClick clicks;
+  float column_height = 0;  ///< Of what stands beside the table.
 };
 
 struct SessionsViewResult {

@@ -29,7 +29,8 @@ bool draw_outputs(Ui& ui, Rect& inside, const SoundModel& model, std::string& ou
     }
     const std::string label = all[i].name == kSoundOff ? tr("Off") : all[i].name;
     if (draw_choice(ui, "sound_" + all[i].name, inside.take_top(40, 4), label, kind,
-                    is_next ? Chord{letter('S')} : Chord{}, i == current) &&
+                    is_next ? Chord{letter('S')} : Chord{}, i == current,
+                    /*any_length=*/all[i].name != kSoundOff) &&
         i != current) {
       output = all[i].name;
       changed = true;

@@ -18,7 +18,8 @@ class Stack {
   void add(float height, float gap_after, std::function<void(const Rect&)> draw);
   /// Centred words, wrapped; nothing for none.
   void add_text(std::string_view words, Font font, Colour colour, float width, float gap_after);
-  /// Draws everything, in the middle of the card as far as it fits.
+  /// Draws everything, in the middle of the card. Where there is too little room, gaps give way
+  /// first, then letters are smaller, and at last it scrolls.
   void draw(const Rect& card);
   [[nodiscard]] float height() const noexcept;
 
@@ -26,7 +27,14 @@ class Stack {
   struct Part {
     float height, gap_after;
     std::function<void(const Rect&)> draw;
+    std::string words;  ///< Of a text.
+    Font font = Font::kBody;
+    Colour colour = Colour::kInk;
+    float width = 0;
   };
+  void make_letters_smaller();
+  [[nodiscard]] float height_without_gaps() const noexcept;
+
   Ui& ui_;
   std::vector<Part> parts_;
 };

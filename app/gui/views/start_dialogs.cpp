@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr float kCardOfStudy = 104;
+constexpr float kCardOfStudy = 110;
 constexpr float kBetweenStudies = 10;
 
 void begin(StartViewState& state, StartViewState::Dialog dialog) {
@@ -76,16 +76,16 @@ bool draw_card_of_study(Ui& ui, const std::string& name, const Rect& place,
           {.font = Font::kSmallStrong,
            .colour = card.num_problems > 0 ? Colour::kRed : Colour::kBlue,
            .align = Align::kRight});
-  ui.text(head, card.title, {.font = Font::kStrong});
+  ui.text(head, card.title, {.font = Font::kStrong, .any_length = true});
   const TextStyle purpose{.font = Font::kSmall, .wrap = true};
   const std::string words =
       card.num_problems > 0
           ? std::string(tr("It opens with every problem at its line, to be mended."))
           : card.purpose;
   const Rect two_lines = inside.take_top(2 * ui.line_height(Font::kSmall), 2);
-  ui.text(two_lines, fitted(ui, two_lines, words, purpose), purpose);
+  draw_fitted(ui, two_lines, words, purpose);
   ui.text(inside, card.is_draft ? card.file.string() : card.citation,
-          {.font = Font::kTiny, .colour = Colour::kSoft});
+          {.font = Font::kTiny, .colour = Colour::kSoft, .any_length = true});
   return taken;
 }
 

@@ -114,8 +114,10 @@ void draw_study_card(Ui& ui, const Rect& card, const StartModel::Study& study,
     const Rect cap = inside.take_right(ui.key_cap_width(shown), 16);
     ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, shown);
   }
-  inside = inside.middle(inside.width, 44);
-  ui.text(inside.take_top(22), study.title, {.font = Font::kStrong});
+  // Long words about it stand on two lines.
+  const bool is_long = ui.text_width(study.summary, Font::kSmall) > inside.width;
+  inside = inside.middle(inside.width, is_long ? 56 : 44);
+  ui.text(inside.take_top(22), study.title, {.font = Font::kStrong, .any_length = true});
   ui.text(inside, study.summary, {.colour = Colour::kSoft});
 }
 
@@ -202,12 +204,15 @@ void draw_machine(Ui& ui, Rect column, const StartModel& model, StartViewResult&
   ui.heading(heading, tr("This machine"));
   const float line_height = is_small(ui) ? 28 : 34;
   const std::size_t count = std::max<std::size_t>(1, model.machine.size());
-  Rect card = column.take_top(static_cast<float>(count) * line_height + 2 * 10);
+  const float content = static_cast<float>(count) * line_height;
+  const Rect card = column.take_top(std::min(content + 2 * 10, column.height));
   ui.card(card);
   Rect inside = card;
   inside.take_left(kPadding);
   inside.take_right(kPadding);
   inside.take_top(10);
+  inside.take_bottom(10);
+  inside = ui.begin_scroll("machine", inside, content);
   if (model.machine.empty()) {
     ui.text(inside.take_top(line_height), tr("Looking …"),
             {.font = Font::kSmall, .colour = Colour::kSoft});
@@ -215,10 +220,8 @@ void draw_machine(Ui& ui, Rect column, const StartModel& model, StartViewResult&
   for (std::size_t i = 0; i < model.machine.size(); ++i) {
     const PreflightLine& line = model.machine[i];
     const Rect row = inside.take_top(line_height);
-    Rect words = row;
-    ui.text(words.take_left(150, 12), line.name, {.font = Font::kSmall});
-    ui.text(words, line.found,
-            {.font = Font::kSmall, .colour = colour_of(line.status), .align = Align::kRight});
+    draw_name_and_value(ui, row, line.name, {.font = Font::kSmall}, line.found,
+                        {.font = Font::kSmall, .colour = colour_of(line.status)});
     if (i + 1 < model.machine.size()) {
       ui.line(row.x, row.bottom(), row.right(), row.bottom(), Colour::kLine);
     }
@@ -226,6 +229,7 @@ void draw_machine(Ui& ui, Rect column, const StartModel& model, StartViewResult&
       ui.tooltip(ui.mouse_x(), ui.mouse_y(), line.remedy);
     }
   }
+  ui.end_scroll();
 }
 
 }  // namespace

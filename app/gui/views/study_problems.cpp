@@ -29,7 +29,7 @@ void draw_excerpt(Ui& ui, const Rect& place, const FileExcerpt& excerpt) {
             {.font = Font::kMono,
              .colour = line.is_meant ? Colour::kRed : Colour::kSoft,
              .align = Align::kRight});
-    ui.text(row, line.text, {.font = Font::kMono});
+    ui.text(row, line.text, {.font = Font::kMono, .any_length = true});
     if (!line.is_meant || line.before.size() >= line.text.size()) continue;
     const float x = row.x + ui.text_width(line.before, Font::kMono);
     ui.line(x, row.bottom() - 3, std::min(x + 24, row.right()), row.bottom() - 3, Colour::kRed,
@@ -64,7 +64,7 @@ void draw_problem_row(Ui& ui, const Rect& row, const experiments::StudyProblem& 
   ui.text(head.take_left(ui.text_width(where, Font::kSmallStrong) + 2, 16), where,
           {.font = Font::kSmallStrong, .colour = Colour::kRed});
   ui.text(head, problem.pointer.empty() ? "/" : problem.pointer,
-          {.font = Font::kMono, .colour = Colour::kSoft});
+          {.font = Font::kMono, .colour = Colour::kSoft, .any_length = true});
   ui.text(inside.take_top(ui.text_height(inside.width, problem.message, kProblemMessage), 8),
           problem.message, kProblemMessage);
   if (!excerpt.lines.empty()) {
@@ -93,9 +93,9 @@ void draw_study_problems(Ui& ui, const Rect& place, const StudyOutline& outline,
   ui.text(title,
           trn("{} problem in the file", "{} problems in the file", static_cast<int>(count)),
           {.font = Font::kLarge, .colour = Colour::kRed});
-  ui.text(inside.take_top(26, 8),
-          tr("Mend them in your editor; the file is read again once it is saved."),
-          {.colour = Colour::kSoft});
+  const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
+  const char* how = tr("Mend them in your editor; the file is read again once it is saved.");
+  ui.text(inside.take_top(ui.text_height(inside.width, how, soft), 8), how, soft);
   const float width = inside.width - 16;
   float content = 0, chosen_from = 0, chosen_height = 0;
   const bool moved = move_in_list(ui, count, state.problem);

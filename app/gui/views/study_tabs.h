@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "app/gui/ui.h"
 #include "app/language/words.h"
@@ -26,6 +27,12 @@ inline constexpr std::array kStudyTabs = {
     StudyTabLook{StudyTab::kSessions, "tab_sessions", tr_later("Sessions"), '1'},
     StudyTabLook{StudyTab::kStart, "tab_start", tr_later("Start"), '0'}};
 
+/// At the right end of a header's strip, which it shortens; `kept` of it stays free. Where
+/// there is too little room, keys give way, then words are smaller. Returns the tab that was
+/// chosen.
+[[nodiscard]] StudyTab draw_tabs(Ui& ui, Rect& strip, const std::vector<StudyTabLook>& tabs,
+                                 StudyTab current, float kept);
+
 /// The header of every view of a study: its name, its marks, and the tabs. Leaves room at the
 /// right for a view's own buttons: `own_buttons` is that rectangle. Returns the tab that was
 /// chosen.
@@ -38,8 +45,9 @@ struct StudyHeader {
 [[nodiscard]] StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& study,
                                             StudyTab current, float own_width = 0);
 
-/// The footer of these views: `left` and `right` in words.
+/// The footer of these views: `left`, what came of the last work, and `right` in words.
+/// `is_path`: what is at the right is one.
 void draw_study_footer(Ui& ui, const Rect& place, const std::string& left,
-                       const std::string& right);
+                       const std::string& right, bool is_path = false);
 
 }  // namespace jnd::app::gui

@@ -37,7 +37,7 @@ StudyTab draw_file_header(Ui& ui, const Rect& place, const StudyViewModel& model
   const std::string title =
       outline.title.empty() ? outline.file.filename().string() : outline.title;
   const float width = std::min(ui.text_width(title, Font::kBody) + 2, strip.width - 120);
-  ui.text(strip.take_left(width, 18), title, {});
+  ui.text(strip.take_left(width, 18), title, {.any_length = true});
   ui.chip(strip.x, place.y + (place.height - 26) / 2, tr("study file"), Colour::kBlue);
   return chosen ? StudyTab::kStart : StudyTab::kNone;
 }
@@ -60,21 +60,24 @@ void draw_stage(Ui& ui, Rect& inside, const OutlineStage& stage) {
   row.take_left(indent);
   if (!is_arm) row.take_top(8);
   Rect head = row.take_top(first);
-  ui.text(head.take_right(90, 12), duration_words(stage.duration_s),
+  const std::string length = duration_words(stage.duration_s);
+  const float of_length = std::max(90.0f, ui.text_width(length, Font::kSmall) + 2);
+  ui.text(head.take_right(of_length, 12), length,
           {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight});
   if (stage.line > 0) {
     ui.text(head.take_right(60, 8), tr("line {}", stage.line),
             {.font = Font::kTiny, .colour = Colour::kSoft, .align = Align::kRight});
   }
-  ui.text(head, stage.title, {.font = is_arm ? Font::kSmallStrong : Font::kStrong});
+  ui.text(head, stage.title,
+          {.font = is_arm ? Font::kSmallStrong : Font::kStrong, .any_length = true});
   if (is_arm) return;
   ui.text(row.take_top(second), stage.kind + (stage.what.empty() ? "" : " · " + stage.what),
-          {.colour = Colour::kSoft});
-  const TextStyle small{.font = Font::kSmall};
+          {.colour = Colour::kSoft, .any_length = true});
+  const TextStyle small{.font = Font::kSmall, .any_length = true};
   for (const std::string& detail : stage.details) ui.text(row.take_top(kDetail), detail, small);
   if (!stage.only_for.empty()) {
     ui.text(row.take_top(kDetail), stage.only_for,
-            {.font = Font::kSmall, .colour = Colour::kAmber});
+            {.font = Font::kSmall, .colour = Colour::kAmber, .any_length = true});
   }
 }
 
@@ -97,10 +100,10 @@ void draw_wrapped_fact(Ui& ui, Rect& inside, const std::string& name,
                        const std::string& value) {
   if (value.empty()) return;
   const TextStyle style{.font = Font::kSmall, .wrap = true};
-  constexpr float kName = 104;
-  const float height = std::max(22.0f, ui.text_height(inside.width - kName, value, style));
+  const float name_width = std::clamp(ui.text_width(name, Font::kSmall) + 10, 104.0f, 140.0f);
+  const float height = std::max(22.0f, ui.text_height(inside.width - name_width, value, style));
   Rect row = inside.take_top(height, 4);
-  Rect name_place = row.take_left(kName);
+  Rect name_place = row.take_left(name_width);
   ui.text(name_place.take_top(ui.line_height(Font::kSmall)), name,
           {.font = Font::kSmall, .colour = Colour::kSoft});
   ui.text(row, value, style);
@@ -133,12 +136,21 @@ void draw_facts(Ui& ui, Rect& inside, const StudyOutline& outline) {
 
 void draw_orders(Ui& ui, Rect& inside, const StudyViewModel& model, StudyViewState& state,
                  StudyViewResult& result) {
-  Rect head = inside.take_top(38, 8);
-  const ButtonStyle more{.key = {Key::kPlus},
-                         .enabled = state.num_participants < kMostParticipants,
-                         .repeats = true};
-  const ButtonStyle fewer{
+  const std::string heading = tr("Orders of the next {}", state.num_participants);
+  ButtonStyle more{.key = {Key::kPlus},
+                   .enabled = state.num_participants < kMostParticipants,
+                   .repeats = true};
+  ButtonStyle fewer{
       .key = {Key::kMinus}, .enabled = state.num_participants > 1, .repeats = true};
+  const auto has_room = [&] {
+    return ui.button_width(tr("More"), more) + 8 + ui.button_width(tr("Fewer"), fewer) + 12 +
+               ui.text_width(heading, Font::kSmallStrong) <=
+           inside.width;
+  };
+  if (!has_room()) more.hides_key = fewer.hides_key = true;
+  const bool is_above = !has_room();
+  if (is_above) ui.heading(inside.take_top(18, 6), heading);
+  Rect head = inside.take_top(38, 8);
   const int before = state.num_participants;
   if (ui.button("more_participants", head.take_right(ui.button_width(tr("More"), more), 8),
                 tr("More"), more)) {
@@ -149,7 +161,7 @@ void draw_orders(Ui& ui, Rect& inside, const StudyViewModel& model, StudyViewSta
     --state.num_participants;
   }
   result.orders_changed = state.num_participants != before;
-  ui.heading(head, tr("Orders of the next {}", state.num_participants));
+  if (!is_above) ui.heading(head, heading);
   if (!model.orders_problem.empty()) {
     const TextStyle soft{.colour = Colour::kSoft, .wrap = true};
     ui.text(inside.take_top(ui.text_height(inside.width, model.orders_problem, soft)),
@@ -158,11 +170,14 @@ void draw_orders(Ui& ui, Rect& inside, const StudyViewModel& model, StudyViewSta
   }
   for (const PlannedOrder& order : model.orders) {
     Rect line = inside.take_top(30);
-    ui.text(line.take_right(80), duration_words(order.duration_s),
+    const std::string length = duration_words(order.duration_s);
+    const float of_length = std::max(80.0f, ui.text_width(length, Font::kSmall) + 2);
+    ui.text(line.take_right(of_length, 8), length,
             {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight});
     const float name = ui.text_width(order.participant, Font::kStrong) + 2;
     ui.text(line.take_left(name, 12), order.participant, {.font = Font::kStrong});
-    ui.text(line, order.cells, {.font = Font::kSmall, .colour = Colour::kBlue});
+    ui.text(line, order.cells,
+            {.font = Font::kSmall, .colour = Colour::kBlue, .any_length = true});
     const TextStyle small{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
     for (const std::string& block : order.blocks) {
       const float height = ui.text_height(inside.width, block, small);
@@ -218,7 +233,8 @@ StudyViewResult draw_study_view(Ui& ui, const StudyViewModel& model, StudyViewSt
   if (model.outline.problems.empty()) draw_orders(ui, inside, model, state, result);
   state.orders_height = inside.y - top;
   ui.end_scroll();
-  draw_study_footer(ui, footer, reload_words(model), model.outline.file.string());
+  draw_study_footer(ui, footer, reload_words(model), model.outline.file.string(),
+                    /*is_path=*/true);
   if (state.asks_for_folder) draw_folder_dialog(ui, state, result);
   return result;
 }

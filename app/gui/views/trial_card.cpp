@@ -276,7 +276,7 @@ class TrialCard {
     const bool typed = !state_.percent.empty() && state_.percent != ".";
     const double number = std::strtod(state_.percent.c_str(), nullptr);
     const bool is_answer = typed && (percent || number > 0.0) && may_go_on();
-    const Rect enter = row.take_right(200, 16);
+    const Rect enter = row.take_right(std::min(200.0f, row.width * 0.42f), 16);
     ui_.fill(row, Colour::kGround, 9);
     ui_.outline(row, typed ? Colour::kBlue : Colour::kLine, 9, typed ? 2 : 1);
     const TextStyle style{.font = typed ? Font::kHuge : Font::kLarge,

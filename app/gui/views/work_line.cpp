@@ -7,6 +7,17 @@
 
 namespace jnd::app::gui {
 
+float work_height(const Ui& ui, float width, const StudyWork& work) {
+  if (!work.running.empty()) return 42;
+  if (work.outcome.sentence.empty()) return 0;
+  const TextStyle style{.font = Font::kSmall, .wrap = true};
+  float height = ui.text_height(width, work.outcome.sentence, style) + 8;
+  for (const std::string& problem : work.outcome.problems) {
+    height += ui.text_height(width, problem, style) + 6;
+  }
+  return height;
+}
+
 bool draw_work(Ui& ui, Rect place, const StudyWork& work) {
   if (!work.running.empty()) {
     const ButtonStyle style{.key = {Key::kF2}};
@@ -28,7 +39,7 @@ bool draw_work(Ui& ui, Rect place, const StudyWork& work) {
   const TextStyle soft{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
   for (const std::string& problem : work.outcome.problems) {
     const float height = ui.text_height(place.width, problem, soft);
-    if (height > place.height) break;
+    if (height > place.height + 1) break;
     ui.text(place.take_top(height, 6), problem, soft);
   }
   return false;

@@ -133,6 +133,16 @@ TEST(Theme, ScaleStaysWhereLettersCanBeReadAndDrawn) {
   EXPECT_TRUE(theme.fonts_are_stale());
 }
 
+TEST(Theme, LettersGrowAsFarAsEveryViewHasRoom) {
+  EXPECT_EQ(scale_with_room(1.0f, 1024, 640), 1.0f);
+  EXPECT_EQ(scale_with_room(2.0f, 1024, 640), 1.0f);
+  EXPECT_EQ(scale_with_room(0.5f, 1024, 640), 0.5f);
+  // 1280 / 1024 is 1.25, and 700 / 640 a little more than 1.05.
+  EXPECT_EQ(scale_with_room(2.0f, 1280, 800), 1.25f);
+  EXPECT_EQ(scale_with_room(2.0f, 1280, 700), 1.05f);
+  EXPECT_EQ(scale_with_room(2.0f, 3840, 2160), 2.0f);
+}
+
 TEST(Theme, EveryFontHasTheSignsThatUnitsKeysAndNamesNeed) {
   HeadlessUi ui;
   for (int font = 0; font < kNumFonts; ++font) {

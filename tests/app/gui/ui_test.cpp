@@ -749,6 +749,79 @@ TEST(Text, WhateverTheBytesAreItIsDrawn) {
   });
 }
 
+namespace {
+
+const Drawn::Line* line_with(const Drawn& drawn, const std::string& part) {
+  const auto found = std::ranges::find_if(drawn.lines, [&](const Drawn::Line& one) {
+    return one.words.find(part) != std::string::npos;
+  });
+  return found == drawn.lines.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+TEST(Text, OfTheProgramIsOnTwoLinesOrSmallerBeforeItIsCut) {
+  HeadlessUi ui;
+  ui.frame([](Ui& frame) {
+    const float width = frame.text_width("Größenschätzung", Font::kBody);
+    frame.text({10, 10, width + 20, 46}, "Größenschätzung und mehr");
+    frame.text({10, 100, width - 4, 20}, "Größenschätzung");
+  });
+  const auto is_line = [&](const char* words) {
+    return [words](const Drawn::Line& line) { return line.words == words && !line.is_cut; };
+  };
+  EXPECT_EQ(std::ranges::count_if(ui.drawn().lines, is_line("Größenschätzung")), 2);
+  EXPECT_EQ(std::ranges::count_if(ui.drawn().lines, is_line("und mehr")), 1);
+  EXPECT_LT(ui.drawn().lines.back().place.height, 23) << "smaller than the letters of a body";
+}
+
+TEST(Text, ThatIsCutShowsWholeWhenItIsPointedAt) {
+  HeadlessUi ui;
+  const std::string title = "A title that an author wrote and that is of any length";
+  const auto draw = [&](Ui& frame) {
+    frame.text({10, 10, 80, 20}, title, {.any_length = true});
+    frame.text({10, 50, 60, 20}, "The program's words that have no room at all");
+    frame.text({10, 90, 400, 20}, "These have room", {.any_length = true});
+  };
+  const Drawn& drawn = ui.frame(draw);
+  ASSERT_NE(line_with(drawn, "A tit"), nullptr);
+  EXPECT_TRUE(line_with(drawn, "A tit")->is_cut);
+  EXPECT_TRUE(line_with(drawn, "A tit")->shows_whole);
+  EXPECT_TRUE(line_with(drawn, "The")->is_cut);
+  EXPECT_FALSE(line_with(drawn, "The")->shows_whole) << "it is to have room";
+  EXPECT_FALSE(line_with(drawn, "These")->is_cut);
+  EXPECT_EQ(std::ranges::count(drawn.texts, title), 1);
+  ui.move(40, 20);
+  EXPECT_EQ(std::ranges::count(ui.frame(draw).texts, title), 2) << "the tooltip";
+  ui.move(40, 100);
+  EXPECT_EQ(std::ranges::count(ui.frame(draw).texts, "These have room"), 1);
+}
+
+TEST(Button, GivesUpLargeLettersAndItsKeyBeforeItsWordsAreCut) {
+  HeadlessUi ui;
+  ui.may_share_keys = true;
+  const ButtonStyle style{.key = {letter('W'), true}};
+  ui.frame([&](Ui& frame) {
+    const float words = frame.text_width("Leave the session", Font::kSmallStrong);
+    (void)frame.button("wide", {10, 10, frame.button_width("Leave", style), 30}, "Leave",
+                       style);
+    (void)frame.button("low", {10, 50, words + 14, 26}, "Leave the session", style);
+    (void)frame.button("high", {10, 90, words + 14, 48}, "Leave the session", style);
+    (void)frame.button("narrow", {10, 150, 30, 30}, "Leave the session", style);
+  });
+  const auto has_cap = [&](float y) {
+    return std::ranges::any_of(ui.drawn().lines, [&](const Drawn::Line& line) {
+      return line.words == "Ctrl W" && line.place.y > y && line.place.y < y + 40;
+    });
+  };
+  EXPECT_TRUE(has_cap(5));
+  EXPECT_FALSE(has_cap(45)) << "no room for both";
+  EXPECT_TRUE(has_cap(88)) << "on two lines there is";
+  EXPECT_NE(line_with(ui.drawn(), "Leave the session"), nullptr);
+  EXPECT_TRUE(line_with(ui.drawn(), "…")->is_cut);
+  EXPECT_EQ(ui.drawn().find("low")->key, "Ctrl W") << "it answers to it all the same";
+}
+
 TEST(Rect, CutsStripsOffItsSides) {
   Rect rest = {0, 0, 100, 80};
   EXPECT_EQ(rest.take_top(10, 5), (Rect{0, 0, 100, 10}));

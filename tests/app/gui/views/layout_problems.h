@@ -50,7 +50,9 @@ class LayoutProblems {
   void look_at_lines() {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       const Drawn::Line& line = lines_[i];
-      if (line.is_cut) say("cut", line.words);
+      // Values, and what somebody wrote, are of any length: there an ellipsis is right, as long
+      // as all of it shows when it is pointed at. The program's own words are to have room.
+      if (line.is_cut && !line.shows_whole) say("cut", line.words);
       if (!holds(screen_, line.place)) say("outside of the window", line.words);
       // Who gives a box no height wants as many lines as it takes.
       if (line.box.height > 0 && line.place.bottom() > line.box.bottom() + kBetweenLines) {
