@@ -1,54 +1,12 @@
 #include <gmock/gmock.h>
 
+#include "app/blind_study.h"
 #include "app/window/window_fixture.h"
 
 namespace jnd::app {
 namespace blind_window_test {
 
 namespace fs = std::filesystem;
-
-// Every name and number in it that could tell a level is a word that nothing else says.
-const std::string kBlindStudy = R"json({
-  "format": 1, "name": "window", "languages": ["en"], "title": {"en": "Window"},
-  "authors": ["A. Author"], "blinding": "double", "comment": "treacly",
-  "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05, "max_missed_ratio": 1.0},
-  "stages": [
-    {"kind": "training", "name": "training", "instruction": {"en": "Feel."},
-     "examples": [{"medium": "viscous", "viscosity_pa_s": 0.1371, "duration_s": 0.2}]},
-    {"kind": "counterbalance", "name": "gluey_order", "title": {"en": "Gluey first or last"},
-     "method": "order", "arms": [
-      {"name": "honeyed", "stages": [
-        {"kind": "block", "name": "syrupy", "title": {"en": "The tarry group"},
-         "procedure": "constant_stimuli", "medium": "viscous",
-         "viscosity_pa_s": [0.1372, 0.2719], "reference_viscosity_pa_s": 0.1913,
-         "repetitions": 1, "free_space_between_s": 0, "instruction": {"en": "Compare."},
-         "question": {"en": "More?"}, "expected_trial_s": 5}]},
-      {"name": "watery", "stages": [
-        {"kind": "block", "name": "brothy", "title": {"en": "The soupy group"},
-         "procedure": "magnitude_production", "medium": "water", "scale": [0.8317],
-         "target_percent": [100], "coarse_step_scale": 0.0537, "fine_step_scale": 0.0119,
-         "free_space_between_s": 0, "instruction": {"en": "Set it."},
-         "question": {"en": "So?"}, "expected_trial_s": 5}]}]}
-  ]
-})json";
-
-std::vector<std::string> telltales() {
-  return {"treacly", "gluey", "Gluey",  "honeyed", "syrupy",  "tarry", "watery", "brothy",
-          "soupy",   "0.137", "0.1372", "0.272",   "0.2719",  "0.191", "0.1913", "0.832",
-          "0.8317",  "0.885", "0.0537", "0.0119",  "viscous", "Pa s",  "scale "};
-}
-
-/// The telltale words in a text, each with its line.
-std::vector<std::string> told_by(const std::string& text) {
-  std::vector<std::string> told;
-  for (const std::string& word : telltales()) {
-    const std::size_t at = text.find(word);
-    if (at == std::string::npos) continue;
-    const std::size_t start = text.rfind('\n', at) + 1;
-    told.push_back(word + " in: " + text.substr(start, text.find('\n', at) - start));
-  }
-  return told;
-}
 
 class BlindWindowTest : public WindowTest {
  protected:
