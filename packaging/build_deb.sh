@@ -8,6 +8,11 @@ into=$(cd "$2" && pwd)
 cd "$(dirname "$0")/.."
 . packaging/versions.sh
 architecture=$(dpkg --print-architecture)
+maintainer=$(sed -n 's/^JND_MAINTAINER:STRING=//p' "$build/CMakeCache.txt")
+if [ -z "$maintainer" ]; then
+  echo "build_deb: $build: expected JND_MAINTAINER in its CMakeCache.txt, found none; configure it again" >&2
+  exit 1
+fi
 
 stage=$(mktemp -d)
 trap 'rm -rf "$stage"' EXIT

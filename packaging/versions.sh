@@ -1,6 +1,5 @@
 # Sourced at the top of the tree: what a package is called and when it was made, from one place each.
 version=$(sed -n 's/^project(jnd VERSION \([0-9.]*\) .*/\1/p' CMakeLists.txt)
-maintainer='The jnd authors <jnd@jnd.invalid>'
 if [ -e .git ] && git rev-parse HEAD >/dev/null 2>&1; then
   SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 else

@@ -22,7 +22,7 @@
   ADD(doctor) ADD(stability) ADD(characterize) ADD(device_simulator)        \
   ADD(device_server) ADD(device_key) ADD(sound)                             \
   /* The program itself. */                                                \
-  ADD(completions) ADD(man_pages)
+  ADD(manual) ADD(completions) ADD(man_pages)
 // clang-format on
 
 namespace jnd::app {

@@ -43,6 +43,17 @@ void Theme::set_scale(float scale) noexcept {
   scale_ = std::isfinite(scale) ? std::clamp(scale, 0.5f, 4.0f) : 1.0f;
 }
 
+float scale_from_afar(int width_px, int height_px) noexcept {
+  constexpr float kWidth = 1024;
+  constexpr float kHeight = 600;
+  constexpr float kStep = 0.25f;
+  // Beyond it letters are large enough, and take long to make.
+  constexpr float kLargest = 2.5f;
+  const float fitting =
+      std::min(static_cast<float>(width_px) / kWidth, static_cast<float>(height_px) / kHeight);
+  return std::clamp(std::floor(fitting / kStep) * kStep, 0.5f, kLargest);
+}
+
 std::uint32_t Theme::rgb(Colour colour) const noexcept {
   return (dark_ ? kDark : kLight)[static_cast<std::size_t>(colour)];
 }

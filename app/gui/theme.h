@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -62,7 +63,9 @@ class Theme {
 
   /// Builds the font atlas of ImGui's current context for the scale; after it changed, outside
   /// of a frame. Missing font files are replaced by what there is and named in `missing_fonts`.
-  void load_fonts();
+  /// `roles`: these alone, where not everything is drawn; the one of the nearest size then
+  /// stands for each of the others. All where it is empty.
+  void load_fonts(std::span<const Font> roles = {});
   [[nodiscard]] const std::vector<std::string>& missing_fonts() const noexcept {
     return missing_;
   }
@@ -90,6 +93,11 @@ class Theme {
   std::array<ImFont*, kNumFonts> fonts_{};
   std::vector<std::string> missing_;
 };
+
+/// The scale of a window that is read from afar, whose letters grow with it: at least 1024 x
+/// 600 logical pixels have room in it, at any size. From 0.5 to 2.5, in steps, so that a window
+/// that is being resized does not make new letters all the time.
+[[nodiscard]] float scale_from_afar(int width_px, int height_px) noexcept;
 
 /// How opaque the ground of a chip is, of the colour of its words.
 inline constexpr float kChipAlpha = 0.12f;

@@ -132,13 +132,26 @@ void correct_advances(ImFont& font, FT_Face face, float line, float spacing_px) 
   }
 }
 
+/// The role that is wanted and whose letters are most like this one's in size.
+std::size_t nearest_in_size(std::size_t role, const std::array<bool, kNumFonts>& is_wanted) {
+  std::size_t nearest = role;
+  for (std::size_t i = 0; i < kRoles.size(); ++i) {
+    if (!is_wanted[i]) continue;
+    const float away = std::abs(kRoles[i].size - kRoles[role].size);
+    if (nearest == role || away < std::abs(kRoles[nearest].size - kRoles[role].size)) {
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
 }  // namespace
 
 float Theme::size(Font font) const noexcept {
   return kRoles[static_cast<std::size_t>(font)].size;
 }
 
-void Theme::load_fonts() {
+void Theme::load_fonts(std::span<const Font> roles) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
   atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
@@ -147,7 +160,11 @@ void Theme::load_fonts() {
   const FreeType free_type;
   std::array<FoundFont, kNumFonts> found;
   std::array<float, kNumFonts> lines{};
+  std::array<bool, kNumFonts> is_wanted{};
+  is_wanted.fill(roles.empty());
+  for (const Font role : roles) is_wanted[static_cast<std::size_t>(role)] = true;
   for (std::size_t i = 0; i < kRoles.size(); ++i) {
+    if (!is_wanted[i]) continue;
     const float em_px = kRoles[i].size * scale_;
     found[i] = find_font(free_type.library(), kRoles[i].cut, missing_);
     if (found[i].face == nullptr) {
@@ -164,6 +181,9 @@ void Theme::load_fonts() {
     if (found[i].face == nullptr) continue;
     correct_advances(*fonts_[i], found[i].face.get(), lines[i],
                      kRoles[i].spacing_ratio * kRoles[i].size * scale_);
+  }
+  for (std::size_t i = 0; i < kRoles.size(); ++i) {
+    if (!is_wanted[i]) fonts_[i] = fonts_[nearest_in_size(i, is_wanted)];
   }
   ImGui::GetIO().FontDefault = font(Font::kBody);
   fonts_scale_ = scale_;

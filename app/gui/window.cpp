@@ -93,10 +93,8 @@ void Window::Implementation::draw(const Frame& frame) {
   frame_times.end_frame(drawn.view);
   widget_log.write(drawn, theme.scale());
 
-  if (second == nullptr) return;
-  glfwGetFramebufferSize(second, &width, &height);
-  if (width <= 0 || height <= 0) return;
-  set_up(second_context, width, height);
+  if (!prepare_second()) return;
+  set_up(second_context, second_width_px, second_height_px);
   draw_second();
 }
 
@@ -190,9 +188,5 @@ void Window::set_zoom(float zoom) {
   my_->zoomed_s = glfwGetTime();
   my_->something_happened(false);
 }
-
-bool Window::second_is_open() const noexcept { return my_->second != nullptr; }
-
-void Window::close_second() { my_->second_is_unwanted = my_->second != nullptr; }
 
 }  // namespace jnd::app::gui

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/gui/ui.h"
+#include "app/operator/participant_place.h"
 
 namespace jnd::app::gui {
 
@@ -32,6 +33,8 @@ class SharedContext {
 /// With the environment variable JND_WIDGETS=FILE every frame that shows something new is also
 /// written to FILE (`widget_log.h`), for tests that click. With JND_FRAME_TIMES=FILE
 /// what each frame cost is appended to FILE (`frame_times.h`); each then waits for OpenGL.
+/// With JND_MONITORS=FILE the monitors are those that FILE tells (`told_monitors`), whenever it
+/// is looked for them.
 class Window {
  public:
   /// Throws `core::Error` beginning with "no display was found", or when there is no OpenGL.
@@ -76,11 +79,17 @@ class Window {
   /// Within 0.5 to 2; the letters follow before the next frame.
   void set_zoom(float zoom);
 
-  /// A second window, for the participant: on another monitor and filling it where there is
-  /// one. What is drawn into it is drawn whenever the first is. Its keys count as the first
-  /// one's.
-  void open_second(const std::string& title, Frame frame);
+  /// Those that are plugged in: as they were half a second ago or later.
+  [[nodiscard]] const std::vector<Monitor>& monitors();
+  /// A second window, for the participant: without a frame and filling the monitor of that
+  /// name, or, where the name is "", a plain one beside ours, behind it where there is no room.
+  /// It never takes the keyboard; what is typed into it counts as typed into the first. What is
+  /// drawn into it is drawn whenever the first is, in large letters (`scale_from_afar`). It
+  /// moves where it is open already and somewhere else. Throws `core::Error`.
+  void open_second(const std::string& title, Frame frame, const std::string& monitor);
   void close_second();
+  /// Once for each time that somebody wanted to close it by its own button.
+  [[nodiscard]] bool second_close_requested() noexcept;
   [[nodiscard]] bool second_is_open() const noexcept;
 
   /// Throws `core::Error` where there cannot be one. It has to be gone before the window is.

@@ -71,8 +71,16 @@ void Window::Implementation::install_callbacks(GLFWwindow* target, bool with_mou
     self(from).something_happened(true);
   });
   glfwSetWindowFocusCallback(target, [](GLFWwindow* from, int is_focused) {
-    if (is_focused == GLFW_FALSE) self(from).queue.release_all();
-    self(from).something_happened(false);
+    Self& my = self(from);
+    if (is_focused == GLFW_FALSE) my.queue.release_all();
+    my.something_happened(false);
+    // A window manager may give the keyboard to a new window, or to one that was clicked on: it
+    // is the experimenter's, who would type into nothing that they see.
+    const bool is_taken =
+        from == my.second && is_focused == GLFW_TRUE && !my.second_monitor.empty();
+    if (is_taken && glfwGetWindowAttrib(my.main, GLFW_ICONIFIED) == GLFW_FALSE) {
+      glfwFocusWindow(my.main);
+    }
   });
   glfwSetWindowRefreshCallback(target,
                                [](GLFWwindow* from) { self(from).something_happened(true); });
@@ -83,7 +91,7 @@ void Window::Implementation::install_callbacks(GLFWwindow* target, bool with_mou
   glfwSetWindowCloseCallback(target, [](GLFWwindow* from) {
     glfwSetWindowShouldClose(from, GLFW_FALSE);
     Self& my = self(from);
-    (from == my.main ? my.close_is_wanted : my.second_is_unwanted) = true;
+    (from == my.main ? my.close_is_wanted : my.second_close_is_wanted) = true;
     my.something_happened(true);
   });
   if (!with_mouse) return;

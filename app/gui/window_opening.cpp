@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <utility>
 
 #include "app/gui/window_state.h"
 #include "core/error.h"
@@ -19,11 +18,6 @@ namespace {
 
 // Of the work area, so that the window's frame and title fit, too.
 constexpr float kMostOfMonitor = 0.96f;
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
 
 std::atomic<bool> is_open = false;
 
@@ -71,6 +65,11 @@ Glfw::Glfw() {
 
 Glfw::~Glfw() { glfwTerminate(); }
 
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
 std::string last_glfw_error() {
   const char* description = nullptr;
   glfwGetError(&description);
@@ -83,27 +82,10 @@ ScreenArea area_of(GLFWmonitor* monitor) {
   return area;
 }
 
-std::vector<GLFWmonitor*> monitors() {
-  int count = 0;
-  GLFWmonitor** all = glfwGetMonitors(&count);
-  return {all, all + count};
-}
-
-GLFWmonitor* monitor_of(GLFWwindow* window) {
-  ScreenArea place;
-  glfwGetWindowPos(window, &place.x, &place.y);
-  glfwGetWindowSize(window, &place.width, &place.height);
-  for (GLFWmonitor* monitor : monitors()) {
-    if (area_of(monitor).contains(place.x + place.width / 2, place.y + place.height / 2)) {
-      return monitor;
-    }
-  }
-  return nullptr;
-}
-
 void Window::Implementation::open(const WindowSettings& settings) {
   widget_log = WidgetLog(environment("JND_WIDGETS"));
   frame_times = FrameTimes(environment("JND_FRAME_TIMES"));
+  told_monitors_file = environment("JND_MONITORS");
   zoom = settings.zoom;
   theme.set_dark(settings.dark);
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
@@ -163,41 +145,6 @@ void Window::Implementation::open(const WindowSettings& settings) {
   glfwShowWindow(main);
 }
 
-void Window::open_second(const std::string& title, Frame frame) {
-  Implementation& my = *my_;
-  my.second_frame = std::move(frame);
-  my.second_is_unwanted = false;
-  my.something_happened(false);
-  if (my.second != nullptr) return;
-  GLFWmonitor* here = monitor_of(my.main);
-  GLFWmonitor* other = nullptr;
-  for (GLFWmonitor* monitor : monitors()) {
-    if (monitor != here) other = monitor;
-  }
-  // The keyboard stays with the experimenter.
-  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-  glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE);
-  glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
-  glfwWindowHint(GLFW_DECORATED, other == nullptr ? GLFW_TRUE : GLFW_FALSE);
-  const ScreenArea area = other == nullptr ? ScreenArea{0, 0, 960, 640} : area_of(other);
-  my.second = glfwCreateWindow(area.width, area.height, title.c_str(), nullptr, my.main);
-  glfwDefaultWindowHints();
-  if (my.second == nullptr) {
-    throw core::Error("the participant's window cannot be opened: " + last_glfw_error());
-  }
-  if (other != nullptr) glfwSetWindowPos(my.second, area.x, area.y);
-  glfwMakeContextCurrent(my.second);
-  glfwSwapInterval(0);
-  glfwMakeContextCurrent(my.main);
-  my.second_context = ImGui::CreateContext(my.theme.font(Font::kBody)->ContainerAtlas);
-  ImGui::SetCurrentContext(my.second_context);
-  ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-  my.second_ui = std::make_unique<Ui>(my.theme);
-  ImGui::SetCurrentContext(my.context);
-  my.install_callbacks(my.second, false);
-  glfwShowWindow(my.second);
-}
-
 std::unique_ptr<SharedContext> Window::make_shared_context() {
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE);
@@ -207,32 +154,6 @@ std::unique_ptr<SharedContext> Window::make_shared_context() {
     throw core::Error("3D view: expected a second OpenGL context, found " + last_glfw_error());
   }
   return std::make_unique<HiddenWindow>(hidden);
-}
-
-void Window::Implementation::draw_second() {
-  // A monitor that was unplugged leaves its window where nobody sees it.
-  if (monitor_of(second) == nullptr) second_is_unwanted = true;
-  second_ui->begin_frame(no_input);
-  second_frame(*second_ui);
-  widget_log.keep_texts(second_ui->end_frame());
-  ImDrawData* data = ImGui::GetDrawData();
-  glfwMakeContextCurrent(second);
-  // The first context's renderer draws both: what it made is shared by the two windows.
-  ImGui::SetCurrentContext(context);
-  clear();
-  ImGui_ImplOpenGL3_RenderDrawData(data);
-  glfwSwapBuffers(second);
-  glfwMakeContextCurrent(main);
-}
-
-void Window::Implementation::close_second() {
-  if (second == nullptr) return;
-  second_ui.reset();
-  ImGui::DestroyContext(std::exchange(second_context, nullptr));
-  glfwDestroyWindow(std::exchange(second, nullptr));
-  second_frame = nullptr;
-  ImGui::SetCurrentContext(context);
-  glfwMakeContextCurrent(main);
 }
 
 Window::Implementation::~Implementation() {

@@ -37,11 +37,11 @@ struct ScreenArea {
   }
 };
 
+/// Without panels.
 [[nodiscard]] ScreenArea area_of(GLFWmonitor* monitor);
-[[nodiscard]] std::vector<GLFWmonitor*> monitors();
-/// That the middle of the window is on; nullptr for none.
-[[nodiscard]] GLFWmonitor* monitor_of(GLFWwindow* window);
 [[nodiscard]] std::string last_glfw_error();
+/// "" where it is not set.
+[[nodiscard]] std::string environment(const char* name);
 
 /// For the window's own sources alone.
 struct Window::Implementation {
@@ -65,6 +65,15 @@ struct Window::Implementation {
   static void sharpen_letters();
   void draw(const Frame& frame);
   void draw_second();
+  /// Letters for its size; true where there is something to draw into.
+  [[nodiscard]] bool prepare_second();
+  void load_second_fonts(float scale);
+  void make_second(const std::string& title, const std::string& monitor);
+  /// Follows a monitor whose size or place has changed.
+  void keep_second_on_monitor();
+  /// Where a window has most room beside ours; empty where there is none.
+  [[nodiscard]] ScreenArea area_beside() const;
+  void look_at_monitors();
   /// The ground, without the cost of drawing it.
   void clear() const;
   void close_second();
@@ -90,10 +99,20 @@ struct Window::Implementation {
 
   GLFWwindow* second = nullptr;
   ImGuiContext* second_context = nullptr;
+  std::string second_monitor;   ///< That it fills; "" where it stands beside.
+  Theme second_theme;           ///< Its letters grow with it.
+  unsigned second_letters = 0;  ///< OpenGL's texture of them.
+  double second_resized_s = -1.0;
+  int second_width_px = 0, second_height_px = 0;
   std::unique_ptr<Ui> second_ui;
   InputQueue no_input;
   Frame second_frame;
   bool second_is_unwanted = false;
+  bool second_close_is_wanted = false;  ///< By its own close button.
+
+  std::string told_monitors_file;
+  std::vector<Monitor> monitors;
+  double looked_at_monitors_s = -1.0;
 
   bool is_closed = false;
   bool close_is_wanted = false;

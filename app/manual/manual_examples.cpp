@@ -136,6 +136,9 @@ constexpr std::array kExampleRows = {
                "serves a driver of yours to a window on another machine"},
     ExampleRow{"jnd device-key", "jnd device-key laboratory",
                "draws the key that both machines get a copy of"},
+    ExampleRow{"jnd manual", "jnd manual run_a_session --open",
+               "opens the page about sessions, in the browser where the site is there"},
+    ExampleRow{"jnd manual", "jnd manual --list", "the names of all pages"},
     ExampleRow{"jnd completions", "source <(jnd completions bash)",
                "completes commands and options in this shell"},
 };

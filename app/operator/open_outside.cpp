@@ -17,13 +17,16 @@ std::string open_outside(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, ignored)) {
     return tr("{} is not there any more.", path.string());
   }
-  // The shell leaves at once, and nobody waits for the program: it is init's child. A path that
-  // begins with a dash is none of its options.
-  constexpr int kNoProgram = 9;
+  // The shell leaves after a moment, and nobody waits for the program: it is init's child. What
+  // has nothing to open the file with ends within that moment, 0.1 s. A path that begins with a
+  // dash is none of its options.
+  constexpr int kNoProgram = 9, kRefused = 8;
   std::string shell = "sh", command = "-c", name = "open",
               script = as_is(
                   "command -v xdg-open >/dev/null || exit 9; "
-                  "setsid xdg-open \"$1\" </dev/null >/dev/null 2>&1 &"),
+                  "setsid xdg-open \"$1\" </dev/null >/dev/null 2>&1 & "
+                  "for i in 1 2; do sleep 0.05; "
+                  "kill -0 $! 2>/dev/null || { wait $! || exit 8; exit 0; }; done; exit 0"),
               whole = std::filesystem::absolute(path).string();
   std::array<char*, 6> arguments = {shell.data(), command.data(), script.data(),
                                     name.data(),  whole.data(),   nullptr};
@@ -38,6 +41,12 @@ std::string open_outside(const std::filesystem::path& path) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNoProgram) {
     return tr("No program opens files here: expected xdg-open (Debian's xdg-utils). It is {}.",
               whole);
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused) {
+    return tr(
+        "Nothing on this desktop opens {}. Install a program for such files, or open it on "
+        "another machine.",
+        whole);
   }
   return tr("{} cannot be opened from here.", whole);
 }

@@ -1,12 +1,11 @@
 #include "app/operator/session_words.h"
 
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <vector>
 
 #include "app/language/words.h"
+#include "app/operator/participant_words.h"
 #include "app/session/attachment_watch.h"
 #include "experiments/study/media.h"
 
@@ -15,24 +14,8 @@ namespace {
 
 using experiments::AnswerKind;
 
-/// What the participant's screen says of itself, in the language of the session; studies bring
-/// the rest.
-enum class Own { kPause, kWait, kThanks, kRight, kWrong, kTooLate };
-
-std::string own_words(Own what, const std::string& language) {
-  static const std::map<std::string, std::array<const char*, 6>> kWords = {
-      {"en",
-       {as_is("Pause. Rest your hand."), as_is("One moment, please."), as_is("Thank you!"),
-        as_is("That was right."), as_is("That was wrong."),
-        as_is("The time to answer was over. The trial comes again.")}},
-      {"de",
-       {as_is("Pause. Ruhen Sie Ihre Hand aus."), as_is("Einen Moment bitte."),
-        as_is("Vielen Dank!"), as_is("Das war richtig."), as_is("Das war falsch."),
-        as_is("Die Zeit für die Antwort war um. Der Durchgang kommt noch einmal.")}},
-  };
-  const auto known = kWords.find(language);
-  return (known == kWords.end() ? kWords.at("en")
-                                : known->second)[static_cast<std::size_t>(what)];
+std::string own_words(ParticipantWord word, const SessionView& view) {
+  return participant_word(word, view.language);
 }
 
 /// The sentences of a trial for two people, and for one alone.
@@ -107,10 +90,10 @@ constexpr TrialSentences kForOne = {
 /// What is told of the answer before, in front of what is said anyway.
 void add_feedback(SessionView& view) {
   if (!view.feedback_right && !view.missed_deadline) return;
-  const std::string told = own_words(view.missed_deadline   ? Own::kTooLate
-                                     : *view.feedback_right ? Own::kRight
-                                                            : Own::kWrong,
-                                     view.language);
+  const std::string told = own_words(view.missed_deadline   ? ParticipantWord::kTooLate
+                                     : *view.feedback_right ? ParticipantWord::kRight
+                                                            : ParticipantWord::kWrong,
+                                     view);
   view.say = told + (view.say.empty() ? "" : " " + view.say);
   view.participant_text =
       told + (view.participant_text.empty() ? "" : "\n" + view.participant_text);
@@ -308,7 +291,7 @@ std::string answer_words(AnswerKind kind, double answer) {
 
 void add_words(SessionView& view, std::string_view stage_title, std::string_view instruction) {
   view.heading = std::string(stage_title);
-  view.participant_text = own_words(Own::kWait, view.language);
+  view.participant_text = own_words(ParticipantWord::kWait, view);
   switch (view.step) {
     case Step::kBegin:
       return add_begin_words(view);
@@ -341,22 +324,22 @@ void add_words(SessionView& view, std::string_view stage_title, std::string_view
     case Step::kPaused:
       view.heading = tr("Paused");
       view.sentence = paused_words(view);
-      view.participant_text = own_words(Own::kPause, view.language);
+      view.participant_text = own_words(ParticipantWord::kPause, view);
       return;
     case Step::kFault:
       view.heading = view.stop_pressed ? tr("Emergency stop") : tr("No force");
       view.sentence = view.fault;
-      view.participant_text = own_words(Own::kPause, view.language);
+      view.participant_text = own_words(ParticipantWord::kPause, view);
       return;
     case Step::kFailed:
       view.heading = tr("Stopped");
       view.sentence = view.fault;
-      view.participant_text = own_words(Own::kPause, view.language);
+      view.participant_text = own_words(ParticipantWord::kPause, view);
       return;
     case Step::kFinished:
       view.heading = tr("Finished");
       view.sentence = tr("The session is over; every answer is on disk.");
-      view.participant_text = own_words(Own::kThanks, view.language);
+      view.participant_text = own_words(ParticipantWord::kThanks, view);
       return;
   }
 }

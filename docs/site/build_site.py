@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Gathers the pages of the manual for mkdocs, by their paths in the tree, and has the site built.
 
-  build_site.py     builds build/docs; needs mkdocs, its theme, KaTeX, and no network
+  build_site.py              builds build/docs; needs mkdocs, its theme, KaTeX, doxygen, and no network
+  build_site.py --into DIR   builds DIR, without the reference of the C++ code, as a package has it
 
 Pages link to files of the tree as one reads it, so the site keeps its paths: what a page links to comes
 with it, and a folder without a README gets a page that lists it.
 """
 
+import argparse
 import html
 import os
 import pathlib
@@ -16,10 +18,11 @@ import subprocess
 import sys
 
 TREE = pathlib.Path(__file__).resolve().parents[2]
-PAGES = TREE / "build/docs_pages"
-SITE = TREE / "build/docs"
 KATEX = pathlib.Path("/usr/share/javascript/katex")
 FIRST = ("README.md", "docs/README.md")
+# Where the reference of the C++ code is made; the page that names it leads to it on the site.
+CODE = TREE / "build/doxygen"
+CODE_NAME = "`build/docs/cpp/index.html`"
 LINK = re.compile(r"(!?\[(?:[^\[\]]|\[[^\]]*\])*\]\()([^()\s#]+)((?:#[^()\s]*)?\))")
 
 
@@ -39,7 +42,8 @@ def listing(folder):
 
 
 class Gatherer:
-    def __init__(self):
+    def __init__(self, pages, has_code):
+        self.pages, self.has_code = pages, has_code
         self.waiting, self.known = [], set()
 
     def add(self, path):
@@ -72,13 +76,16 @@ class Gatherer:
                 # mkdocs takes what belongs to an entry of a list only where it is indented by four.
                 line = re.sub(r"^ {2,3}(?=\S)", "    ", line)
                 line = LINK.sub(lambda match: self.link(page, match), line)
+                if self.has_code:
+                    up = "../" * (len(page.parts) - 1)
+                    line = line.replace(CODE_NAME, f"[{CODE_NAME}]({up}cpp/index.html)")
             out.append(line)
         return "\n".join(out)
 
     def gather(self):
         while self.waiting:
             path = self.waiting.pop()
-            goal = PAGES / path
+            goal = self.pages / path
             goal.parent.mkdir(parents=True, exist_ok=True)
             if path.suffix == ".md" and (TREE / path).exists():
                 goal.write_text(self.text(path), encoding="utf-8")
@@ -91,39 +98,66 @@ class Gatherer:
                 shutil.copyfile(TREE / path, goal)
 
 
-def foreign_resources():
+def foreign_resources(site):
     """What a page of the site would fetch from elsewhere."""
     found = []
-    for page in SITE.rglob("*.html"):
+    for page in site.rglob("*.html"):
         text = page.read_text(encoding="utf-8")
         for tag in re.findall(r"<(?:script|link|img|iframe|source)\b[^>]*>", text):
             for place in re.findall(r"(?:src|href)=\"?((?:https?:)?//[^\"\s>]+)", tag):
                 if "rel=canonical" not in tag and 'rel="canonical"' not in tag:
-                    found.append(f"{page.relative_to(SITE)}: {html.unescape(place)}")
+                    found.append(f"{page.relative_to(site)}: {html.unescape(place)}")
     return sorted(set(found))
 
 
+def make_code_reference(goal):
+    """The reference of the C++ code, among the pages. True where it could be made without a warning."""
+    shutil.rmtree(CODE, ignore_errors=True)
+    outcome = subprocess.run(["doxygen", "docs/site/Doxyfile"], cwd=TREE, check=False)
+    if outcome.returncode == 0:
+        shutil.move(CODE, goal)
+    return outcome.returncode == 0
+
+
 def main():
-    for folder in (PAGES, SITE):
+    parser = argparse.ArgumentParser(description="Builds the site of the manual.")
+    parser.add_argument("--into", type=pathlib.Path, help="where; without the reference of the C++ code then")
+    into = parser.parse_args().into
+    site = into.resolve() if into else TREE / "build/docs"
+    pages = site.with_name(site.name + "_pages")
+    for folder in (pages, site):
         shutil.rmtree(folder, ignore_errors=True)
-    gatherer = Gatherer()
+    gatherer = Gatherer(pages, has_code=into is None)
     config = (TREE / "docs/site/mkdocs.yml").read_text(encoding="utf-8")
     for page in (*FIRST, *re.findall(r"[\w./-]+\.md\b", config.partition("\nnav:")[2])):
         gatherer.add(pathlib.Path(page))
     gatherer.gather()
-    (PAGES / "site").mkdir()
+    if into is None and not make_code_reference(pages / "cpp"):
+        print("build_site: expected the comments of the headers to be read, found what stands above", file=sys.stderr)
+        return 1
+    (pages / "site").mkdir()
     for name in ("site.css", "equations.js"):
-        shutil.copyfile(TREE / "docs/site" / name, PAGES / "site" / name)
-    shutil.copytree(KATEX, PAGES / "site/katex")
-    (TREE / "build/mkdocs.yml").write_text(config, encoding="utf-8")
-    outcome = subprocess.run(["mkdocs", "build", "--strict", "--quiet", "-f", str(TREE / "build/mkdocs.yml")], check=False)
+        shutil.copyfile(TREE / "docs/site" / name, pages / "site" / name)
+    # Every browser takes the smallest form of the fonts.
+    shutil.copytree(KATEX, pages / "site/katex", ignore=shutil.ignore_patterns("*.ttf", "*.woff"))
+    config = config.replace("docs_dir: docs_pages", f"docs_dir: {pages.name}").replace("site_dir: docs", f"site_dir: {site.name}")
+    config_file = site.with_name(site.name + ".yml")
+    config_file.write_text(config, encoding="utf-8")
+    outcome = subprocess.run(["mkdocs", "build", "--strict", "--quiet", "-f", str(config_file)], check=False)
     if outcome.returncode != 0:
         return outcome.returncode
-    foreign = foreign_resources()
+    # A list of addresses with dates, for a site that has none.
+    for name in ("sitemap.xml", "sitemap.xml.gz"):
+        (site / name).unlink(missing_ok=True)
+    foreign = foreign_resources(site)
     for place in foreign:
         print(f"build_site: expected nothing from elsewhere, found {place}", file=sys.stderr)
-    print(f"{len(list(SITE.rglob('*.html')))} pages; open {SITE.relative_to(TREE)}/index.html")
-    print(f"For the search, serve them: python3 -m http.server --directory {SITE.relative_to(TREE)}")
+    num_pages = sum(1 for page in site.rglob("*.html") if page.relative_to(site).parts[0] != "cpp")
+    shown = site.relative_to(TREE) if site.is_relative_to(TREE) else site
+    print(f"{num_pages} pages; open {shown}/index.html")
+    if into is None:
+        print(f"The C++ of core and device: {shown}/cpp/index.html")
+    print(f"For the search, serve them: python3 -m http.server --directory {shown}")
     return 1 if foreign else 0
 
 

@@ -595,6 +595,16 @@ def check_navigation():
     return problems
 
 
+def check_doxyfile():
+    """What the reference of the C++ code is made of is there."""
+    text = (TREE / "docs/site/Doxyfile").read_text(encoding="utf-8")
+    places = re.search(r"^INPUT\s*=\s*(.+)$", text, re.M)
+    if places is None:
+        return ["docs/site/Doxyfile: expected a line INPUT, found none"]
+    return [f"docs/site/Doxyfile: expected a folder or file, found nothing at {place}"
+            for place in places.group(1).split() if not (TREE / place).exists()]
+
+
 def main():
     parser = argparse.ArgumentParser(description="Holds the documentation to the program.")
     parser.add_argument("program", help="jnd, as it was built")
@@ -612,7 +622,7 @@ def main():
     only = "commands" if arguments.page else arguments.only
     problems = []
     if only in (None, "links"):
-        problems += check_links() + check_navigation()
+        problems += check_links() + check_navigation() + check_doxyfile()
     if only in (None, "names"):
         problems += check_names(program)
     if only in (None, "generated"):

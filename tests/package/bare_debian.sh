@@ -103,6 +103,8 @@ as_anna 'jnd report first_look/viscosity_discrimination.study --out report' >>"$
 lap "jnd results, jnd report"
 as_anna 'jnd devices' | grep -q force_dimension || fail "expected the driver force_dimension among the devices"
 as_anna 'test -s /usr/share/jnd/languages/de/LC_MESSAGES/jnd.mo' || fail "expected the window's words in German, found none"
+page=$(as_anna 'jnd manual run_a_session') || fail "expected the manual beside the program, found none"
+[ "$page" = /usr/share/doc/jnd/html/docs/how-to/run_a_session.html ] || fail "expected the page of the installed site, found $page"
 as_anna 'jnd doctor --fix --dry-run' >"$kept/doctor.txt" || fail "doctor --fix --dry-run failed"
 inside jnd doctor --fix --user anna >>"$kept/doctor.txt" 2>&1 || fail "doctor --fix failed; see $kept/doctor.txt"
 inside id -nG anna | grep -qw jnd || fail "expected anna in the group jnd after doctor --fix"

@@ -6,9 +6,15 @@
 
 #include "app/gui/views/keys_dialog.h"
 #include "app/gui/views/layout.h"
+#include "app/gui/views/participant_screen_dialog.h"
 #include "app/gui/views/participant_view.h"
 #include "app/language/words.h"
+#include "app/manual/manual_place.h"
 #include "app/operator/kept_controls.h"
+#include "app/operator/open_outside.h"
+#include "app/operator/participant_words.h"
+#include "app/operator/remembered_stop.h"
+#include "app/session/shipped_files.h"
 #include "core/clock.h"
 #include "core/error.h"
 
@@ -24,6 +30,9 @@ static std::vector<core::ControlReader::SerialBoxPort> serial_boxes_of(
   if (request.answer_port.empty()) return {};
   return {{.path = request.answer_port, .baud = request.answer_baud}};
 }
+
+/// Where it is kept on which monitor the participant's screen stands.
+static fs::path screen_folder() { return stops_folder(); }
 
 Application::Application(WindowRequest request, std::function<void()> wake)
     : request_(std::move(request)),
@@ -48,6 +57,7 @@ Application::Application(WindowRequest request, std::function<void()> wake)
       participant_stop_(ParticipantStop::key_named(request_.participant_stop),
                         request_.participant_holds ? ParticipantStop::Way::kHold
                                                    : ParticipantStop::Way::kPress) {
+  screen_choice_ = remembered_screen(screen_folder());
   show(start_);
   show_first();
 }
@@ -174,12 +184,14 @@ void Application::forget_study(const fs::path& next) {
 
 void Application::start_session(const NewSession& session) {
   session_.start(session);
+  session_has_no_screen_ = true;
   show(session_);
 }
 
 void Application::resume_session(const fs::path& folder, std::int64_t session) {
   open_folder(folder);
   session_.resume(session);
+  session_has_no_screen_ = true;
   show(session_);
 }
 
@@ -203,16 +215,21 @@ void Application::draw(Ui& ui) {
     attempt(tr("The study cannot be read"), [this] { study_.reload(); });
   }
   keep_stopped();
-  session_.set_covered(shows_keys_ || !message_.empty());
+  session_.set_covered(shows_keys_ || shows_screens_ || !message_.empty());
   screen_->update(ui);
   screen_->draw(ui);
   draw_corner(ui);
   take_global_keys(ui);
   if (!shows_keys_) last_widgets_ = ui.drawn().widgets;
+  place_participant();
   if (!message_.empty()) {
     draw_message(ui);
+  } else if (shows_screens_) {
+    draw_screens(ui);
   } else if (shows_keys_) {
-    shows_keys_ = !draw_keys_dialog(ui, last_widgets_);
+    const KeysResult asked = draw_keys_dialog(ui, last_widgets_);
+    shows_keys_ = !asked.closed && !asked.opens_manual;
+    if (asked.opens_manual) open_manual();
   }
   if (shows(session_) && session_.view() != nullptr && session_.is_covered() &&
       draw_emergency_stop(ui)) {
@@ -223,8 +240,35 @@ void Application::draw(Ui& ui) {
   stop_place_ = stop == widgets.end() ? Rect{} : stop->place;
 }
 
+/// What was chosen opens with a session; who is alone looks at this window.
+void Application::place_participant() {
+  const SessionView* view = session_.view();
+  if (session_has_no_screen_ && session_.is_live() && view != nullptr) {
+    session_has_no_screen_ = false;
+    shows_participant_ |= !view->is_alone;
+  }
+  participant_place_ =
+      shows_participant_ ? place_of_screen(screen_choice_, monitors_) : ScreenPlace{};
+}
+
+void Application::draw_screens(Ui& ui) {
+  const ParticipantScreenResult result =
+      draw_participant_screen_dialog(ui, shows_participant_ ? screen_choice_ : ScreenChoice{},
+                                     monitors_, participant_place_.problem);
+  if (result.chosen) {
+    screen_choice_ = *result.chosen;
+    shows_participant_ = screen_choice_.where != ScreenChoice::Where::kOff;
+    remember_screen(screen_folder(), screen_choice_);
+    place_participant();
+  }
+  if (result.is_closed) shows_screens_ = false;
+}
+
 void Application::draw_participant(Ui& ui) {
-  if (session_.view() != nullptr) return draw_participant_view(ui, *session_.view());
+  if (session_.view() != nullptr) {
+    return draw_participant_view(
+        ui, participant_screen(*session_.view(), session_.typed_answer()), participant_state_);
+  }
   ui.text(
       ui.screen().middle(ui.screen().width * 0.8f, 60),
       tr("What the participant is to see comes here with a session."),
@@ -247,14 +291,21 @@ void Application::draw_corner(Ui& ui) {
   const CornerLook look = corner_look(ui, other == nullptr ? "" : other->name);
   Rect strip = ui.screen().take_bottom(40);
   strip.take_right(12);
-  const auto button = [&](const char* name, const std::string& label, const Chord& key) {
+  const auto button = [&](const char* name, const std::string& label, const Chord& key,
+                          Tone tone = Tone::kQuiet) {
     const ButtonStyle style{
-        .tone = Tone::kQuiet, .key = key, .hides_key = !look.has_keys && !shows(session_)};
+        .tone = tone, .key = key, .hides_key = !look.has_keys && !shows(session_)};
     const Rect place = strip.take_right(ui.button_width(label, style), 2);
     return ui.button(name, place.middle(place.width, 32), label, style);
   };
   const std::vector<CornerButton> buttons = corner_buttons(ui);
   if (button(buttons[0].name, buttons[0].label, buttons[0].key)) shows_keys_ = true;
+  // The session goes on; the whole sentence stands where another monitor is chosen.
+  if (!participant_place_.problem.empty() &&
+      button("participant_screen", tr("No screen for the participant"), {Key::kF9},
+             Tone::kDanger)) {
+    shows_screens_ = true;
+  }
   if (shows(session_)) return;
   if (button(buttons[1].name, buttons[1].label, buttons[1].key)) make_larger(ui);
   if (button(buttons[2].name, buttons[2].label, buttons[2].key)) {
@@ -283,8 +334,31 @@ void Application::take_global_keys(Ui& ui) {
   }
   if (ui.pressed({Key::kMinus, true})) zoom_ /= kZoomStep;
   zoom_ = std::clamp(zoom_, 0.5f, 2.0f);
-  if (ui.pressed({Key::kF9})) shows_participant_ = !shows_participant_;
+  // Where something is wrong with it, its button has the key.
+  const bool has_button = !participant_place_.problem.empty();
+  if (!has_button && ui.pressed({Key::kF9})) shows_screens_ = true;
   if (ui.pressed({letter('Q'), true})) ask_to_close();
+}
+
+/// The page about this view. While a hand may feel a force, no other window comes over this
+/// one, in which alone Escape is the emergency stop.
+void Application::open_manual() {
+  const ManualPlace place =
+      manual_place(shipped_folder(), manual_page_of_view(screen_->name()));
+  if (place.file.empty()) {
+    return tell(tr("The manual cannot be opened"),
+                tr("Expected {} beside the program or in the source tree, found it in "
+                   "neither. Install the package again, or set JND_SHARE to the source tree.",
+                   place.page));
+  }
+  if (is_live()) {
+    return tell(tr("The manual is not opened now"),
+                tr("Another window would take the keyboard away, and Escape stops the device "
+                   "from this window alone. Look at {} afterwards or on another machine.",
+                   place.file.string()));
+  }
+  const std::string problem = open_outside(place.file);
+  if (!problem.empty()) tell(tr("The manual cannot be opened"), problem);
 }
 
 void Application::draw_message(Ui& ui) {

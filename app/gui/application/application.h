@@ -21,8 +21,10 @@
 #include "app/gui/application/study_screen.h"
 #include "app/gui/participant_stop.h"
 #include "app/gui/ui.h"
+#include "app/gui/views/participant_view.h"
 #include "app/language/words.h"
 #include "app/operator/answer_controls.h"
+#include "app/operator/participant_place.h"
 #include "app/operator/recent_studies.h"
 
 namespace jnd::app::gui {
@@ -53,8 +55,19 @@ class Application final : private ScreenHost {
   /// Looks at what changes beside the window: once a second or more often. True if a frame
   /// should show it.
   [[nodiscard]] bool look_beside() { return screen_->look_beside(); }
-  [[nodiscard]] bool shows_participant() const noexcept { return shows_participant_; }
+  /// The monitors that are plugged in, before each frame.
+  void set_monitors(const std::vector<Monitor>& monitors) { monitors_ = monitors; }
+  /// Where the participant's screen has to stand now.
+  [[nodiscard]] const ScreenPlace& participant_place() const noexcept {
+    return participant_place_;
+  }
+  /// Somebody closed it by its own button: until the next session, or until it is chosen again.
   void hide_participant() noexcept { shows_participant_ = false; }
+  /// It cannot be opened: told, and the session goes on.
+  void lose_participant(const std::string& why) {
+    hide_participant();
+    tell(tr("The participant's screen"), why);
+  }
   [[nodiscard]] bool closed() const noexcept { return closed_; }
   /// What the person chose on top of the monitor's scale.
   [[nodiscard]] float zoom() const noexcept { return zoom_; }
@@ -118,6 +131,9 @@ class Application final : private ScreenHost {
   void make_larger(const Ui& ui);
   [[nodiscard]] const Language* next_language() const;
   void draw_message(Ui& ui);
+  void place_participant();
+  void draw_screens(Ui& ui);
+  void open_manual();
   void take_global_keys(Ui& ui);
 
   WindowRequest request_;
@@ -143,8 +159,14 @@ class Application final : private ScreenHost {
   ParticipantStop participant_stop_;
   Rect stop_place_;  ///< Of the stop's button in the last frame; empty without.
   bool closed_ = false;
-  bool shows_participant_ = false;
   bool shows_keys_ = false;
+  bool shows_screens_ = false;  ///< The choice among them.
+  std::vector<Monitor> monitors_;
+  ScreenChoice screen_choice_;
+  bool shows_participant_ = false;      ///< Where it was chosen.
+  bool session_has_no_screen_ = false;  ///< A new one, for which nothing was opened yet.
+  ScreenPlace participant_place_;
+  ParticipantViewState participant_state_;
   float zoom_ = 1.0f;
   std::vector<Language> languages_;
   std::string wanted_language_;

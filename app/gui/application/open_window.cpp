@@ -38,16 +38,18 @@ std::filesystem::path state_folder() {
   return recent.empty() ? std::filesystem::path() : recent.parent_path();
 }
 
-/// Opens and closes the participant's window as wanted; one closed by hand is wanted no more.
-void show_participant(gui::Window& window, gui::Application& application, bool& was_open) {
-  if (was_open && !window.second_is_open()) application.hide_participant();
-  if (application.shows_participant() && !window.second_is_open()) {
-    window.open_second(tr("jnd: participant"),
-                       [&](gui::Ui& second) { application.draw_participant(second); });
-  } else if (!application.shows_participant() && window.second_is_open()) {
-    window.close_second();
+/// Opens, moves and closes the participant's window as wanted.
+void show_participant(gui::Window& window, gui::Application& application) {
+  const ScreenPlace& place = application.participant_place();
+  if (place.nowhere) return window.close_second();
+  try {
+    window.open_second(
+        tr("jnd: participant"),
+        [&application](gui::Ui& second) { application.draw_participant(second); },
+        place.monitor);
+  } catch (const core::Error& error) {
+    application.lose_participant(error.what());
   }
-  was_open = window.second_is_open();
 }
 
 /// The apparatus, drawn on a thread that has the context for as long as this is there.
@@ -101,7 +103,6 @@ std::string show(gui::Window& window, const WindowRequest& request) {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     return scene->paint(request, std::chrono::duration<double>(now).count());
   });
-  bool second_was_open = false;
   window.on_escape = [&] { application.escape(); };
   window.on_key_changed = [&](gui::Key key, bool is_down) {
     application.key_changed(key, is_down);
@@ -123,9 +124,11 @@ std::string show(gui::Window& window, const WindowRequest& request) {
   };
   window.run([&](gui::Ui& ui) {
     if (window.close_requested()) application.ask_to_close();
+    if (window.second_close_requested()) application.hide_participant();
+    application.set_monitors(window.monitors());
     ui.set_view(application.view_name());
     application.draw(ui);
-    show_participant(window, application, second_was_open);
+    show_participant(window, application);
     if (application.zoom() != window.zoom()) window.set_zoom(application.zoom());
     if (application.closed()) window.close();
   });

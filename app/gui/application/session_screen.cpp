@@ -136,6 +136,18 @@ void SessionScreen::cursor(float x, float y) noexcept {
                              .y_m = -dy * run_state_.pad_m_per_px});
 }
 
+std::string SessionScreen::typed_answer() const {
+  if (view_ == nullptr) return "";
+  if (const auto& item = view_->item; item && item->kind == ItemView::Kind::kNumber) {
+    const std::string shown = item->name + "/" + std::to_string(item->trial);
+    return run_state_.item == shown ? run_state_.typed : "";
+  }
+  if (!view_->trial) return "";
+  const bool is_its = run_state_.percent_trial == view_->trial->trial &&
+                      run_state_.percent_attempt == view_->trial->attempt;
+  return is_its ? run_state_.percent : "";
+}
+
 void SessionScreen::ask_to_close() {
   closing_ = true;
   ask_to_leave(run_state_);

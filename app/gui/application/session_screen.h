@@ -58,6 +58,9 @@ class SessionScreen final : public Screen {
   [[nodiscard]] bool is_live() const noexcept { return worker_ != nullptr; }
   /// The newest picture of it; nullptr before the first.
   [[nodiscard]] const SessionView* view() const noexcept { return view_.get(); }
+  /// What is being typed as the answer to what waits for one, for the participant to see; ""
+  /// for nothing.
+  [[nodiscard]] std::string typed_answer() const;
   /// Something lies over it and takes what is typed.
   void set_covered(bool is_covered) noexcept { run_state_.is_covered = is_covered; }
   [[nodiscard]] bool is_covered() const noexcept { return run_state_.is_covered; }

@@ -43,7 +43,7 @@ std::vector<Line> lines_of(std::vector<Drawn::Widget> widgets) {
 
 }  // namespace
 
-bool draw_keys_dialog(Ui& ui, std::vector<Drawn::Widget> widgets) {
+KeysResult draw_keys_dialog(Ui& ui, std::vector<Drawn::Widget> widgets) {
   const std::vector<Line> lines = lines_of(std::move(widgets));
   constexpr float kLine = 30;
   constexpr float kAround = 2 * 28 + 34 + 8 + 44 + 8;  // Padding, title, button.
@@ -68,12 +68,17 @@ bool draw_keys_dialog(Ui& ui, std::vector<Drawn::Widget> widgets) {
     // A button may be called by what somebody wrote.
     ui.text(place, lines[i].what, {.any_length = true});
   }
-  const bool closed =
-      ui.button("keys_close", row.take_right(ui.button_width(tr("Close"), close)), tr("Close"),
-                close) ||
-      ui.pressed({Key::kF2});
+  KeysResult result;
+  result.closed = ui.button("keys_close", row.take_right(ui.button_width(tr("Close"), close)),
+                            tr("Close"), close) ||
+                  ui.pressed({Key::kF2});
+  const ButtonStyle manual{.key = {letter('H')}};
+  row.take_right(12);
+  result.opens_manual =
+      ui.button("keys_manual", row.take_right(ui.button_width(tr("Manual"), manual)),
+                tr("Manual"), manual);
   ui.end_dialog();
-  return closed;
+  return result;
 }
 
 }  // namespace jnd::app::gui

@@ -45,7 +45,7 @@ void need_room(const Ui& ui, ColumnLook& column, std::string_view words, Font fo
   column.least_width = std::max(column.least_width, ui.text_width(words, font) + 1);
 }
 
-static float widest_word(const Ui& ui, std::string_view words, Font font) {
+static float widest_word_of_line(const Ui& ui, std::string_view words, Font font) {
   float widest = 0;
   while (!words.empty()) {
     const std::string_view word = words.substr(0, words.find(' '));
@@ -57,7 +57,7 @@ static float widest_word(const Ui& ui, std::string_view words, Font font) {
 
 void need_room_for_titles(const Ui& ui, std::vector<ColumnLook>& columns) {
   for (ColumnLook& column : columns) {
-    const float widest = widest_word(ui, column.title, Font::kSmallStrong);
+    const float widest = widest_word_of_line(ui, column.title, Font::kSmallStrong);
     if (widest > 0) column.least_width = std::max(column.least_width, widest + 1);
   }
 }
@@ -216,7 +216,8 @@ void draw_name_and_value(Ui& ui, const Rect& line, std::string_view name,
     width = of_name < few    ? room - of_name
             : of_value < few ? of_value
                              : room * std::clamp(of_value / (of_name + of_value), 0.35f, 0.65f);
-    const float least_name = std::min(widest_word(ui, name, Font::kTiny) + 1, 0.7f * room);
+    const float least_name =
+        std::min(widest_word_of_line(ui, name, Font::kTiny) + 1, 0.7f * room);
     width = std::min(width, room - least_name);
   }
   Rect rest = line;

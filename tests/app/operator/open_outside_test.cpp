@@ -67,5 +67,27 @@ TEST_F(OpenOutsideTest, WithoutSuchAProgramItSaysWhereTheFileIs) {
   EXPECT_NE(problem.find(temporary_.path().string()), std::string::npos) << problem;
 }
 
+TEST_F(OpenOutsideTest, WhatTheDesktopHasNoProgramForIsToldWithItsPath) {
+  const fs::path program = temporary_.path() / "xdg-open";
+  test_support::write_file(program, "#!/bin/sh\nexit 3\n");
+  ::chmod(program.c_str(), 0755);
+  ::setenv("PATH", (temporary_.path().string() + ":" + path_).c_str(), 1);
+  const fs::path page = temporary_.path() / "page.html";
+  test_support::write_file(page, "x");
+  const std::string problem = open_outside(page);
+  EXPECT_NE(problem.find("Nothing on this desktop opens"), std::string::npos) << problem;
+  EXPECT_NE(problem.find(page.string()), std::string::npos) << problem;
+}
+
+TEST_F(OpenOutsideTest, NobodyWaitsForAProgramThatStays) {
+  const fs::path program = temporary_.path() / "xdg-open";
+  test_support::write_file(program, "#!/bin/sh\nexec sleep 20\n");
+  ::chmod(program.c_str(), 0755);
+  ::setenv("PATH", (temporary_.path().string() + ":" + path_).c_str(), 1);
+  const auto began = std::chrono::steady_clock::now();
+  EXPECT_EQ(open_outside(temporary_.path()), "");
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(10));
+}
+
 }  // namespace open_outside_test
 }  // namespace jnd::app

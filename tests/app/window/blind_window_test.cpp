@@ -13,7 +13,10 @@ class BlindWindowTest : public WindowTest {
   /// The whole session, with the participant's screen beside it.
   void run_session() {
     begin(kBlindStudy);
+    // On the only monitor: a window beside.
     window_->press("F9");
+    window_->use("screen_1");
+    window_->use("screen_close");
     window_->use("feel_medium");
     window_->use("finish_medium");
     for (int block = 0; block < 2; ++block) {
@@ -37,6 +40,8 @@ class BlindWindowTest : public WindowTest {
     window_->wait_for_text("Session finished");
     window_->wait_for_text("complete");
     window_->press("F9");
+    window_->use("screen_0");
+    window_->use("screen_close");
   }
   /// There and back, while something is felt.
   void look_at_apparatus() {

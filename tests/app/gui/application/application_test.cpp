@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <thread>
 
 #include "app/environment.h"
 #include "app/gui/headless_ui.h"
 #include "app/tiny_study.h"
+#include "support/files.h"
 #include "support/temporary_folder.h"
 
 namespace jnd::app::gui {
@@ -234,6 +236,62 @@ TEST_F(ApplicationTest, WhatCannotBeOpenedIsToldAndTheStartStays) {
   EXPECT_FALSE(application_->is_live());
   application_->ask_to_close();
   EXPECT_TRUE(application_->closed());
+}
+
+TEST_F(ApplicationTest, FromTheKeysThePageOfTheManualAboutTheViewOpens) {
+  // A desktop of the test's own: what its xdg-open was given.
+  const fs::path opened = temporary_.path() / "opened";
+  fs::create_directory(temporary_.path() / "bin");
+  const fs::path program = temporary_.path() / "bin" / "xdg-open";
+  write_file(program, "#!/bin/sh\nprintf '%s' \"$1\" >'" + opened.string() + ".new'\nmv '" +
+                          opened.string() + ".new' '" + opened.string() + "'\n");
+  fs::permissions(program, fs::perms::owner_all);
+  const std::string path =
+      (temporary_.path() / "bin").string() + ":" + std::string(std::getenv("PATH"));
+  open({.study_folder = folder_});
+  EnvironmentVariable desktop("PATH", path.c_str());
+  EnvironmentVariable share("JND_SHARE", (temporary_.path() / "share/jnd").c_str());
+  const fs::path pages = temporary_.path() / "share/doc/jnd/docs";
+  fs::create_directories(pages / "methods");
+
+  after({letter('2'), true});
+  after({Key::kF1});
+  EXPECT_EQ(ui_.drawn().find("keys_manual")->label, "Manual");
+  EXPECT_EQ(after({letter('H')}), "results");
+  draw();
+  EXPECT_TRUE(ui_.drawn().shows("The manual cannot be opened"));
+  EXPECT_TRUE(ui_.drawn().shows("docs/methods/reading_results.md")) << "where it should be";
+  after({Key::kEnter});
+
+  write_file(pages / "methods/reading_results.md", "x");
+  after({Key::kF1});
+  after({letter('H')});
+  draw();
+  EXPECT_EQ(ui_.drawn().find("keys_manual"), nullptr) << "the dialog is left";
+  EXPECT_EQ(ui_.drawn().find("message_close"), nullptr);
+  for (int i = 0; i < 1000 && !fs::exists(opened); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_EQ(test_support::read_file(opened), (pages / "methods/reading_results.md").string());
+}
+
+// Another window would take the keyboard, and with it Escape, from the one that stops.
+TEST_F(ApplicationTest, WhileASessionIsLiveTheManualsPlaceIsToldAndNothingOpens) {
+  open({.study_folder = folder_,
+        .participant = "P01",
+        .device = "lumped",
+        .allow_no_realtime = true});
+  for (int i = 0; i < 1000 && !application_->is_live(); ++i) {
+    after({Key::kEnter});
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ASSERT_TRUE(application_->is_live());
+  after({Key::kF1});
+  after({letter('H')});
+  draw();
+  EXPECT_TRUE(ui_.drawn().shows("The manual is not opened now"));
+  EXPECT_TRUE(ui_.drawn().shows("run_a_session"));
+  application_->end_soon();
 }
 
 TEST_F(ApplicationTest, AnotherLanguageIsChosenAtTheStartAndTheWindowBeginsAnew) {

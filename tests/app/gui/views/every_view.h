@@ -355,7 +355,9 @@ class EveryView {
   void session(const std::string& name, const SessionView& view) {
     RunViewState state;
     show_session(name, static_cast<int>(view.step), view, state);
-    show(name + ", participant", 0, [&](Ui& ui) { draw_participant_view(ui, view); });
+    ParticipantViewState read;
+    show(name + ", participant", 0,
+         [&](Ui& ui) { draw_participant_view(ui, participant_screen(view, ""), read); });
   }
 
   static std::vector<std::string> shipped_names() {

@@ -456,7 +456,9 @@ TEST_F(RunView, APilotIsMarked) {
 
 TEST_F(RunView, TheParticipantSeesTheQuestionAndNoLevel) {
   SessionView view = comparison();
-  const Drawn& drawn = ui_.frame([&](Ui& ui) { draw_participant_view(ui, view); });
+  ParticipantViewState read;
+  const Drawn& drawn =
+      ui_.frame([&](Ui& ui) { draw_participant_view(ui, participant_screen(view, ""), read); });
   EXPECT_TRUE(drawn.shows("thicker than the reference"));
   EXPECT_TRUE(drawn.shows("hand sign one finger"));
   EXPECT_FALSE(drawn.shows("Pa s"));

@@ -1,0 +1,117 @@
+#include "app/manual/manual_place.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "support/files.h"
+#include "support/places.h"
+#include "support/temporary_folder.h"
+
+namespace jnd::app {
+namespace manual_place_test {
+
+namespace fs = std::filesystem;
+
+void put(const fs::path& file) {
+  fs::create_directories(file.parent_path());
+  test_support::write_file(file, "x");
+}
+
+/// A prefix in which the program is installed, and a source tree.
+class ManualPlaceTest : public ::testing::Test {
+ protected:
+  fs::path shipped() const { return temporary_.path() / "share" / "jnd"; }
+  fs::path documents() const { return temporary_.path() / "share" / "doc" / "jnd"; }
+  fs::path tree() const { return temporary_.path() / "tree"; }
+
+  test_support::TemporaryFolder temporary_{test_support::memory_folder()};
+};
+
+TEST_F(ManualPlaceTest, TheInstalledSiteComesFirstThenTheInstalledMarkdown) {
+  put(documents() / "docs/how-to/run_a_session.md");
+  ManualPlace place = manual_place(shipped(), "docs/how-to/run_a_session.md");
+  EXPECT_EQ(place.file, documents() / "docs/how-to/run_a_session.md");
+  EXPECT_FALSE(place.is_site);
+  put(documents() / "html/docs/how-to/run_a_session.html");
+  place = manual_place(shipped(), "docs/how-to/run_a_session.md");
+  EXPECT_EQ(place.file, documents() / "html/docs/how-to/run_a_session.html");
+  EXPECT_TRUE(place.is_site);
+  EXPECT_EQ(place.page, "docs/how-to/run_a_session.md");
+}
+
+TEST_F(ManualPlaceTest, ATreeHasItsSiteOnceItIsBuiltAndItsMarkdownBefore) {
+  put(tree() / "docs/README.md");
+  EXPECT_EQ(manual_place(tree(), "docs/README.md").file, tree() / "docs/README.md");
+  // mkdocs makes index.html of a README.
+  put(tree() / "build/docs/docs/index.html");
+  EXPECT_EQ(manual_place(tree(), "docs/README.md").file, tree() / "build/docs/docs/index.html");
+  // A page that is younger than the site is shown as Markdown.
+  put(tree() / "docs/how-to/new.md");
+  EXPECT_EQ(manual_place(tree(), "docs/how-to/new.md").file, tree() / "docs/how-to/new.md");
+}
+
+TEST_F(ManualPlaceTest, WhatIsNowhereHasNoFile) {
+  put(tree() / "docs/README.md");
+  EXPECT_EQ(manual_place(tree(), "docs/none.md").file, "");
+  EXPECT_TRUE(manual_pages(shipped()).empty());
+}
+
+TEST_F(ManualPlaceTest, APageIsFoundByItsNameOrItsPath) {
+  for (const char* page : {"README.md", "SAFETY.md", "docs/README.md", "docs/site/mkdocs.yml",
+                           "docs/how-to/run_a_session.md", "protocols/README.md"}) {
+    put(tree() / page);
+  }
+  const auto pages = manual_pages(tree());
+  EXPECT_EQ(pages.size(), 5u) << "all but what is no page";
+  EXPECT_EQ(manual_page_named(pages, "run_a_session"), "docs/how-to/run_a_session.md");
+  EXPECT_EQ(manual_page_named(pages, "run_a_session.md"), "docs/how-to/run_a_session.md");
+  EXPECT_EQ(manual_page_named(pages, "safety"), "SAFETY.md");
+  EXPECT_EQ(manual_page_named(pages, "protocols/README.md"), "protocols/README.md");
+  EXPECT_EQ(manual_page_named(pages, "readme"), "README.md") << "the shortest path";
+  EXPECT_EQ(manual_page_named(pages, "run"), "");
+  EXPECT_EQ(manual_page_named(pages, ""), "");
+}
+
+TEST(ViewPages, EachIsAPageOfTheSitesNavigation) {
+  const std::string navigation =
+      test_support::read_file(test_support::source_folder() / "docs/site/mkdocs.yml");
+  for (const ViewPage& row : view_pages()) {
+    EXPECT_TRUE(fs::exists(test_support::source_folder() / row.page)) << row.page;
+    EXPECT_NE(navigation.find(": " + std::string(row.page) + "\n"), std::string::npos)
+        << row.page;
+    EXPECT_EQ(manual_page_of_view(row.view), row.page);
+  }
+  EXPECT_EQ(manual_page_of_view("none"), kFirstManualPage);
+}
+
+// A screen that is added gets its page: the names stand in the headers of the screens.
+TEST(ViewPages, EveryScreenOfTheWindowHasOne) {
+  std::set<std::string> known;
+  for (const ViewPage& row : view_pages()) known.emplace(row.view);
+  int num_screens = 0;
+  for (const auto& entry :
+       fs::directory_iterator(test_support::source_folder() / "app/gui/application")) {
+    if (!entry.path().filename().string().ends_with("_screen.h")) continue;
+    const std::string text = test_support::read_file(entry.path());
+    std::size_t at = text.find("name() const noexcept override {");
+    ASSERT_NE(at, std::string::npos) << entry.path();
+    const std::size_t end = text.find('}', at);
+    ++num_screens;
+    while ((at = text.find('"', at)) < end) {
+      const std::size_t close = text.find('"', at + 1);
+      EXPECT_TRUE(known.contains(text.substr(at + 1, close - at - 1)))
+          << text.substr(at + 1, close - at - 1);
+      at = close + 1;
+    }
+  }
+  EXPECT_EQ(num_screens, 10);
+}
+
+}  // namespace manual_place_test
+}  // namespace jnd::app
