@@ -37,7 +37,7 @@ std::vector<std::string> names_of_pages(const std::vector<std::string>& pages) {
 
 std::string chosen_page(const std::vector<std::string>& pages, const std::string& name) {
   if (name.empty()) return std::string(kFirstManualPage);
-  const std::string page = manual_page_named(pages, name);
+  std::string page = manual_page_named(pages, name);
   if (!page.empty()) return page;
   const std::string near = experiments::did_you_mean(name, names_of_pages(pages));
   throw UsageError("manual: expected the name of a page, found `" + name + "`" +

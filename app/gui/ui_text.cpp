@@ -88,7 +88,7 @@ SetWords wrapped(const Theme& theme, std::string_view words, float width_px, Fon
   const auto set = [&](Font in) {
     return SetWords{in, break_lines(words, width_px, measure_of(*theme.font(in)), balanced)};
   };
-  const SetWords wanted = set(font);
+  SetWords wanted = set(font);
   if (!breaks_words(wanted.lines)) return wanted;
   for (std::optional<Font> next = smaller(font); next; next = smaller(*next)) {
     SetWords tried = set(*next);
