@@ -114,6 +114,13 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
       ASSERT_EQ(store.design(8).size(), 2U) << "that of the other block stays";
       EXPECT_TRUE(store.trials(8).empty());
     }
+    EXPECT_THAT(store.trials(1)[0].measures.answered_by, IsEmpty());
+    if (has(12)) {
+      ASSERT_EQ(store.trials(9).size(), 1U);
+      EXPECT_EQ(store.trials(9)[0].measures.answered_by, "participant");
+      EXPECT_EQ(store.trials(9)[0].measures.control, "0c45:7403 FootSwitch/KEY_B");
+      EXPECT_EQ(store.trials(9)[0].measures.control_monotonic_s, 241.5);
+    }
     EXPECT_THAT(appointments(store.folder()), IsEmpty());
     EXPECT_THAT(acknowledgements(store.folder()), IsEmpty());
     EXPECT_EQ(planned_number(store.folder()), std::nullopt);
