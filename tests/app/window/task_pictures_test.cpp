@@ -62,7 +62,23 @@ const std::string kTasks = R"json({
      "coarse_step_viscosity_pa_s": 1, "fine_step_viscosity_pa_s": 0.25,
      "max_viscosity_pa_s": 30, "repetitions": 1, "free_space_between_s": 0,
      "instruction": {"en": "Say thicker or thinner until both feel the same."},
-     "question": {"en": "Does it feel as thick as the standard?"}, "expected_trial_s": 5}
+     "question": {"en": "Does it feel as thick as the standard?"}, "expected_trial_s": 5},
+    {"kind": "interleaved", "name": "mixed", "title": {"en": "Two references mixed"},
+     "turns": "rounds", "blocks": [
+       {"kind": "block", "name": "thin", "title": {"en": "A thin reference"},
+        "procedure": "constant_stimuli", "medium": "viscous", "task": "two_interval",
+        "viscosity_pa_s": [1, 4], "reference_viscosity_pa_s": 2, "repetitions": 1,
+        "free_space_between_s": 0,
+        "instruction": {"en": "Two fluids follow each other. You may go back and forth."},
+        "question": {"en": "Which of the two was thicker?"},
+        "first_label": {"en": "The first"}, "second_label": {"en": "The second"}, "expected_trial_s": 5},
+       {"kind": "block", "name": "thick", "title": {"en": "A thick reference"},
+        "procedure": "constant_stimuli", "medium": "viscous", "task": "two_interval",
+        "viscosity_pa_s": [4, 16], "reference_viscosity_pa_s": 8, "repetitions": 1,
+        "free_space_between_s": 0,
+        "instruction": {"en": "Two fluids follow each other. You may go back and forth."},
+        "question": {"en": "Which of the two was thicker?"},
+        "first_label": {"en": "The first"}, "second_label": {"en": "The second"}, "expected_trial_s": 5}]}
   ]})json";
 
 class TaskPicturesTest : public PicturesWindowTest {
@@ -106,7 +122,7 @@ TEST_F(TaskPicturesTest, OfEveryTask) {
   take("task-prepare-known", 1);
   window_->use("real_session");
   window_->use("start_session");
-  for (int number = 1; step_on(number); ++number) ASSERT_LT(number, 90);
+  for (int number = 1; step_on(number); ++number) ASSERT_LT(number, 110);
   window_->wait_for_text("complete");
   window_->use("to_results");
   take("task-results", 1);
