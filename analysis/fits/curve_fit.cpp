@@ -46,6 +46,11 @@ std::vector<Told> told_of(CurveFit& fit, const FreeParameters& free) {
   // A rate that is known has no interval.
   if (!free[3] && !free[2]) all.resize(4);
   for (CurveThreshold& one : fit.thresholds) {
+    if (one.is_by_proportion) {
+      all.push_back({{Kind::kThresholdOfProportion, one.proportion}, &one.intensity});
+      all.push_back({{Kind::kSlopeOfProportion, one.proportion}, &one.slope});
+      continue;
+    }
     const double level = level_of_f(fit.model, one.at);
     all.push_back({{Kind::kThreshold, level}, &one.intensity});
     all.push_back({{Kind::kSlope, level}, &one.slope});
@@ -81,6 +86,7 @@ class LimitOfRedraw {
       case Kind::kGuess:
       case Kind::kLapse:
       case Kind::kThreshold:
+      case Kind::kThresholdOfProportion:
       case Kind::kLocation:
         if (is_step_ || quantity.kind == Kind::kGuess || quantity.kind == Kind::kLapse) {
           return value_of(quantity, model_, levels_, curve_);
@@ -92,6 +98,7 @@ class LimitOfRedraw {
       case Kind::kScale:
         return is_step_ == (model_.family != CurveFamily::kWeibull) ? 0.0 : core::kInfinity;
       case Kind::kSlope:
+      case Kind::kSlopeOfProportion:
         if (!is_step_) return 0.0;
         return model_.falling ? -core::kInfinity : core::kInfinity;
     }
@@ -283,6 +290,28 @@ std::string shown(double value) {
   return text;
 }
 
+/// Where the curve ends, as answered.
+double one_end(const CurveFit& fit, bool is_upper) {
+  const double lapse = fit.lapse_rate.value.value_or(0.0);
+  if (is_upper) return 1.0 - lapse;
+  return fit.guess_rate.value.value_or(0.0) + (fit.model.symmetric ? lapse : 0.0);
+}
+
+/// The levels of proportions that were asked for. A curve that never has one has no threshold
+/// there, and no interval: the entries of it in `all` go.
+void settle_proportions(CurveFit& fit, std::vector<Told>& all, const PsychometricLevels& levels,
+                        const PsychometricCurve& curve) {
+  for (CurveThreshold& one : fit.thresholds) {
+    if (!one.is_by_proportion) continue;
+    const double level = level_of_proportion(fit.model, levels, curve, one.proportion);
+    one.at = fit.model.falling ? 1.0 - level : level;
+    if (level > 0.0 && level < 1.0) continue;
+    std::erase_if(all, [&one](const Told& told) {
+      return told.value == &one.intensity || told.value == &one.slope;
+    });
+  }
+}
+
 void add_warnings(CurveFit& fit, const PsychometricLevels& levels, const FreeParameters& free,
                   const PsychometricCurve& curve, const CurveOptions& options) {
   const bool are_few = have_fewer_answers(levels, kFewAnswers);
@@ -297,6 +326,11 @@ void add_warnings(CurveFit& fit, const PsychometricLevels& levels, const FreePar
         "rarely (91 to 93 % at five answers a level, not 95 %)");
   }
   for (const CurveThreshold& one : fit.thresholds) {
+    if (!one.intensity.value && one.is_by_proportion) {
+      fit.warnings.push_back("no threshold at a proportion of " + shown(one.proportion) +
+                             ": the fitted curve runs from " + shown(one_end(fit, false)) +
+                             " to " + shown(one_end(fit, true)) + " and never has that");
+    }
     if (!one.intensity.value) continue;
     const double at = *one.intensity.value;
     if (at < levels.intensity.front() || at > levels.intensity.back()) {
@@ -339,6 +373,10 @@ std::vector<CurvePoint> points_of(const PsychometricLevels& every_level, bool fa
 void require_levels(const CurveOptions& options) {
   for (const double at : options.at) {
     core::require(at > 0.0 && at < 1.0, "at", "a number between 0 and 1", at);
+  }
+  for (const double proportion : options.at_proportion) {
+    core::require(proportion > 0.0 && proportion < 1.0, "at_proportion",
+                  "a number between 0 and 1", proportion);
   }
   core::require(options.jnd_at > 0.0 && options.jnd_at < 1.0 && options.jnd_at != 0.5, "jnd_at",
                 "a number between 0 and 1 that is not 0.5", options.jnd_at);
@@ -424,6 +462,13 @@ CurveFit fit_curve(const std::vector<AnswerCount>& rows, const CurveOptions& opt
   for (const AnswerCount& row : rows) fit.num_trials += row.num_trials;
   for (const double at : options.at)
     fit.thresholds.push_back({.at = at, .intensity = {}, .slope = {}});
+  for (const double proportion : options.at_proportion) {
+    fit.thresholds.push_back({.at = std::nan(""),
+                              .proportion = proportion,
+                              .is_by_proportion = true,
+                              .intensity = {},
+                              .slope = {}});
+  }
   const FoundCurve found = found_curve(rows, options.model);
   const PsychometricLevels& levels = found.levels;
   fit.num_levels = static_cast<int>(levels.size()) + (levels.zero_trials > 0.0 ? 1 : 0);
@@ -443,6 +488,7 @@ CurveFit fit_curve(const std::vector<AnswerCount>& rows, const CurveOptions& opt
   const CurveRates rates = rates_of(options.model, levels, curve);
   fit.guess_rate.value = rates.guess;
   fit.lapse_rate.value = rates.lapse;
+  settle_proportions(fit, all, levels, curve);
   for (const Told& one : all) {
     one.value->value = finite_value(value_of(one.quantity, options.model, levels, curve));
   }
@@ -453,6 +499,7 @@ CurveFit fit_curve(const std::vector<AnswerCount>& rows, const CurveOptions& opt
   fit.status = FitStatus::kOk;
   fit.reason.clear();
   for (CurveThreshold& one : fit.thresholds) {
+    if (one.is_by_proportion) continue;
     const double low = options.model.symmetric ? rates.guess + rates.lapse : rates.guess;
     one.proportion = low + one.at * levels.ends.rise(curve.lapse, curve.guess);
   }

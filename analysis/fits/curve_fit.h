@@ -16,6 +16,9 @@ struct CurveOptions {
   CurveModel model;
   /// Levels of S, the curve between guess and lapse rate, at which thresholds are told: (0, 1).
   std::vector<double> at = {0.5};
+  /// Proportions as answered, (0, 1), at which thresholds are told after those of `at`. Where a
+  /// rate is free, the level of a proportion is another one for each curve.
+  std::vector<double> at_proportion = {};
   /// The just noticeable difference is the distance from S = 0.5 to this: (0, 1), not 0.5.
   double jnd_at = 0.84134474606854292578;
   bool intervals = true;  ///< By the likelihood ratio.
@@ -43,8 +46,9 @@ struct CurveValue {
 
 /// The intensity where S has a level.
 struct CurveThreshold {
-  double at = 0.5;          ///< Of S.
-  double proportion = 0.0;  ///< As answered: guess + (1 - guess - lapse) S.
+  double at = 0.5;                ///< Of S; NaN where a proportion was asked for without a fit.
+  double proportion = 0.0;        ///< As answered: guess + (1 - guess - lapse) S.
+  bool is_by_proportion = false;  ///< `proportion` was asked for, and `at` follows.
   CurveValue intensity;
   CurveValue slope;  ///< Of the proportion by intensity, there.
 };

@@ -39,7 +39,7 @@ void add_value(CurveJson& json, const std::string& name, const CurveValue& value
 
 CurveJson to_json(const CurveThreshold& threshold, const CurveFit& fit) {
   CurveJson json = {
-      {"at", threshold.at},
+      {"at", number(threshold.at)},
       {"proportion",
        fit.status == FitStatus::kOk ? CurveJson(threshold.proportion) : CurveJson(nullptr)},
       {"value", number(threshold.intensity.value)},

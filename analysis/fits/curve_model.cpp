@@ -112,6 +112,13 @@ CurveRates rates_of(const CurveModel& model, const PsychometricLevels& levels,
   return {curve.lapse, at_low};
 }
 
+double level_of_proportion(const CurveModel& model, const PsychometricLevels& levels,
+                           const PsychometricCurve& curve, double proportion) {
+  const double share = model.falling ? 1.0 - proportion : proportion;
+  return (share - levels.ends.low(curve.lapse, curve.guess)) /
+         levels.ends.rise(curve.lapse, curve.guess);
+}
+
 double value_of(const CurveQuantity& quantity, const CurveModel& model,
                 const PsychometricLevels& levels, const PsychometricCurve& curve) {
   using Kind = CurveQuantity::Kind;
@@ -141,6 +148,17 @@ double value_of(const CurveQuantity& quantity, const CurveModel& model,
                      sigmoid_tails(levels.sigmoid, z).density * slope_by_axis(levels, curve);
       if (levels.logarithmic()) slope /= intensity_where(levels, curve, quantity.level);
       return model.falling ? -slope : slope;
+    }
+    case Kind::kThresholdOfProportion: {
+      const double level = level_of_proportion(model, levels, curve, quantity.level);
+      if (level <= 0.0) return levels.intensity_at(-core::kInfinity);
+      if (level >= 1.0) return levels.intensity_at(core::kInfinity);
+      return intensity_where(levels, curve, level);
+    }
+    case Kind::kSlopeOfProportion: {
+      const double level = level_of_proportion(model, levels, curve, quantity.level);
+      if (level <= 0.0 || level >= 1.0) return 0.0;
+      return value_of({Kind::kSlope, level}, model, levels, curve);
     }
     case Kind::kGuess:
       return rates_of(model, levels, curve).guess;

@@ -74,14 +74,22 @@ struct CurveQuantity {
     kScale,      ///< As the family's formula has it.
     kDistance,   ///< In intensity, from F = 0.5 to F = `level`, > 0.
     kSlope,      ///< Of P(yes) by intensity where F is `level`; < 0 of a curve that falls.
+    kThresholdOfProportion,  ///< Intensity where P(yes) is `level`.
+    kSlopeOfProportion,      ///< Of P(yes) by intensity there.
     kGuess,
     kLapse,
   };
   Kind kind = Kind::kThreshold;
-  double level = 0.5;  ///< Of F, in (0, 1).
+  double level = 0.5;  ///< Of F, or P(yes), in (0, 1).
 };
 
-/// Its value; infinite or NaN where the curve has left the range of numbers.
+/// F where P(yes) is `proportion`; not within (0, 1) where the curve never has that.
+[[nodiscard]] double level_of_proportion(const CurveModel& model,
+                                         const PsychometricLevels& levels,
+                                         const PsychometricCurve& curve, double proportion);
+
+/// Its value; infinite or NaN where the curve has left the range of numbers. Where a curve
+/// never has a proportion its threshold is beyond all intensities, on the side of that end.
 [[nodiscard]] double value_of(const CurveQuantity& quantity, const CurveModel& model,
                               const PsychometricLevels& levels, const PsychometricCurve& curve);
 

@@ -136,7 +136,7 @@ class CurveProfile {
   }
 
   /// Of ln of a number that slope, place and rates make together: for what no one parameter of
-  /// the engine is.
+  /// the engine is. Of the threshold of a proportion, which may be negative, the place itself.
   [[nodiscard]] Interval logarithm(const CurveQuantity& quantity) const {
     const SmoothCost cost = [&](std::span<const double> x, double& value,
                                 std::span<double> gradient) {
@@ -184,14 +184,29 @@ class CurveProfile {
   [[nodiscard]] std::vector<double> coordinates(const CurveQuantity& quantity,
                                                 double least_rate) const {
     const PsychometricCurve& curve = optimum_.curve;
-    const double level = quantity.kind == Kind::kDistance ? 0.5 : quantity.level;
-    const double z = sigmoid_quantile(levels_.sigmoid, level);
-    std::vector<double> x = {std::log(std::fabs(value_of(quantity, model_, levels_, curve))),
-                             (z - curve.offset) / curve.slope};
+    const double level =
+        quantity.kind == Kind::kDistance ? 0.5 : level_of_f_at(quantity, curve);
+    const double place =
+        (sigmoid_quantile(levels_.sigmoid, level) - curve.offset) / curve.slope;
+    std::vector<double> x;
+    if (quantity.kind == Kind::kThresholdOfProportion) {
+      x = {place, std::log(curve.slope)};
+    } else {
+      x = {std::log(std::fabs(value_of(quantity, model_, levels_, curve))), place};
+    }
     const PsychometricEnds& ends = levels_.ends;
     if (free_[2]) x.push_back(angle(std::max(curve.lapse, least_rate), ends.largest_lapse()));
     if (free_[3]) x.push_back(angle(std::max(curve.guess, least_rate), ends.largest_guess()));
     return x;
+  }
+
+  /// What F is at the quantity's place on a curve with these rates.
+  [[nodiscard]] double level_of_f_at(const CurveQuantity& quantity,
+                                     const PsychometricCurve& curve) const {
+    const bool is_of_proportion = quantity.kind == Kind::kThresholdOfProportion ||
+                                  quantity.kind == Kind::kSlopeOfProportion;
+    return is_of_proportion ? level_of_proportion(model_, levels_, curve, quantity.level)
+                            : quantity.level;
   }
 
   bool curve_at(const CurveQuantity& quantity, std::span<const double> x,
@@ -200,8 +215,15 @@ class CurveProfile {
     const PsychometricEnds& ends = levels_.ends;
     curve.lapse = free_[2] ? rate_at(x[next++], ends.largest_lapse()) : optimum_.curve.lapse;
     curve.guess = free_[3] ? rate_at(x[next++], ends.largest_guess()) : optimum_.curve.guess;
+    const double level = level_of_f_at(quantity, curve);
+    if (!(level > 0.0 && level < 1.0)) return false;
+    const double z = sigmoid_quantile(levels_.sigmoid, level);
+    if (quantity.kind == Kind::kThresholdOfProportion) {
+      curve.slope = std::exp(x[1]);
+      curve.offset = z - curve.slope * x[0];
+      return curve.slope > 0.0 && std::isfinite(curve.slope) && std::isfinite(curve.offset);
+    }
     const double value = std::exp(x[0]), at = levels_.intensity_at(x[1]);
-    const double z = sigmoid_quantile(levels_.sigmoid, quantity.level);
     if (quantity.kind == Kind::kDistance) {
       // x_level - x_0.5 = value, or on a logarithmic axis x_0.5 (e^(z unit / slope) - 1).
       const double step = levels_.logarithmic() ? std::log1p(std::copysign(value, z) / at)
@@ -266,6 +288,15 @@ Interval profile_interval(const CurveQuantity& quantity, const CurveModel& model
       // A curve that falls has them exchanged.
       const bool is_lapse = model.symmetric || (quantity.kind == Kind::kLapse) != model.falling;
       return free[is_lapse ? 2 : 3] ? profile.rate(is_lapse) : Interval{};
+    }
+    case Kind::kThresholdOfProportion:
+      return mapped(profile.logarithm(quantity),
+                    [&](double place) { return levels.intensity_at(place); });
+    case Kind::kSlopeOfProportion: {
+      const Interval ends = mapped(profile.logarithm(quantity), [&](double log_value) {
+        return model.falling ? -std::exp(log_value) : std::exp(log_value);
+      });
+      return model.falling ? turned(ends) : ends;
     }
     case Kind::kScale:
     case Kind::kDistance:

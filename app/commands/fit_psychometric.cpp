@@ -194,6 +194,14 @@ void add_fit_psychometric(CLI::App& fit, Invocation& invocation) {
       ->allow_extra_args(false)
       ->option_text("LEVEL[,LEVEL,..] [0.5]");
   command
+      .add_option("--at-proportion", options->at_proportion,
+                  "thresholds at these proportions as answered, between guess rate and 1 - "
+                  "lapse rate: 0.75 of two alternatives is 75 % right. Without --at they are "
+                  "the only ones")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("PROPORTION[,PROPORTION,..]");
+  command
       .add_option("--jnd-at", options->jnd_at,
                   "the JND is the distance from level 0.5 to this one")
       ->option_text("LEVEL [0.8413]");
@@ -223,7 +231,8 @@ void add_fit_psychometric(CLI::App& fit, Invocation& invocation) {
       ->check(CLI::IsMember({"r", "python"}));
   command.add_flag("--as-csv", options->as_csv, "print a table, a row for each threshold");
   command.add_flag("--json", options->json, "print one JSON document");
-  command.callback([&invocation, options] {
+  command.callback([&invocation, &command, options] {
+    if (!options->at_proportion.empty() && command.count("--at") == 0) options->at.clear();
     invocation.run = [options] { return fit_psychometric(*options); };
   });
 }

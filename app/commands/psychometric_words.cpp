@@ -57,8 +57,16 @@ void print_curve(const CurveFit& fit) {
     print_value("PSE", fit.pse, fit, "where the curve is half way up");
     print_value("JND", fit.jnd, fit, fmt::format("from 50 to {:.4g} %", 100.0 * fit.jnd_at));
     for (const analysis::CurveThreshold& one : fit.thresholds) {
-      print_value(fmt::format("threshold {:.4g}", one.at), one.intensity, fit,
-                  fmt::format("{:.4g} % answered", 100.0 * one.proportion));
+      const double percent = 100.0 * one.proportion;
+      if (one.is_by_proportion) {
+        print_value(fmt::format("threshold {:.4g} %", percent), one.intensity, fit,
+                    one.intensity.value
+                        ? fmt::format("answered, which is level {:.4g} of the curve", one.at)
+                        : "answered, which the curve never has");
+      } else {
+        print_value(fmt::format("threshold {:.4g}", one.at), one.intensity, fit,
+                    fmt::format("{:.4g} % answered", percent));
+      }
       print_value("  slope there", one.slope, fit);
     }
     fmt::print("  log-likelihood  {:<9} deviance {}, AIC {}, BIC {}\n",

@@ -68,6 +68,41 @@ analysis::CurveModel model_of(const CurveRequest& request) {
   return model;
 }
 
+/// The lowest and highest proportion that a curve can come near to, as answered.
+struct CurveReach {
+  double low = 0.0, high = 1.0;
+};
+
+CurveReach reach_of(const analysis::CurveModel& model) {
+  const double lapse = model.free_lapse ? 0.0 : model.lapse_rate;
+  const double guess = model.free_guess ? 0.0 : model.guess_rate;
+  return {.low = guess + (model.symmetric ? lapse : 0.0), .high = 1.0 - lapse};
+}
+
+/// Levels of the proportions that were asked for: of a curve whose rates are known they are the
+/// same for every group, so that all that is told of a level is told of them.
+void settle_proportions(const CurveRequest& request, analysis::CurveOptions& options) {
+  const analysis::CurveModel& model = options.model;
+  const CurveReach reach = reach_of(model);
+  for (const double proportion : request.at_proportion) {
+    if (!(proportion > reach.low && proportion < reach.high)) {
+      throw UsageError(fmt::format(
+          "--at-proportion: expected proportions as answered between {:.4g}, the lower end of "
+          "the curve, and {:.4g}, its upper end, found {:.4g}; --at takes levels from 0 to 1 "
+          "between these ends",
+          reach.low, reach.high, proportion));
+    }
+    if (model.free_guess || model.free_lapse) {
+      options.at_proportion.push_back(proportion);
+      continue;
+    }
+    const double level = (proportion - reach.low) / (reach.high - reach.low);
+    const bool is_told = std::ranges::any_of(
+        options.at, [level](double at) { return std::fabs(at - level) < 1e-12; });
+    if (!is_told) options.at.push_back(level);
+  }
+}
+
 /// As a shell takes it: in quotes where it has letters that mean something there.
 std::string shell_word(const std::string& text) {
   constexpr std::string_view kPlain =
@@ -95,12 +130,24 @@ void require_request(const CurveRequest& request) {
     throw UsageError(
         fmt::format("--at: expected numbers between 0 and 1, such as 0.75, found {}", at));
   }
+  for (const double proportion : request.at_proportion) {
+    if (proportion > 0.0 && proportion < 1.0) continue;
+    throw UsageError(
+        fmt::format("--at-proportion: expected numbers between 0 and 1, such as 0.75, found {}",
+                    proportion));
+  }
+  const bool has_free_rate = request.lapse == "free" || request.guess == "free";
+  if (!request.at_proportion.empty() && request.compare && has_free_rate) {
+    throw UsageError(
+        "--at-proportion: expected known rates beside --compare, for with a free rate a "
+        "proportion is another level of each curve, found a rate that is free; say --at with "
+        "a level instead, or leave --compare out");
+  }
   if (!(request.jnd_at > 0.0 && request.jnd_at < 1.0) || request.jnd_at == 0.5) {
     throw UsageError(
         fmt::format("--jnd-at: expected a number between 0 and 1 that is not 0.5, found {}",
                     request.jnd_at));
   }
-  const bool has_free_rate = request.lapse == "free" || request.guess == "free";
   if (!request.lapse_prior.empty() && !(request.posterior && has_free_rate)) {
     throw UsageError(fmt::format(
         "--lapse-prior {}: expected with --posterior and a rate that is free, found without; "
@@ -111,20 +158,23 @@ void require_request(const CurveRequest& request) {
 
 analysis::CurveOptions options_of(const CurveRequest& request) {
   const bool has_prior = !request.lapse_prior.empty();
-  return {.model = model_of(request),
-          .at = request.at,
-          .jnd_at = request.jnd_at,
-          .num_bootstrap = request.num_bootstrap,
-          .bootstrap_kind = request.bootstrap_kind == "nonparametric"
-                                ? analysis::BootstrapKind::kNonparametric
-                                : analysis::BootstrapKind::kParametric,
-          .posterior = request.posterior,
-          .rate_prior =
-              has_prior ? beta_prior_of("--lapse-prior", request.lapse_prior, kLargestGridPrior)
+  analysis::CurveOptions options = {
+      .model = model_of(request),
+      .at = request.at,
+      .jnd_at = request.jnd_at,
+      .num_bootstrap = request.num_bootstrap,
+      .bootstrap_kind = request.bootstrap_kind == "nonparametric"
+                            ? analysis::BootstrapKind::kNonparametric
+                            : analysis::BootstrapKind::kParametric,
+      .posterior = request.posterior,
+      .rate_prior = has_prior
+                        ? beta_prior_of("--lapse-prior", request.lapse_prior, kLargestGridPrior)
                         : analysis::kUsualRatePrior,
-          .prior_sensitivity = has_prior,
-          .num_goodness = request.num_goodness,
-          .seed = request.seed};
+      .prior_sensitivity = has_prior,
+      .num_goodness = request.num_goodness,
+      .seed = request.seed};
+  settle_proportions(request, options);
+  return options;
 }
 
 std::string command_of(const CurveRequest& request) {
@@ -155,8 +205,12 @@ std::string command_of(const CurveRequest& request) {
   flag("--symmetric", request.symmetric);
   flag("--falling", request.falling);
   flag("--rising", request.rising);
+  // Beside proportions nothing is a default.
+  const std::vector<double> unsaid =
+      request.at_proportion.empty() ? plain.at : std::vector<double>();
   say("--at", fmt::format("{}", fmt::join(request.at, ",")),
-      fmt::format("{}", fmt::join(plain.at, ",")));
+      fmt::format("{}", fmt::join(unsaid, ",")));
+  say("--at-proportion", fmt::format("{}", fmt::join(request.at_proportion, ",")));
   count("--jnd-at", request.jnd_at, plain.jnd_at);
   count("--bootstrap", request.num_bootstrap, plain.num_bootstrap);
   say("--bootstrap-kind", request.bootstrap_kind, plain.bootstrap_kind);

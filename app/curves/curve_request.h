@@ -21,6 +21,8 @@ struct CurveRequest : AnswerRequest {
   bool compare = false, posterior = false;
   std::string lapse_prior;  ///< "A,B" of the posterior's free rates; "" for the usual one.
   std::vector<double> at = {0.5};
+  /// As answered, beside those of `at`; `at` may be empty where there is one.
+  std::vector<double> at_proportion = {};
   double jnd_at = analysis::CurveOptions{}.jnd_at;
   int num_bootstrap = 0, num_goodness = 0;
   std::string bootstrap_kind = "parametric";  ///< Or "nonparametric".

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace jnd::app {
 namespace {
 
@@ -53,7 +55,8 @@ std::string curves_as_csv(const std::vector<analysis::AnswerGroup>& groups,
     }
     for (const analysis::CurveThreshold& one : fit.thresholds) {
       const bool is_ok = fit.status == FitStatus::kOk;
-      text += before + csv_number(one.at) +
+      const bool has_level = std::isfinite(one.at);
+      text += before + csv_number(has_level ? std::optional(one.at) : std::nullopt) +
               csv_number(is_ok ? std::optional(one.proportion) : std::nullopt) +
               csv_value(one.intensity) + csv_value(one.slope) + "\n";
     }

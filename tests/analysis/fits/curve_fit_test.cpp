@@ -239,6 +239,87 @@ TEST(CurveFit, AnswersWithoutACurveSayWhy) {
   EXPECT_THROW((void)fit_curve(flat, {.at = {1.0}}), core::Error);
 }
 
+TEST(CurveFit, AThresholdOfAProportionIsWorkedByHandWhereRatesAreFree) {
+  // 0.2 + 0.7 S: S is 0.5 at 0.55, and 0.75, that is a logit of ln 3, at 0.725.
+  for (const bool falling : {false, true}) {
+    const CurveModel model = {.family = CurveFamily::kLogistic,
+                              .free_guess = true,
+                              .free_lapse = true,
+                              .falling = falling};
+    const CurveFit fit = fit_curve(
+        expected_answers(model, 0.25, 0.5, 0.2, 0.1),
+        {.model = model, .at = {}, .at_proportion = {0.55, 0.725}, .num_bootstrap = 20});
+    ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+    ASSERT_EQ(fit.thresholds.size(), 2U);
+    EXPECT_NEAR(fit.thresholds[0].at, 0.5, 1e-5);
+    EXPECT_NEAR(*fit.thresholds[0].intensity.value, 0.25, 1e-5);
+    const double sign = falling ? -1.0 : 1.0;
+    EXPECT_NEAR(*fit.thresholds[0].slope.value, sign * 0.7 * 0.25 / 0.5, 1e-5);
+    EXPECT_NEAR(fit.thresholds[1].at, 0.75, 1e-5);
+    EXPECT_NEAR(*fit.thresholds[1].intensity.value, 0.25 + sign * 0.5 * std::log(3.0), 1e-5);
+    EXPECT_NEAR(*fit.thresholds[1].slope.value, sign * 0.7 * 0.1875 / 0.5, 1e-5);
+    EXPECT_LT(*fit.thresholds[1].slope.ci95.low, *fit.thresholds[1].slope.value);
+    EXPECT_GT(*fit.thresholds[1].slope.ci95.high, *fit.thresholds[1].slope.value);
+    EXPECT_NEAR(*fit.thresholds[1].intensity.bootstrap_ci95.low,
+                *fit.thresholds[1].intensity.ci95.low, 1e-3);
+  }
+}
+
+TEST(CurveFit, AThresholdOfAProportionHasTheIntervalOfItsLikelihood) {
+  const CurveModel model = {
+      .family = CurveFamily::kLogistic, .guess_rate = 0.5, .free_lapse = true};
+  const std::vector<AnswerCount> rows = {{-2, 21, 40}, {-1, 24, 40}, {0, 30, 40},
+                                         {1, 35, 40},  {2, 37, 40},  {3, 38, 40}};
+  const CurveFit fit = fit_curve(rows, {.model = model, .at = {}, .at_proportion = {0.75}});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  const CurveThreshold& threshold = fit.thresholds.at(0);
+  const auto log_likelihood = [&](double at, double scale, double lapse) {
+    const double level = 0.25 / (0.5 - lapse), z = std::log(level / (1.0 - level));
+    double sum = 0.0;
+    for (const AnswerCount& row : rows) {
+      const double f = 1.0 / (1.0 + std::exp(-(z + (row.intensity - at) / scale)));
+      const double p = 0.5 + (0.5 - lapse) * f;
+      sum += static_cast<double>(row.num_yes) * std::log(p) +
+             static_cast<double>(row.num_trials - row.num_yes) * std::log1p(-p);
+    }
+    return sum;
+  };
+  const auto best_at = [&](double at) {
+    double best = -1e9;
+    for (double lapse = 0.0; lapse < 0.24; lapse += 0.0005) {
+      for (double scale = 0.05; scale < 6.0; scale *= 1.02) {
+        best = std::max(best, log_likelihood(at, scale, lapse));
+      }
+    }
+    return best;
+  };
+  EXPECT_NEAR(best_at(*threshold.intensity.value), *fit.log_likelihood, 2e-3);
+  // Half the 95 % quantile of chi-squared below the best.
+  EXPECT_NEAR(best_at(*threshold.intensity.ci95.low), *fit.log_likelihood - 1.9207, 4e-3);
+  EXPECT_NEAR(best_at(*threshold.intensity.ci95.high), *fit.log_likelihood - 1.9207, 4e-3);
+}
+
+TEST(CurveFit, AProportionThatTheCurveNeverHasHasNoThreshold) {
+  const CurveModel model = {
+      .family = CurveFamily::kLogistic, .free_guess = true, .free_lapse = true};
+  for (const bool log_axis : {false, true}) {
+    CurveModel its = model;
+    its.log_axis = log_axis;
+    const CurveFit fit = fit_curve(expected_answers(its, log_axis ? 0.6 : 0.0, 0.5, 0.2, 0.1),
+                                   {.model = its, .at = {}, .at_proportion = {0.1, 0.95}});
+    ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+    for (const CurveThreshold& one : fit.thresholds) {
+      EXPECT_FALSE(one.intensity.value.has_value());
+      EXPECT_FALSE(one.intensity.ci95.low || one.intensity.ci95.high);
+      EXPECT_FALSE(one.slope.value.has_value());
+    }
+    ASSERT_EQ(fit.warnings.size(), 2U);
+    EXPECT_EQ(fit.warnings[0],
+              "no threshold at a proportion of 0.1: the fitted curve runs from 0.2 to 0.9 and "
+              "never has that");
+  }
+}
+
 TEST(CurveFit, ManyLevelsAreFittedAsTheyAre) {
   core::RandomStream random(7, "many levels");
   std::vector<AnswerCount> rows;

@@ -57,6 +57,31 @@ TEST_F(FitPsychometric, PrintsTheKeysOfTheContract) {
   EXPECT_GT(fit["thresholds"][0]["ci95"][1], value);
 }
 
+TEST_F(FitPsychometric, AThresholdIsAskedForByTheProportionAsAnswered) {
+  // Right answers among two: 75 % right is half way up, 87.5 % three quarters of the way.
+  table("a.csv", "x,r,n\n1,52,100\n2,58,100\n3,75,100\n4,92,100\n5,99,100\n");
+  const std::vector<std::string> words = {
+      "--csv", "a.csv", "--intensity", "x", "--yes", "r", "--trials", "n", "--task", "mafc:2"};
+  const auto run = [&](std::vector<std::string> more, bool as_json = true) {
+    more.insert(more.begin(), words.begin(), words.end());
+    return psychometric(more, as_json);
+  };
+  const auto by_level = document(run({"--at", "0.5,0.75"}).out);
+  const auto by_proportion = document(run({"--at-proportion", "0.75,0.875"}).out);
+  EXPECT_EQ(by_level["fits"][0]["thresholds"], by_proportion["fits"][0]["thresholds"]);
+  const auto both = document(run({"--at", "0.9", "--at-proportion", "0.75"}).out);
+  EXPECT_EQ(both["fits"][0]["thresholds"].size(), 2U);
+
+  const ProgramOutcome free = run({"--lapse", "free", "--at-proportion", "0.75"}, false);
+  EXPECT_EQ(free.exit_code, 0) << free.err;
+  EXPECT_NE(free.out.find("threshold 75 %"), std::string::npos) << free.out;
+  const ProgramOutcome refused = run({"--at-proportion", "0.4"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("between 0.5, the lower end of the curve, and 1, its upper end"),
+            std::string::npos)
+      << refused.err;
+}
+
 TEST_F(FitPsychometric, TellsPeopleWhatItTellsPrograms) {
   table("a.csv", kSigned);
   const ProgramOutcome outcome =

@@ -58,6 +58,76 @@ TEST(CurveRequest, WhatDoesNotGoTogetherIsRefused) {
   EXPECT_THROW((void)options_of(request), UsageError);
 }
 
+TEST(CurveRequest, AProportionAsAnsweredIsALevelOfACurveWhoseRatesAreKnown) {
+  CurveRequest request;
+  request.task = "mafc:2";
+  request.at = {0.5};
+  request.at_proportion = {0.75, 0.875};
+  // 0.75 is half way from 0.5 to 1, which is told already; 0.875 three quarters.
+  analysis::CurveOptions options = options_of(request);
+  ASSERT_EQ(options.at.size(), 2U);
+  EXPECT_DOUBLE_EQ(options.at[1], 0.75);
+  EXPECT_TRUE(options.at_proportion.empty());
+  request.at = {};
+  request.lapse = "0.1";
+  options = options_of(request);  // 0.25 of the 0.4 from 0.5 to 0.9
+  EXPECT_NEAR(options.at.at(0), 0.625, 1e-15);
+  request.task = "yes-no";
+  request.symmetric = true;
+  options = options_of(request);  // 0.65 of the 0.8 from 0.1 to 0.9
+  EXPECT_NEAR(options.at.at(0), 0.8125, 1e-15);
+  request.symmetric = false;
+  request.lapse = "free";
+  options = options_of(request);
+  EXPECT_TRUE(options.at.empty());
+  EXPECT_EQ(options.at_proportion, (std::vector<double>{0.75, 0.875}));
+}
+
+TEST(CurveRequest, AProportionBeyondTheEndsOfTheCurveIsRefusedWithThem) {
+  const auto problem_of = [](const CurveRequest& request) -> std::string {
+    try {
+      require_request(request);
+      (void)options_of(request);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CurveRequest request;
+  request.task = "mafc:2";
+  request.lapse = "0.02";
+  request.at_proportion = {0.4};
+  EXPECT_EQ(problem_of(request),
+            "--at-proportion: expected proportions as answered between 0.5, the lower end of "
+            "the curve, and 0.98, its upper end, found 0.4; --at takes levels from 0 to 1 "
+            "between these ends");
+  request.at_proportion = {0.99};
+  EXPECT_NE(problem_of(request), "");
+  request.at_proportion = {0.5};
+  EXPECT_NE(problem_of(request), "");
+  request.at_proportion = {0.97};
+  EXPECT_EQ(problem_of(request), "");
+  request.at_proportion = {75.0};
+  EXPECT_EQ(problem_of(request),
+            "--at-proportion: expected numbers between 0 and 1, such as 0.75, found 75");
+  request.at_proportion = {0.75};
+  request.lapse = "free";
+  request.compare = true;
+  request.group_by = {"who"};
+  EXPECT_NE(problem_of(request).find("expected known rates beside --compare"),
+            std::string::npos);
+}
+
+TEST(CurveRequest, TheCommandSaysLevelsBesideProportions) {
+  CurveRequest request;
+  request.csv = "a.csv";
+  request.at_proportion = {0.75};
+  EXPECT_EQ(command_of(request),
+            "jnd fit psychometric --csv a.csv --at 0.5 --at-proportion 0.75");
+  request.at = {};
+  EXPECT_EQ(command_of(request), "jnd fit psychometric --csv a.csv --at-proportion 0.75");
+}
+
 TEST(CurveRequest, ATableIsWrittenIntoNoFileThatIsThere) {
   const test_support::TemporaryFolder folder;
   test_support::write_file(folder.path() / "a.csv",
