@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "analysis/data/answer_cells.h"
@@ -35,6 +36,40 @@ CurveChoice lapse_choice(const char* label, const std::string& lapse) {
               [lapse](CurveRequest request) {
                 request.lapse = lapse;
                 return request;
+              }};
+}
+
+/// Of the bootstrap and of the goodness of fit, as the window asks for them.
+constexpr int kNumRedraws = 1000, kManyRedraws = 10'000;
+
+CurveChoice interval_choice(const char* label, std::string note, int num_bootstrap,
+                            const std::string& kind, bool posterior) {
+  return {.label = label,
+          .note = std::move(note),
+          .is_chosen =
+              [num_bootstrap, kind, posterior](const CurveRequest& now) {
+                const bool is_drawn = now.num_bootstrap > 0;
+                return is_drawn == (num_bootstrap > 0) && now.posterior == posterior &&
+                       (!is_drawn || now.bootstrap_kind == kind);
+              },
+          .choose =
+              [num_bootstrap, kind, posterior](CurveRequest now) {
+                now.num_bootstrap = num_bootstrap;
+                now.bootstrap_kind = kind;
+                now.posterior = posterior;
+                return now;
+              }};
+}
+
+CurveChoice goodness_choice(std::string label, int num_redraws) {
+  return {.label = std::move(label),
+          .note = {},
+          .is_chosen = [num_redraws](
+                           const CurveRequest& now) { return now.num_goodness == num_redraws; },
+          .choose =
+              [num_redraws](CurveRequest now) {
+                now.num_goodness = num_redraws;
+                return now;
               }};
 }
 
@@ -80,6 +115,31 @@ std::vector<CurveChoice> task_choices() {
 std::vector<CurveChoice> lapse_choices() {
   return {lapse_choice("0", "0"), lapse_choice("0.01", "0.01"), lapse_choice("0.02", "0.02"),
           lapse_choice("0.05", "0.05"), lapse_choice(tr("A rate that is fitted"), "free")};
+}
+
+std::vector<CurveChoice> interval_choices() {
+  const std::string plain = CurveRequest{}.bootstrap_kind;
+  const std::string refits = trn("{} refit", "{} refits", std::int64_t{kNumRedraws});
+  return {
+      interval_choice(tr("Likelihood ratio"), tr("no redraws, no priors"), 0, plain, false),
+      interval_choice(tr("Bootstrap from the curve"), refits, kNumRedraws, "parametric", false),
+      interval_choice(tr("Bootstrap from the answers"), refits, kNumRedraws, "nonparametric",
+                      false),
+      interval_choice(tr("Posterior"), tr("with priors, which are told"), 0, plain, true)};
+}
+
+std::vector<CurveChoice> goodness_choices() {
+  return {
+      goodness_choice(tr("Not tested by redraws"), 0),
+      goodness_choice(trn("{} redraw", "{} redraws", std::int64_t{kNumRedraws}), kNumRedraws),
+      goodness_choice(trn("{} redraw", "{} redraws", std::int64_t{kManyRedraws}),
+                      kManyRedraws)};
+}
+
+std::string chosen_label(const std::vector<CurveChoice>& choices, const CurveRequest& request) {
+  const auto chosen = std::ranges::find_if(
+      choices, [&request](const CurveChoice& one) { return one.is_chosen(request); });
+  return chosen == choices.end() ? "" : chosen->label;
 }
 
 CurveRequest with_task(CurveRequest request, const std::string& task) {

@@ -20,6 +20,13 @@ struct CurveChoice {
 [[nodiscard]] std::vector<CurveChoice> family_choices(const CurveRequest& request);
 [[nodiscard]] std::vector<CurveChoice> task_choices();
 [[nodiscard]] std::vector<CurveChoice> lapse_choices();
+/// Which 95 % intervals are told: the profile's, a bootstrap's or the posterior's.
+[[nodiscard]] std::vector<CurveChoice> interval_choices();
+/// By how many redraws the goodness of fit is tested.
+[[nodiscard]] std::vector<CurveChoice> goodness_choices();
+/// The label of the choice that the request has made; "" where it has made none of them.
+[[nodiscard]] std::string chosen_label(const std::vector<CurveChoice>& choices,
+                                       const CurveRequest& request);
 
 /// "yes-no" or "mafc:M", without a guess rate beside it.
 [[nodiscard]] CurveRequest with_task(CurveRequest request, const std::string& task);

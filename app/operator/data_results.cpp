@@ -12,14 +12,56 @@ using analysis::CurveFit;
 using analysis::CurveValue;
 using analysis::FitStatus;
 
-DataValue data_value(const CurveValue& value) {
-  return {number(value.value), value.value ? whole_range(value.ci95) : ""};
+/// Which of the intervals of a fit are shown: those that the request asks for beside the
+/// likelihood ratio's, which every fit has.
+enum class IntervalKind { kLikelihoodRatio, kBootstrap, kPosterior };
+
+IntervalKind interval_kind_of(const CurveRequest& request) {
+  if (request.num_bootstrap > 0) return IntervalKind::kBootstrap;
+  return request.posterior ? IntervalKind::kPosterior : IntervalKind::kLikelihoodRatio;
 }
 
-std::vector<DataNumber> numbers_of(const CurveFit& fit) {
+std::string title_of(IntervalKind kind) {
+  switch (kind) {
+    case IntervalKind::kBootstrap:
+      return tr("Fits, with 95 % by the bootstrap");
+    case IntervalKind::kPosterior:
+      return tr("Fits, with 95 % of the posterior");
+    case IntervalKind::kLikelihoodRatio:
+      break;
+  }
+  return tr("Fits, with 95 % by the likelihood ratio");
+}
+
+DataValue data_value(const CurveValue& value,
+                     IntervalKind kind = IntervalKind::kLikelihoodRatio) {
+  const analysis::Interval& interval = kind == IntervalKind::kBootstrap   ? value.bootstrap_ci95
+                                       : kind == IntervalKind::kPosterior ? value.posterior_ci95
+                                                                          : value.ci95;
+  return {number(value.value), value.value ? whole_range(interval) : ""};
+}
+
+/// What is to be known of a value beside its interval.
+std::string remark_on(const CurveValue& value, IntervalKind kind, const std::string& remark) {
+  std::string words = remark;
+  const auto add = [&words](const std::string& more) {
+    words += (words.empty() ? "" : " · ") + more;
+  };
+  if (kind == IntervalKind::kBootstrap && value.value) {
+    add(value.bca_reason.empty() ? tr("corrected (BCa) {}", whole_range(value.bca_ci95))
+                                 : tr("no corrected (BCa) interval: {}", value.bca_reason));
+  }
+  if (kind == IntervalKind::kPosterior && value.posterior_median) {
+    add(tr("median of the posterior {}", number(value.posterior_median)));
+  }
+  return words;
+}
+
+std::vector<DataNumber> numbers_of(const CurveFit& fit, const CurveRequest& request) {
+  const IntervalKind kind = interval_kind_of(request);
   std::vector<DataNumber> all;
   const auto add = [&](std::string name, const CurveValue& value, std::string remark = "") {
-    all.push_back({std::move(name), data_value(value), std::move(remark)});
+    all.push_back({std::move(name), data_value(value, kind), remark_on(value, kind, remark)});
   };
   const auto add_rate = [&](const char* name, const CurveValue& value, bool is_free) {
     if (is_free) return add(name, value);
@@ -49,25 +91,43 @@ std::vector<DataNumber> numbers_of(const CurveFit& fit) {
     add_plain(tr("overdispersion"), fit.overdispersion,
               tr("Pearson's chi-squared over its degrees of freedom"));
   }
+  if (fit.goodness_p_value) {
+    add_plain(tr("goodness of fit, p"), fit.goodness_p_value,
+              trn("by {} redraw", "by {} redraws", std::int64_t{request.num_goodness}));
+  }
+  if (fit.num_bootstrap > 0) {
+    all.push_back({tr("refits without optimum"),
+                   {std::to_string(fit.num_bootstrap_degenerate), ""},
+                   trn("of {} refit", "of {} refits", std::int64_t{fit.num_bootstrap})});
+  }
   return all;
 }
 
-DataGroup data_group(const std::string& name, const CurveFit& fit) {
+DataGroup data_group(const std::string& name, const CurveFit& fit,
+                     const CurveRequest& request) {
+  const IntervalKind kind = interval_kind_of(request);
   DataGroup group{.name = name.empty() ? tr("all rows") : name, .num_trials = fit.num_trials};
   group.cautions = fit.warnings;
+  if (!fit.goodness_reason.empty()) {
+    group.cautions.push_back(tr("The goodness of fit is not tested: {}", fit.goodness_reason));
+  }
+  if (!fit.posterior_priors.empty()) {
+    group.cautions.push_back(tr("Priors of the posterior: {}", fit.posterior_priors));
+  }
+  if (!fit.posterior_note.empty()) group.cautions.push_back(fit.posterior_note);
   if (fit.status != FitStatus::kOk) {
     group.reason = fit.reason;
     return group;
   }
-  group.location = data_value(fit.location);
-  group.scale = data_value(fit.scale);
-  group.pse = data_value(fit.pse);
-  group.jnd = data_value(fit.jnd);
+  group.location = data_value(fit.location, kind);
+  group.scale = data_value(fit.scale, kind);
+  group.pse = data_value(fit.pse, kind);
+  group.jnd = data_value(fit.jnd, kind);
   for (const analysis::CurveThreshold& one : fit.thresholds) {
-    group.thresholds.push_back(data_value(one.intensity));
+    group.thresholds.push_back(data_value(one.intensity, kind));
   }
   group.deviance = number(fit.deviance);
-  group.numbers = numbers_of(fit);
+  group.numbers = numbers_of(fit, request);
   return group;
 }
 
@@ -126,6 +186,7 @@ DataResults data_results(const CurveAnalysis& curves) {
   const std::string formula = analysis::formula_words(model.family, model.is_logarithmic());
   DataResults results{.formula = model.falling ? tr("falling curve {}", formula)
                                                : tr("rising curve {}", formula),
+                      .title = title_of(interval_kind_of(curves.request)),
                       .levels = curves.request.at,
                       .is_logarithmic = model.is_logarithmic(),
                       .x_title = curves.request.intensity,
@@ -138,7 +199,7 @@ DataResults data_results(const CurveAnalysis& curves) {
     return results;
   }
   for (std::size_t i = 0; i < curves.fits.size(); ++i) {
-    results.groups.push_back(data_group(curves.names[i], curves.fits[i]));
+    results.groups.push_back(data_group(curves.names[i], curves.fits[i], curves.request));
   }
   results.tables = picture_tables(curves);
   return results;

@@ -40,6 +40,7 @@ struct DataGroup {
 /// What the fits come to.
 struct DataResults {
   std::string formula;         ///< "rising curve 1 / (1 + exp(...))"
+  std::string title;           ///< "Fits, with 95 % by the likelihood ratio"
   std::vector<double> levels;  ///< Of the thresholds.
   std::vector<DataGroup> groups;
   std::vector<analysis::FigureTable> tables;  ///< As `picture_tables`; of `groups` by number.

@@ -78,6 +78,8 @@ void OpenData::compare() {
   view_.compare_problem.clear();
   comparing_ = std::make_unique<Comparing>(
       [curves = *curves_](WorkControl&) mutable {
+        // The page shows likelihood-ratio intervals; a bootstrap of every pair takes minutes.
+        curves.how.num_bootstrap = 0;
         add_comparison(curves);
         return data_comparison(*curves.comparison);
       },

@@ -119,7 +119,7 @@ void draw_fit_row(Ui& ui, const Rect& row, const DataResults& results, std::size
 }
 
 void draw_fits(Ui& ui, const Rect& place, const DataResults& results, DataViewState& state) {
-  Rect inside = draw_card(ui, place, tr("Fits, with 95 % by the likelihood ratio"));
+  Rect inside = draw_card(ui, place, results.title);
   const float content = kFitRow * static_cast<float>(results.groups.size());
   const bool scrolls = content > inside.height - 32;
   const auto padded = [](Rect row) {

@@ -344,6 +344,19 @@ ListQuestion question_of(const DataView& data, DataViewState& state, DataViewRes
       let_type(question, tr("such as 0.5, 0.75"), data, state, result, with_typed_levels);
       return question;
     }
+    case DataDialog::kInterval:
+      return word_question(
+          data, result, tr("Which 95 % intervals?"),
+          tr("The likelihood ratio's are right where a bootstrap is not, with few answers a "
+             "level. The picture and the comparison have them whatever is chosen here."),
+          interval_choices());
+    case DataDialog::kGoodness:
+      return word_question(
+          data, result, tr("How well do the curves fit?"),
+          tr("Answers are drawn from each curve again and again. p is how often they lie as "
+             "far from their curve as yours do; a small one says that the curve is not "
+             "theirs."),
+          goodness_choices());
     case DataDialog::kPicture:
       return save_question(true, state, result);
     case DataDialog::kTable:

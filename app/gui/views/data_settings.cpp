@@ -5,6 +5,7 @@
 #include "app/gui/views/data_parts.h"
 #include "app/gui/views/layout.h"
 #include "app/language/words.h"
+#include "app/operator/curve_choices.h"
 
 namespace jnd::app::gui {
 namespace {
@@ -83,7 +84,11 @@ std::vector<Setting> curve_settings(const CurveRequest& request) {
           {"set_task", tr("Answers are"), task_words(request), 'T', DataDialog::kTask},
           {"set_lapse", tr("Lapse rate"),
            request.lapse == "free" ? tr("fitted") : request.lapse, 'L', DataDialog::kLapse},
-          {"set_levels", tr("Thresholds at"), levels_words(request), 'A', DataDialog::kLevels}};
+          {"set_levels", tr("Thresholds at"), levels_words(request), 'A', DataDialog::kLevels},
+          {"set_interval", tr("95 % intervals"), chosen_label(interval_choices(), request), 'B',
+           DataDialog::kInterval},
+          {"set_goodness", tr("Goodness of fit"), chosen_label(goodness_choices(), request),
+           'D', DataDialog::kGoodness}};
 }
 
 /// Its name at the left, its value in a frame with its key.

@@ -30,6 +30,8 @@ struct DataViewState {
     kTask,
     kLapse,
     kLevels,
+    kInterval,
+    kGoodness,
     kPicture,
     kTable,
   };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/curves/fit_words.h"
+#include "app/operator/curve_choices.h"
 #include "support/files.h"
 #include "support/temporary_folder.h"
 
@@ -135,6 +136,59 @@ TEST_F(OpenDataTest, WhatLooksLikeRightAnswersIsAskedBeforeItIsFitted) {
   EXPECT_FALSE(view.results->suspected_alternatives.has_value());
   EXPECT_EQ(view.results->chance, 0.5);
   EXPECT_EQ(view.results->groups.size(), 1U);
+}
+
+TEST_F(OpenDataTest, TheIntervalsThatAreChosenAreShownAndSaidInTheCommand) {
+  CurveRequest request = open("x,k,n\n0,4,40\n5,13,40\n10,26,40\n15,37,40\n").request;
+  const std::string plain = data_.view().results->groups[0].pse.interval;
+  const std::string value = data_.view().results->groups[0].pse.value;
+  EXPECT_EQ(data_.view().results->title, "Fits, with 95 % by the likelihood ratio");
+  const auto choose = [&](std::size_t place) {
+    return ask(interval_choices().at(place).choose(request));
+  };
+  const auto remark_of = [](const DataView& view, const std::string& name) {
+    const auto& numbers = view.results->groups[0].numbers;
+    const auto found = std::ranges::find(numbers, name, &DataNumber::name);
+    return found == numbers.end() ? "none" : found->remark;
+  };
+  DataView view = choose(1);
+  EXPECT_EQ(view.results->title, "Fits, with 95 % by the bootstrap");
+  EXPECT_TRUE(view.command.ends_with("--bootstrap 1000")) << view.command;
+  EXPECT_EQ(view.results->groups[0].pse.value, value);
+  EXPECT_NE(view.results->groups[0].pse.interval, plain);
+  EXPECT_TRUE(remark_of(view, "location").starts_with("corrected (BCa) "));
+  EXPECT_EQ(remark_of(view, "refits without optimum"), "of 1000 refits");
+  view = choose(2);
+  EXPECT_TRUE(view.command.ends_with("--bootstrap 1000 --bootstrap-kind nonparametric"));
+  view = choose(3);
+  EXPECT_EQ(view.results->title, "Fits, with 95 % of the posterior");
+  EXPECT_TRUE(view.command.ends_with("--posterior")) << view.command;
+  EXPECT_NE(view.results->groups[0].pse.interval, plain);
+  EXPECT_TRUE(remark_of(view, "location").starts_with("median of the posterior "));
+  EXPECT_TRUE(std::ranges::any_of(view.results->groups[0].cautions, [](const auto& words) {
+    return words.starts_with("Priors of the posterior: ");
+  }));
+  view = choose(0);
+  EXPECT_EQ(view.results->groups[0].pse.interval, plain);
+}
+
+TEST_F(OpenDataTest, TheGoodnessOfFitIsTestedByRedraws) {
+  CurveRequest request = open("x,k,n\n0,4,40\n5,13,40\n10,26,40\n15,37,40\n").request;
+  const auto p_of = [](const DataView& view) -> std::string {
+    for (const DataNumber& number : view.results->groups[0].numbers) {
+      if (number.name == "goodness of fit, p") return number.number.value + number.remark;
+    }
+    return "none";
+  };
+  EXPECT_EQ(p_of(data_.view()), "none");
+  const DataView& view = ask(goodness_choices().at(1).choose(request));
+  EXPECT_TRUE(view.command.ends_with("--goodness 1000")) << view.command;
+  EXPECT_TRUE(p_of(view).ends_with("by 1000 redraws")) << p_of(view);
+  // Two levels and two parameters: nothing is left to test, which is said.
+  request = open(kQuarters).request;
+  EXPECT_EQ(p_of(ask(goodness_choices().at(1).choose(request))), "none");
+  EXPECT_TRUE(view.results->groups[0].cautions.back().starts_with(
+      "The goodness of fit is not tested: "));
 }
 
 TEST_F(OpenDataTest, WhatIsShownIsOfTheLastRequest) {

@@ -173,6 +173,27 @@ TEST_F(DataViewTest, TheCurveIsChosenAndRatesAndLevelsAreTyped) {
   EXPECT_TRUE(ui_.drawn().shows("right ones among 2"));
 }
 
+TEST_F(DataViewTest, IntervalsAndGoodnessOfFitAreChosenByKeys) {
+  open(kOrder);
+  after({letter('2')});
+  EXPECT_TRUE(ui_.drawn().shows("Fits, with 95 % by the likelihood ratio"));
+  after({letter('B')});
+  EXPECT_TRUE(ui_.drawn().shows("Which 95 % intervals?"));
+  after({letter('2')});
+  EXPECT_EQ(request().num_bootstrap, 1000);
+  EXPECT_TRUE(ui_.drawn().shows("Fits, with 95 % by the bootstrap"));
+  EXPECT_TRUE(ui_.drawn().shows("Bootstrap from the curve"));
+  after({letter('B')});
+  after({letter('4')});
+  EXPECT_EQ(request().num_bootstrap, 0);
+  EXPECT_TRUE(request().posterior);
+  EXPECT_TRUE(ui_.drawn().shows("Fits, with 95 % of the posterior"));
+  after({letter('D')});
+  after({letter('2')});
+  EXPECT_EQ(request().num_goodness, 1000);
+  EXPECT_TRUE(ui_.drawn().shows("goodness of fit, p"));
+}
+
 TEST_F(DataViewTest, TheCurvesStandWithTheirTableAndEveryNumber) {
   open(kOrder);
   after({letter('2')});
@@ -270,7 +291,7 @@ TEST_F(DataViewTest, NothingIsCutOffInASmallWindow) {
     draw_on(small);
     draw_on(small);
     EXPECT_TRUE(all_on_screen(small.drawn(), 1280, 720));
-    for (const char* name : {"set_intensity", "set_levels", "save_picture", "save_table",
+    for (const char* name : {"set_intensity", "set_goodness", "save_picture", "save_table",
                              "page_table", "page_command", "open_another", "tab_start"}) {
       const Drawn::Widget* widget = small.drawn().find(name);
       ASSERT_NE(widget, nullptr) << name;
