@@ -8,6 +8,10 @@ namespace {
 /// So far off its bound a rate is held, so that no answer is impossible.
 constexpr double kLeastRate = 0.01;
 constexpr std::size_t kMostStarts = 3;
+/// So far above a minimum that was found, in units of the log-likelihood, a start of the grid
+/// is not worth a descent. Of 21,000 redraws of 21 fits one had a lower minimum that only such
+/// a start led to, by 0.24.
+constexpr double kWorthADescent = 20.0;
 
 }  // namespace
 
@@ -26,11 +30,20 @@ PsychometricRefit::PsychometricRefit(const PsychometricSearch& search,
 
 PsychometricSearchResult PsychometricRefit::find(const PsychometricLevels& redrawn) const {
   if (!grid_) return search_.find(redrawn, minimised_by_newton, &fitted_);
-  std::vector<PsychometricCurve> starts =
-      grid_->minima(redrawn, logs_, between_.lapse, between_.guess, kMostStarts);
   PsychometricCurve near = between_;  // From a bound no descent may lead away.
   near.slope = fitted_.slope;
   near.offset = fitted_.offset;
+  const PsychometricSearchResult first = search_.find_from(redrawn, {near});
+  std::vector<PsychometricCurve> starts =
+      grid_->minima(redrawn, logs_, between_.lapse, between_.guess, kMostStarts);
+  if (first.supremum == PsychometricSupremum::kAttained) {
+    const double most = first.optimum.cost.value + kWorthADescent;
+    std::erase_if(starts, [&](const PsychometricCurve& start) {
+      return !(psychometric_cost(redrawn, search_.method(), start).value <= most);
+    });
+    if (starts.empty()) return first;
+    near = first.optimum.curve;
+  }
   starts.insert(starts.begin(), near);
   return search_.find_from(redrawn, starts);
 }

@@ -10,7 +10,9 @@ namespace jnd::analysis {
 
 /// Fits answers drawn anew on the levels of a fit, as bootstraps do: some ten microseconds
 /// each, also with lapses and guesses. Where there can be several minima Newton's method starts
-/// from the fitted curve and from the lowest of a wide grid, between the fitted ends.
+/// from the fitted curve, and from those of the lowest of a wide grid, between the fitted ends,
+/// that are not far less likely than the minimum it leads to; from all of them where it leads
+/// to none.
 class PsychometricRefit {
  public:
   /// Keeps a reference to `search`; `levels` is read for its intensities and ends.
