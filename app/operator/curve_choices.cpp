@@ -130,7 +130,7 @@ std::vector<CurveChoice> interval_choices() {
 
 std::vector<CurveChoice> goodness_choices() {
   return {
-      goodness_choice(tr("Not tested by redraws"), 0),
+      goodness_choice(tr("Not tested"), 0),
       goodness_choice(trn("{} redraw", "{} redraws", std::int64_t{kNumRedraws}), kNumRedraws),
       goodness_choice(trn("{} redraw", "{} redraws", std::int64_t{kManyRedraws}),
                       kManyRedraws)};

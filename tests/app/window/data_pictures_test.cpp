@@ -54,7 +54,17 @@ TEST_F(DataPicturesTest, FromACsvToCurvesTheirComparisonAndTheCommand) {
   window_->wait_for("choice_6");
   take("data-family", 1);
   window_->press("F2");
+  window_->use("set_interval");
+  window_->wait_for("choice_4");
+  take("data-intervals", 1);
+  window_->press("2");
+  window_->use("set_goodness");
+  window_->wait_for("choice_3");
+  take("data-goodness", 1);
+  window_->press("2");
   window_->use("page_curves");
+  window_->wait_for_text("by the bootstrap");
+  take("data-bootstrap");
   window_->use("save_picture");
   window_->wait_for("data_typed");
   take("data-save", 1);
