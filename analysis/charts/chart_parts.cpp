@@ -4,13 +4,14 @@
 
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
 
 ChartAxis quantity_chart_axis(const std::string& quantity, const std::string& label) {
   return {.title = quantity_axis(quantity),
-          .label = label + " " + experiments::quantity_words(quantity),
+          .label = label + " " + said_of(experiments::quantity_words(quantity)),
           .unit = experiments::quantity_unit(quantity)};
 }
 
@@ -70,7 +71,7 @@ void add_value(Chart& chart, const std::optional<double>& value, const Interval&
     chart.caution += (chart.caution.empty() ? "" : "; ") + caution;
   }
   if (!value) {
-    chart.reason = reason.empty() ? "no value" : reason;
+    chart.reason = reason.empty() ? said("no value") : reason;
     return;
   }
   chart.value = words;

@@ -5,6 +5,7 @@
 #include "analysis/charts/charts.h"
 #include "analysis/charts/magnitude_data.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -59,7 +60,7 @@ std::string detail_of(const Law& law) {
             interval_words(law.a_ci95, law.a);
   }
   if (law.published_k && law.published_a) {
-    words += (words.empty() ? "published " : " · published ") +
+    words += (words.empty() ? said("published ") : said(" · published ")) +
              law_words(law.published_k, law.published_a);
   }
   return words;
@@ -70,7 +71,7 @@ void add_law(Chart& chart, const Law& law) {
     chart.caution += (chart.caution.empty() ? "" : "; ") + caution;
   }
   if (!law.exists()) {
-    chart.reason = law.reason.empty() ? "no power law" : law.reason;
+    chart.reason = law.reason.empty() ? said("no power law") : law.reason;
     return;
   }
   chart.value = law.words();
@@ -122,10 +123,10 @@ double largest_of(const std::vector<const FigureTable*>& tables,
   return most;
 }
 
-constexpr char kMagnitudeTitle[] = "Perceived magnitude (modulus = 1)";
+constexpr const char* kMagnitudeTitle = said_later("Perceived magnitude (modulus = 1)");
 
 ChartAxis magnitude_axis() {
-  return {.title = kMagnitudeTitle, .label = "magnitude, the modulus being 1"};
+  return {.title = said(kMagnitudeTitle), .label = said("magnitude, the modulus being 1")};
 }
 
 /// Fig. 4a and b, D.3, D.9, D.12, D.14: everybody's means, those of the group, its power law.
@@ -134,14 +135,14 @@ ChartSet curves_of(const FigureSource& source, const MagnitudeData& data) {
   const std::string name = file_word(data.block);
   ChartSet set{.section = data.block,
                .heading = data.title,
-               .x = quantity_chart_axis(data.quantity, "intensity,"),
+               .x = quantity_chart_axis(data.quantity, said("intensity,")),
                .y = magnitude_axis(),
                .tables = {own_means_table(data),
                           group_means_table(data),
                           {.name = name + "_curve", .columns = {"intensity", "magnitude"}},
                           {.name = name + "_own_curves",
                            .columns = {"series", "participant", "intensity", "magnitude"}}}};
-  if (data.is_production) set.x.title += ", as set";
+  if (data.is_production) set.x.title += said(", as set");
   const std::vector<const FigureTable*> means = {&set.tables[kOwn], &set.tables[kGroup]};
   const double most = largest_of(means, {"intensity"});
   const AxisRange shown{0.0, most > 0.0 ? 1.04 * most : 1.0};
@@ -166,9 +167,10 @@ ChartSet curves_of(const FigureSource& source, const MagnitudeData& data) {
   }
   if (law.exists()) {
     everybody.series.push_back(
-        rows_of(Look::kCurve, kCurve, std::nullopt, "power law, " + law.words()));
+        rows_of(Look::kCurve, kCurve, std::nullopt, said("power law, {}", law.words())));
   }
-  everybody.series.push_back(means_of(kGroup, std::nullopt, data.is_production, "mean ± sd"));
+  everybody.series.push_back(
+      means_of(kGroup, std::nullopt, data.is_production, said("mean ± sd")));
   set.everybody = std::move(everybody);
   std::vector<const FigureTable*> drawn = means;
   drawn.push_back(&set.tables[kCurve]);
@@ -180,18 +182,18 @@ ChartSet curves_of(const FigureSource& source, const MagnitudeData& data) {
                       0.1)};
   set.whole = WholeFigure{
       .name = name + "_curves",
-      .title = data.title + ": means and power law",
+      .title = said("{}: means and power law", data.title),
       .caption =
-          std::string(data.is_production
-                          ? "Intensities that were set for each magnitude asked for"
-                          : "Magnitudes that were told at each intensity") +
-          ": means of each of " + counted_words(std::ssize(data.participants), "participant") +
-          " (grey), mean and standard deviation between them (squares), and the power law "
-          "through these means" +
-          (law.exists() ? ", S = k Iᵃ with " + law.words() + "."
-                        : ", which does not exist here."),
-      .thesis =
-          data.is_production ? "Fig. 4b, D.3, D.12 and D.14" : "Fig. 4a, D.3, D.9 and D.14",
+          said("{}: means of each of {} (grey), mean and standard deviation between them "
+               "(squares), and the power law through these means{}",
+               std::string(data.is_production
+                               ? said("Intensities that were set for each magnitude asked for")
+                               : said("Magnitudes that were told at each intensity")),
+               counted_words(std::ssize(data.participants), "participant"),
+               (law.exists() ? said(", S = k Iᵃ with {}.", law.words())
+                             : said(", which does not exist here."))),
+      .thesis = data.is_production ? said("Fig. 4b, D.3, D.12 and D.14")
+                                   : said("Fig. 4a, D.3, D.9 and D.14"),
       .height_in = 3.3};
   return set;
 }
@@ -233,8 +235,8 @@ class LawsChart {
     const double most = measured().high;
     shown_ = {most / 200.0, 1.05 * most};
     set_.section = "combined";
-    set_.heading = "Estimation and production";
-    set_.x = quantity_chart_axis(estimated_.quantity, "intensity,");
+    set_.heading = said("Estimation and production");
+    set_.x = quantity_chart_axis(estimated_.quantity, said("intensity,"));
     set_.y = magnitude_axis();
     set_.x.logarithmic = set_.y.logarithmic = true;
     add_everybody();
@@ -242,18 +244,17 @@ class LawsChart {
     const AxisRange least = least_above_zero();
     set_.x.range = {least.low / 1.6, 1.15 * most};
     set_.y.range = {least.high / 1.6, 1.05 * largest_magnitude()};
-    set_.whole = WholeFigure{.name = "power_laws",
-                             .title = "Estimation, production and the law between them",
-                             .caption =
-                                 "Power laws through the means of estimation and of "
-                                 "production, and the one between both curves, on linear "
-                                 "(left) and logarithmic axes (right). Marks: means over "
-                                 "participants. Dotted: beyond the intensities that were "
-                                 "measured.",
-                             .thesis = "Fig. 4c, D.4 and D.15",
-                             .width_in = 6.6,
-                             .height_in = 3.7,
-                             .has_linear_beside = true};
+    set_.whole = WholeFigure{
+        .name = "power_laws",
+        .title = said("Estimation, production and the law between them"),
+        .caption =
+            said("Power laws through the means of estimation and of production, and the one "
+                 "between both curves, on linear (left) and logarithmic axes (right). Marks: "
+                 "means over participants. Dotted: beyond the intensities that were measured."),
+        .thesis = said("Fig. 4c, D.4 and D.15"),
+        .width_in = 6.6,
+        .height_in = 3.7,
+        .has_linear_beside = true};
     return std::move(set_);
   }
 
@@ -345,7 +346,7 @@ class LawsChart {
     add_means(chart, kEstimated, std::nullopt, kEstimationColour);
     add_means(chart, kProduced, std::nullopt, kProductionColour);
     add_law(chart, combined);
-    if (!combined.exists()) chart.reason = "estimation or production has no power law";
+    if (!combined.exists()) chart.reason = said("estimation or production has no power law");
     set_.everybody = std::move(chart);
   }
 
@@ -373,7 +374,7 @@ class LawsChart {
         chart.series.push_back(std::move(curve));
         words += (words.empty() ? "" : " · ") + name + " " + law.words();
       } else if (chart.reason.empty()) {
-        chart.reason = name + ": " + (law.reason.empty() ? "no power law" : law.reason);
+        chart.reason = name + ": " + (law.reason.empty() ? said("no power law") : law.reason);
       }
       add_means(chart, means, series, colour);
     };

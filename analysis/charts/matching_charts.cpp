@@ -5,6 +5,7 @@
 #include "analysis/charts/charts.h"
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -46,10 +47,10 @@ class MatchingCharts {
     set_.section = block_.block;
     set_.heading = source_.titles.title_of(block_.block);
     set_.whole = WholeFigure{.name = file_word(block_.block) + "_matches",
-                             .title = "Matches, " + set_.heading,
+                             .title = said("Matches, {}", set_.heading),
                              .caption = caption()};
-    set_.x = axis("Standard", block_.standard_quantity(), block_.written.standard_medium);
-    set_.y = axis("Match", block_.quantity, block_.medium);
+    set_.x = axis(said("Standard"), block_.standard_quantity(), block_.written.standard_medium);
+    set_.y = axis(said("Match"), block_.quantity, block_.medium);
     std::vector<double> standards, matches = drawn_;
     for (const auto& row : set_.tables[kGroupTable].rows) {
       standards.push_back(*row[0].number);
@@ -68,8 +69,8 @@ class MatchingCharts {
   static ChartAxis axis(const std::string& what, const std::string& quantity,
                         const std::string& medium) {
     const std::string unit = experiments::quantity_unit(quantity);
-    const std::string words =
-        experiments::quantity_words(quantity) + (medium.empty() ? "" : " of “" + medium + "”");
+    const std::string words = said_of(experiments::quantity_words(quantity)) +
+                              (medium.empty() ? "" : said(" of “{}”", medium));
     return {.title = what + ": " + words + (unit.empty() ? "" : " [" + unit + "]"),
             .label = what + ": " + words,
             .unit = unit,
@@ -103,7 +104,7 @@ class MatchingCharts {
                             .series = series,
                             .x = "standard",
                             .y = "match",
-                            .legend = "geometric mean"});
+                            .legend = said("geometric mean")});
     const auto own = [&](const char* name) {
       return source_.own(block_.block, participant, block_.block + name);
     };
@@ -113,7 +114,8 @@ class MatchingCharts {
       add_value(chart, a->value, a->ci95, "", a->cautions, law_words(k->value, a->value));
       if (!chart.detail.empty()) chart.detail = "a: " + chart.detail;
     } else {
-      chart.reason = a == nullptr || a->reason.empty() ? "no matching function" : a->reason;
+      chart.reason =
+          a == nullptr || a->reason.empty() ? said("no matching function") : a->reason;
     }
     return chart;
   }
@@ -161,11 +163,12 @@ class MatchingCharts {
       chart.series.push_back({.table = kFunctionTable,
                               .x = "standard",
                               .y = "match",
-                              .legend = "matching function, " + law_});
+                              .legend = said("matching function, {}", law_)});
       add_value(chart, a_->value, a_->ci95, "", a_->cautions, law_);
       if (!chart.detail.empty()) chart.detail = "a: " + chart.detail;
     } else {
-      chart.reason = a_ == nullptr || a_->reason.empty() ? "no matching function" : a_->reason;
+      chart.reason =
+          a_ == nullptr || a_->reason.empty() ? said("no matching function") : a_->reason;
     }
     chart.series.push_back({.look = ChartSeries::Look::kAnswers,
                             .table = kGroupTable,
@@ -173,21 +176,22 @@ class MatchingCharts {
                             .y = "match",
                             .low = "ci95_low",
                             .high = "ci95_high",
-                            .legend = "geometric mean, 95 %"});
+                            .legend = said("geometric mean, 95 %")});
     return chart;
   }
 
   [[nodiscard]] std::string caption() const {
-    return "Match over standard, both axes logarithmic. Grey: geometric means of each of " +
-           counted_words(std::ssize(set_.participants), "participant") +
-           " over repetitions and starting values. Squares: the group’s geometric means with "
-           "their 95 % intervals (Student’s t in ln). " +
-           (law_.empty()
-                ? std::string("There is no matching function here.")
-                : "Black line: the matching function, match = k standardᵃ with " + law_ + ".") +
-           (block_.standard_is_of_its_quantity()
-                ? " Dashed: identity, the match being the standard."
-                : "");
+    return said(
+        "Match over standard, both axes logarithmic. Grey: geometric means of each of {} over "
+        "repetitions and starting values. Squares: the group’s geometric means with their 95 % "
+        "intervals (Student’s t in ln). {}{}",
+        counted_words(std::ssize(set_.participants), "participant"),
+        (law_.empty()
+             ? said("There is no matching function here.")
+             : said("Black line: the matching function, match = k standardᵃ with {}.", law_)),
+        (block_.standard_is_of_its_quantity()
+             ? said(" Dashed: identity, the match being the standard.")
+             : ""));
   }
 
   const FigureSource& source_;

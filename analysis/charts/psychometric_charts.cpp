@@ -14,6 +14,7 @@
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/summary.h"
 #include "analysis/statistics/wilson_interval.h"
+#include "analysis/words/said.h"
 #include "core/psychometric_function.h"
 #include "experiments/procedures/task.h"
 #include "experiments/study/media.h"
@@ -72,7 +73,7 @@ std::string fraction_words(const std::optional<double>& value) {
 /// "median person: w = 0.29 (0.21 .. 0.40)"
 std::string median_person_words(const Estimate& fraction) {
   const int num_decimals = *fraction.value < 0.1 ? 3 : 2;
-  std::string words = "median person: w = " + number_words(fraction.value, num_decimals);
+  std::string words = said("median person: w = {}", number_words(fraction.value, num_decimals));
   const Interval ci95 = bounded_by_data(fraction.ci95, fraction.value);
   if (!ci95.low || !ci95.high) return words;
   return words + " (" + number_words(ci95.low, num_decimals) + " .. " +
@@ -82,10 +83,11 @@ std::string median_person_words(const Estimate& fraction) {
 /// For whoever answered, not for whoever fits.
 std::string in_plain_words(const std::string& reason, bool is_separated, bool frees) {
   if (!is_separated) return reason;
-  const std::string place = frees ? "one level" : "the reference";
-  return "every answer fell on its side of " + place +
-         ", so the Weber fraction is smaller than these stimuli can show; stimuli nearer to " +
-         (frees ? "it" : place) + " would find it";
+  const std::string place = frees ? said("one level") : said("the reference");
+  return said(
+      "every answer fell on its side of {}, so the Weber fraction is smaller than these "
+      "stimuli can show; stimuli nearer to {} would find it",
+      place, (frees ? "it" : place));
 }
 
 void add_word(std::string& words, const std::string& more, const char* between) {
@@ -111,8 +113,9 @@ class PsychometricCharts {
     set_ = {.section = block_.block,
             .heading = title,
             .x = quantity_chart_axis(block_.quantity, "test"),
-            .y = {.title = "Proportion of answers “more”",
-                  .label = is_two_interval ? "test chosen in percent" : "“yes” in percent",
+            .y = {.title = said("Proportion of answers “more”"),
+                  .label = is_two_interval ? said("test chosen in percent")
+                                           : said("“yes” in percent"),
                   .is_proportion = true,
                   .range = {0.0, 1.0}}};
     std::vector<double> intensities{reference_};
@@ -137,9 +140,9 @@ class PsychometricCharts {
     for (const OwnAnswers& own : all_) add_participant(own);
     add_everybody();
     set_.panels = PanelFigures{.name = name + "_participants",
-                               .title = "Answers of every participant, " + title,
+                               .title = said("Answers of every participant, {}", title),
                                .caption = panels_caption(),
-                               .thesis = "Fig. D.5 and D.20"};
+                               .thesis = said("Fig. D.5 and D.20")};
     return std::move(set_);
   }
 
@@ -225,7 +228,7 @@ class PsychometricCharts {
     chart.lines.push_back({.kind = ChartLine::Kind::kValue,
                            .at = at,
                            .until = core::standard_normal_cdf(1.0),
-                           .label = "pse (1 + w)"});
+                           .label = said("pse (1 + w)")});
     return true;
   }
 
@@ -272,15 +275,16 @@ class PsychometricCharts {
     const ParticipantEstimate* const primary = frees_ ? own.free_fraction : own.fraction;
     const ParticipantEstimate* const other = frees_ ? own.fraction : own.free_fraction;
     if (primary == nullptr) {
-      chart.reason = "no value";
+      chart.reason = said("no value");
       return;
     }
     add_value(chart, primary->value, primary->ci95,
               in_plain_words(primary->reason, primary->is_separated, frees_), primary->cautions,
               "w = " + fraction_words(primary->value));
     if (other != nullptr) {
-      add_other(chart, std::string("with the pse ") + (frees_ ? "at the reference " : "free ") +
-                           fraction_words(other->value));
+      add_other(chart,
+                said("with the pse {}{}", (frees_ ? said("at the reference ") : said("free ")),
+                     fraction_words(other->value)));
     }
   }
 
@@ -356,13 +360,13 @@ class PsychometricCharts {
       set_.tables[kSpreadTable] =
           spread_table(file_word(block_.block) + "_spread_of_curves", "intensity",
                        values_by(set_.tables[own_table], "intensity", "ratio"));
-      chart.series.push_back(spread_series(kSpreadTable, "intensity",
-                                           "middle 90 % of the participants’ own curves"));
+      chart.series.push_back(spread_series(
+          kSpreadTable, "intensity", said("middle 90 % of the participants’ own curves")));
     } else {
       for (const int series : with_curve_) {
         chart.series.push_back(curve_series(Look::kFaintCurve, own_table, series));
       }
-      if (!chart.series.empty()) chart.series.back().legend = "each participant, fitted";
+      if (!chart.series.empty()) chart.series.back().legend = said("each participant, fitted");
     }
     if (person) {
       add_curve(set_.tables[kMedianPersonTable], {}, *person, /*has_band=*/true);
@@ -379,27 +383,27 @@ class PsychometricCharts {
       }
       chart.series.push_back(
           curve_series(Look::kOtherCurve, kGroupCurveTable, std::nullopt,
-                       "one curve through everybody’s answers: w = " +
-                           number_words(std::optional<double>(group->weber_fraction), 3)));
+                       said("one curve through everybody’s answers: w = {}",
+                            number_words(std::optional<double>(group->weber_fraction), 3))));
     }
     ChartSeries points =
-        curve_series(Look::kManyAnswers, kPooledTable, std::nullopt, "all answers");
+        curve_series(Look::kManyAnswers, kPooledTable, std::nullopt, said("all answers"));
     points.size = "num_trials";
     if (block_.has_fixed_levels()) {
       points.look = Look::kAnswers;
       points.y = "mean_ratio";
       points.low = "low";
       points.high = "high";
-      points.legend = "mean ± sd";
+      points.legend = said("mean ± sd");
     }
     chart.series.push_back(std::move(points));
     add_reference(chart);
     const bool has_weber_line = person && add_weber_line(chart, *person);
     add_group_value(chart);
     set_.whole = WholeFigure{.name = file_word(block_.block) + "_psychometric",
-                             .title = "Psychometric function, " + set_.heading,
+                             .title = said("Psychometric function, {}", set_.heading),
                              .caption = whole_caption(person, group, has_weber_line),
-                             .thesis = "Fig. 5, D.6 and D.23",
+                             .thesis = said("Fig. 5, D.6 and D.23"),
                              .height_in = 3.7,
                              .has_key_above = true};
     set_.everybody = std::move(chart);
@@ -408,7 +412,7 @@ class PsychometricCharts {
   void add_group_value(Chart& chart) const {
     const Estimate* const person = found("weber_fraction_median_person");
     if (person == nullptr) {
-      chart.reason = "no value";
+      chart.reason = said("no value");
     } else {
       add_value(chart, person->value, person->ci95,
                 in_plain_words(person->reason, person->is_separated, frees_), person->cautions,
@@ -416,10 +420,10 @@ class PsychometricCharts {
       if (person->value) add_word(chart.detail, "median person", " · ");
     }
     if (const Estimate* const pooled = found("weber_fraction")) {
-      add_other(chart, "curve through all answers " + fraction_words(pooled->value) +
-                           (pooled->published
-                                ? " (published " + fraction_words(pooled->published) + ")"
-                                : ""));
+      add_other(chart, said("curve through all answers {}{}", fraction_words(pooled->value),
+                            (pooled->published
+                                 ? said(" (published {})", fraction_words(pooled->published))
+                                 : "")));
     }
   }
 
@@ -429,61 +433,64 @@ class PsychometricCharts {
     const bool by_order = group && group->order_effect_ln != 0.0;
     std::string words;
     if (person) {
-      words =
-          "Black: the curve of the median person (hierarchical fit), whose Weber fraction, " +
-          with_interval(person->weber_fraction, person->ci95) + ", is the primary value" +
-          (by_order ? ", without anybody’s bias for an interval" : "") +
+      words = said(
+          "Black: the curve of the median person (hierarchical fit), whose Weber fraction, {}, "
+          "is the primary value{}{}",
+          with_interval(person->weber_fraction, person->ci95),
+          (by_order ? said(", without anybody’s bias for an interval") : ""),
           (person->ci95.low || person->ci95.high
-               ? "; the band lies between the curves of the ends of its 95 % interval. "
-               : ". ");
+               ? said("; the band lies between the curves of the ends of its 95 % interval. ")
+               : ". "));
     }
-    if (!group) return words + "The answers of everybody together have no curve. ";
-    return words + "Orange, dashed: one curve through everybody’s answers (" +
-           (by_order ? "maximum likelihood, each order of the intervals with a point of "
-                       "subjective equality of its own, drawn as the mean of both"
-                     : "least squares, point of subjective equality at the reference") +
-           "), w = " + number_words(std::optional<double>(group->weber_fraction), 3) +
-           ": differences between people" + (by_order ? " and between the intervals" : "") +
-           " flatten it, so that its Weber fraction is no person’s. ";
+    if (!group) return said("{}The answers of everybody together have no curve. ", words);
+    return said(
+        "{}Orange, dashed: one curve through everybody’s answers ({}), w = {}: differences "
+        "between people{} flatten it, so that its Weber fraction is no person’s. ",
+        words,
+        (by_order ? said("maximum likelihood, each order of the intervals with a point of "
+                         "subjective equality of its own, drawn as the mean of both")
+                  : said("least squares, point of subjective equality at the reference")),
+        number_words(std::optional<double>(group->weber_fraction), 3),
+        (by_order ? said(" and between the intervals") : ""));
   }
 
   [[nodiscard]] std::string whole_caption(const std::optional<Curve>& person,
                                           const std::optional<Curve>& group,
                                           bool has_weber_line) const {
-    return curves_words(person, group) +
-           (are_curves_a_band() ? "Grey band: at each stimulus the middle 90 % of the "
-                                  "participants’ own curves, "
-                                  "of which there are " +
-                                      std::to_string(with_curve_.size())
-                                : std::string("Grey: each participant’s own")) +
-           " (maximum likelihood, point of subjective equality " +
-           (frees_ ? "free). Points: " : "at the reference). Points: ") +
-           (block_.has_fixed_levels()
-                ? "mean proportion of answers “more than the reference” and standard "
-                  "deviation between "
-                : "proportion of answers “more than the reference”, the larger a point the "
-                  "more answers, of ") +
-           counted_words(std::ssize(all_), "participant") + " at each level" +
-           (block_.has_fixed_levels() ? ", cut at 0 and 1. " : ". ") +
-           "Dashed, vertical: the reference, " + number_words(reference_) + " " +
-           experiments::quantity_unit(block_.quantity) +
-           (has_weber_line
-                ? ". Solid, vertical: where the median person answers “more” in 84.13 %."
-                : ".");
+    return said(
+        "{}{} (maximum likelihood, point of subjective equality {}{}{} at each level{}Dashed, "
+        "vertical: the reference, {} {}{}",
+        curves_words(person, group),
+        (are_curves_a_band() ? said("Grey band: at each stimulus the middle 90 % of the "
+                                    "participants’ own curves, of which there are {}",
+                                    std::to_string(with_curve_.size()))
+                             : said("Grey: each participant’s own")),
+        (frees_ ? said("free). Points: ") : said("at the reference). Points: ")),
+        (block_.has_fixed_levels() ? said("mean proportion of answers “more than the "
+                                          "reference” and standard deviation between ")
+                                   : said("proportion of answers “more than the reference”, "
+                                          "the larger a point the more answers, of ")),
+        counted_words(std::ssize(all_), "participant"),
+        (block_.has_fixed_levels() ? said(", cut at 0 and 1. ") : ". "),
+        number_words(reference_), experiments::quantity_unit(block_.quantity),
+        (has_weber_line
+             ? said(". Solid, vertical: where the median person answers “more” in 84.13 %.")
+             : "."));
   }
 
   [[nodiscard]] bool are_curves_a_band() const { return with_curve_.size() > kMostLines; }
 
   [[nodiscard]] std::string panels_caption() const {
-    return std::string("Proportion of answers “more than the reference”") +
-           (block_.has_fixed_levels() ? " with Wilson’s 95 % interval" : "") +
-           ", and the curves of maximum likelihood, where they exist: black, with its Weber "
-           "fraction w, the point of subjective equality " +
-           (frees_ ? "free, as the primary value has it; dashed, it is at the reference. "
-                   : "at the reference, as the primary value has it; dashed, it is free. ") +
-           (has_order_effects_ ? "Drawn is the mean of both orders of the intervals. " : "") +
-           "Vertical: the reference, dashed, and where the black curve reaches 84.13 %. The "
-           "values of every participant say which curves the answers reject.";
+    return said(
+        "Proportion of answers “more than the reference”{}, and the curves of maximum "
+        "likelihood, where they exist: black, with its Weber fraction w, the point of "
+        "subjective equality {}{}Vertical: the reference, dashed, and where the black curve "
+        "reaches 84.13 %. The values of every participant say which curves the answers reject.",
+        (block_.has_fixed_levels() ? said(" with Wilson’s 95 % interval") : ""),
+        (frees_ ? said("free, as the primary value has it; dashed, it is at the reference. ")
+                : said("at the reference, as the primary value has it; dashed, it is free. ")),
+        (has_order_effects_ ? said("Drawn is the mean of both orders of the intervals. ")
+                            : ""));
   }
 
   [[nodiscard]] const Estimate* found(const std::string& name) const {

@@ -6,6 +6,7 @@
 #include "analysis/data/stored_studies.h"
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -63,8 +64,8 @@ class RatedCharts {
 
   [[nodiscard]] std::string y_title() const {
     if (what_.num_steps == 0) return what_.title;
-    return "Step, 1: " + what_.low_label + ", " + std::to_string(what_.num_steps) + ": " +
-           what_.high_label;
+    return said("Step, 1: {}, {}: {}", what_.low_label, std::to_string(what_.num_steps),
+                what_.high_label);
   }
 
   void add_means() {
@@ -112,7 +113,7 @@ class RatedCharts {
         source_.own(what_.section, participant, what_.prefix + ".rank_correlation");
     if (own != nullptr) {
       add_value(chart, own->value, own->ci95, own->reason, own->cautions,
-                own->value ? "rank correlation " + number_words(*own->value, 2) : "");
+                own->value ? said("rank correlation {}", number_words(*own->value, 2)) : "");
     }
     return chart;
   }
@@ -129,20 +130,21 @@ class RatedCharts {
                             .y = "mean",
                             .low = "ci95_low",
                             .high = "ci95_high",
-                            .legend = "mean, 95 %"});
+                            .legend = said("mean, 95 %")});
     const Estimate* const relation = source_.results.find(what_.prefix + ".rank_correlation");
     if (relation != nullptr) {
       add_value(chart, relation->value, relation->ci95, relation->reason, relation->cautions,
-                relation->value ? "rank correlation " + number_words(*relation->value, 2) : "");
+                relation->value ? said("rank correlation {}", number_words(*relation->value, 2))
+                                : "");
     }
     return chart;
   }
 
   [[nodiscard]] std::string caption() const {
-    return what_.title + ": mean over the stimuli. Grey: means of each of " +
-           counted_words(std::ssize(set_.participants), "participant") +
-           ". Points: the mean of the participants’ means with its 95 % interval (Student’s "
-           "t).";
+    return said(
+        "{}: mean over the stimuli. Grey: means of each of {}. Points: the mean of the "
+        "participants’ means with its 95 % interval (Student’s t).",
+        what_.title, counted_words(std::ssize(set_.participants), "participant"));
   }
 
   const FigureSource& source_;
@@ -157,9 +159,9 @@ RatedWhat question_of(const BlockDesign& block, const experiments::Questionnaire
   const bool is_scale = item.kind == "scale";
   return {.section = block.block + "_questions",
           .prefix = block.block + ".question." + item.name,
-          .title = in_english(item.question),
-          .low_label = is_scale ? in_english(item.low_label) : "",
-          .high_label = is_scale ? in_english(item.high_label) : "",
+          .title = in_spoken_language(item.question),
+          .low_label = is_scale ? in_spoken_language(item.low_label) : "",
+          .high_label = is_scale ? in_spoken_language(item.high_label) : "",
           .num_steps = is_scale ? item.num_steps : 0};
 }
 
@@ -176,9 +178,9 @@ std::vector<ChartSet> rated_charts(const FigureSource& source) {
       add(block,
           {.section = block.block,
            .prefix = block.block + ".rating",
-           .title = "Rating",
-           .low_label = in_english(block.written.low_label),
-           .high_label = in_english(block.written.high_label),
+           .title = said("Rating"),
+           .low_label = in_spoken_language(block.written.low_label),
+           .high_label = in_spoken_language(block.written.high_label),
            .num_steps = static_cast<int>(block.written.settings.number("num_steps", 10.0))});
     }
     for (const experiments::QuestionnaireItem& item : block.written.questions) {

@@ -7,6 +7,7 @@
 #include "analysis/charts/charts.h"
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -53,20 +54,20 @@ class ResponseTimeCharts {
     set_.heading = source_.titles.title_of(block_.block);
     set_.whole = WholeFigure{
         .name = file_word(block_.block) + "_response_times",
-        .title = "Response times, " + set_.heading,
-        .caption =
-            "Median response time at each stimulus: of each participant, and of all with "
-            "the middle half of them as bars.",
+        .title = said("Response times, {}", set_.heading),
+        .caption = said("Median response time at each stimulus: of each participant, and of "
+                        "all with the middle half of them as bars."),
         .height_in = 3.0};
     if (block_.produces()) {
-      set_.x = {.title = "Target [%]", .label = "target", .unit = "%", .logarithmic = true};
+      set_.x = {
+          .title = said("Target [%]"), .label = "target", .unit = "%", .logarithmic = true};
     } else if (block_.matches()) {
       set_.x = quantity_chart_axis(block_.standard_quantity(), "standard");
     } else {
       set_.x = quantity_chart_axis(block_.quantity, "stimulus");
     }
-    set_.y = {.title = "Response time [s]",
-              .label = "response time",
+    set_.y = {.title = said("Response time [s]"),
+              .label = said("response time"),
               .unit = "s",
               .logarithmic = true};
     std::vector<double> levels, times = drawn_;
@@ -139,7 +140,7 @@ class ResponseTimeCharts {
                             .y = "response_time_s",
                             .low = "quartile_low_s",
                             .high = "quartile_high_s",
-                            .legend = "median and middle half"});
+                            .legend = said("median and middle half")});
     tell(chart, source_.results.find(block_.block + ".response_time_s"));
     if (block_.reference_intensity) {
       chart.lines.push_back({.at = *block_.reference_intensity, .label = "reference"});

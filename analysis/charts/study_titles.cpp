@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "analysis/data/stored_studies.h"
+#include "analysis/words/said.h"
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/procedures/task.h"
 #include "experiments/study/media.h"
@@ -26,17 +27,17 @@ std::string StudyTitles::short_title_of(const std::string& block) const {
 }
 
 StudyTitles titles_of(const experiments::Study& study) {
-  StudyTitles titles{.study = in_english(study.title)};
+  StudyTitles titles{.study = in_spoken_language(study.title)};
   if (titles.study.empty()) titles.study = in_words(study.name);
   for_each_stage(study.stages, [&](const experiments::Stage& stage) {
-    const std::string title = in_english(stage.title);
+    const std::string title = in_spoken_language(stage.title);
     if (!title.empty()) titles.stages.emplace(stage.name, title);
   });
   return titles;
 }
 
 std::string quantity_axis(const std::string& quantity) {
-  std::string words = experiments::quantity_words(quantity);
+  std::string words = said_of(experiments::quantity_words(quantity));
   if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') {
     words[0] = static_cast<char>(words[0] - 'a' + 'A');
   }
@@ -48,26 +49,27 @@ std::string procedure_words(const experiments::Block& block) {
   using experiments::Measure;
   using experiments::Task;
   const experiments::Procedure& procedure = experiments::procedure_named(block.procedure);
-  std::string words = procedure.words();
+  std::string words = said_of(procedure.words());
   const Measure measures = procedure.measures(block);
-  if (measures == Measure::kDetection) return words + " as a yes-no task";
+  if (measures == Measure::kDetection) return said("{} as a yes-no task", words);
   const bool is_balanced = block.settings.has("interval_order") &&
                            block.settings.word("interval_order") == "balanced";
-  const std::string order = is_balanced ? " (order balanced)" : " (order drawn)";
-  if (measures == Measure::kDifference) return words + " as a same-different task" + order;
+  const std::string order = is_balanced ? said(" (order balanced)") : said(" (order drawn)");
+  if (measures == Measure::kDifference)
+    return said("{} as a same-different task{}", words, order);
   if (measures == Measure::kIdentification) {
     const Task task = task_of(block);
-    return words +
-           (task == Task::kThreeInterval ? " as a three-interval forced choice"
-            : task == Task::kOddity      ? " as an oddity task"
-            : task == Task::kAbx         ? " as an ABX task"
-                                         : " as a match-to-sample task") +
-           " (every order equally often)";
+    return said("{}{} (every order equally often)", words,
+                (task == Task::kThreeInterval ? said(" as a three-interval forced choice")
+                 : task == Task::kOddity      ? said(" as an oddity task")
+                 : task == Task::kAbx         ? said(" as an ABX task")
+                                              : said(" as a match-to-sample task")));
   }
   if (measures != Measure::kComparison) return words;
-  if (task_of(block) == Task::kTwoInterval) return words + " as a two-interval task" + order;
+  if (task_of(block) == Task::kTwoInterval)
+    return said("{} as a two-interval task{}", words, order);
   if (procedure.adapts()) return words;
-  return words + " as a reminder task (reference first, yes or no)";
+  return said("{} as a reminder task (reference first, yes or no)", words);
 }
 
 }  // namespace jnd::analysis

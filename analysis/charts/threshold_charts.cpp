@@ -9,6 +9,7 @@
 #include "analysis/results/threshold_answers.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/wilson_interval.h"
+#include "analysis/words/said.h"
 #include "core/psychometric_function.h"
 #include "experiments/procedures/task.h"
 #include "experiments/study/media.h"
@@ -90,18 +91,18 @@ class ThresholdCharts {
 
   [[nodiscard]] ChartSet set() {
     const std::string name = file_word(block_.block);
-    const std::string answer = block_.detects()      ? "“yes”"
+    const std::string answer = block_.detects()      ? said("“yes”")
                                : block_.identifies() ? "right"
-                                                     : "“different”";
+                                                     : said("“different”");
     const std::string title = source_.titles.title_of(block_.block);
     set_ = {.section = block_.block,
             .heading = title,
             .panels = PanelFigures{.name = name + "_participants",
-                                   .title = "Answers of every participant, " + title,
+                                   .title = said("Answers of every participant, {}", title),
                                    .caption = caption(answer)},
             .x = quantity_chart_axis(block_.quantity, "test"),
-            .y = {.title = "Proportion of " + answer,
-                  .label = answer + " in percent",
+            .y = {.title = said("Proportion of {}", answer),
+                  .label = said("{} in percent", answer),
                   .is_proportion = true,
                   .range = {0.0, 1.0}}};
     set_.tables = {
@@ -125,13 +126,15 @@ class ThresholdCharts {
 
  private:
   [[nodiscard]] std::string caption(const std::string& answer) const {
-    return "Proportion of answers " + answer +
-           (block_.has_fixed_levels() ? " with Wilson’s 95 % interval"
-                                      : " at every level that the answers led to") +
-           ", and the curve of maximum likelihood where it exists, with " +
-           (block_.detects() ? "the intensity felt in 50 %" : "its Weber fraction w") +
-           " in the title. Dashed: " +
-           (block_.identifies() ? "right by guessing." : "the same answer in catch trials.");
+    return said(
+        "Proportion of answers {}{}, and the curve of maximum likelihood where it exists, with "
+        "{} in the title. Dashed: {}",
+        answer,
+        (block_.has_fixed_levels() ? said(" with Wilson’s 95 % interval")
+                                   : said(" at every level that the answers led to")),
+        (block_.detects() ? said("the intensity felt in 50 %") : said("its Weber fraction w")),
+        (block_.identifies() ? said("right by guessing.")
+                             : said("the same answer in catch trials.")));
   }
 
   [[nodiscard]] ChartSeries answers(std::size_t table, std::optional<int> series) const {
@@ -166,7 +169,7 @@ class ThresholdCharts {
           {.kind = ChartLine::Kind::kRate,
            .at = static_cast<double>(catches.num_yes) / static_cast<double>(catches.num_trials),
            .is_vertical = false,
-           .label = "catch trials"});
+           .label = said("catch trials")});
     }
   }
 
@@ -191,7 +194,7 @@ class ThresholdCharts {
     }
     chart.series.push_back(answers(kAnswersTable, series));
     if (own == nullptr) {
-      chart.reason = "no answers";
+      chart.reason = said("no answers");
     } else {
       add_value(chart, own->value, own->ci95, own->reason, own->cautions,
                 value_words(block_, own->value));
@@ -219,7 +222,7 @@ class ThresholdCharts {
     const Estimate* const found = source_.results.find(
         block_.block + (block_.detects() ? ".threshold" : ".weber_fraction"));
     if (found == nullptr) {
-      chart.reason = "nobody has a value";
+      chart.reason = said("nobody has a value");
     } else {
       add_value(chart, found->value, found->ci95, "", found->cautions,
                 value_words(block_, found->value));

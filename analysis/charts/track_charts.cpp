@@ -3,6 +3,7 @@
 #include "analysis/charts/chart_parts.h"
 #include "analysis/charts/charts.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -29,7 +30,7 @@ RuleEstimate estimate_of(const BlockDesign& block) {
 std::string value_words(const BlockDesign& block, const RuleEstimate& estimate,
                         const std::optional<double>& value) {
   // The primary value of such a block is that of the curves through its answers.
-  if (estimate.is_fraction) return "w by QUEST+ = " + number_words(value, 2);
+  if (estimate.is_fraction) return said("w by QUEST+ = {}", number_words(value, 2));
   const std::string unit = experiments::quantity_unit(block.quantity);
   return number_words(value) + (unit.empty() ? "" : " " + unit);
 }
@@ -52,25 +53,26 @@ void add_rows(FigureTable& table, const AdaptiveRun& run, int first_series) {
 }
 
 std::string title_of(const BlockDesign& block) {
-  if (block.rule == AdaptiveRule::kStaircase) return "Staircases";
-  if (block.rule == AdaptiveRule::kLimits) return "Series of the method of limits";
-  return "Stimuli of QUEST+";
+  if (block.rule == AdaptiveRule::kStaircase) return said("Staircases");
+  if (block.rule == AdaptiveRule::kLimits) return said("Series of the method of limits");
+  return said("Stimuli of QUEST+");
 }
 
 std::string caption_of(const AdaptiveRun& run, const BlockDesign& block) {
-  std::string words = "Level of every trial. ";
+  std::string words = said("Level of every trial. ");
   if (block.rule == AdaptiveRule::kStaircase) {
-    words += "A line is a staircase (" + run.rule +
-             "), circles are its reversals; the horizontal line is the mean of the last "
-             "reversals of all staircases, whose value stands in the title";
+    words += said(
+        "A line is a staircase ({}), circles are its reversals; the horizontal line is the "
+        "mean of the last reversals of all staircases, whose value stands in the title",
+        run.rule);
   } else if (block.rule == AdaptiveRule::kLimits) {
-    words +=
-        "A line is a series; the horizontal line is the mean of all transitions, whose "
-        "value stands in the title";
+    words += said(
+        "A line is a series; the horizontal line is the mean of all transitions, whose value "
+        "stands in the title");
   } else {
-    words += "In the title: mean of the posterior at the end";
+    words += said("In the title: mean of the posterior at the end");
   }
-  if (block.reference_intensity) words += ". Dashed: the reference";
+  if (block.reference_intensity) words += said(". Dashed: the reference");
   return words + ".";
 }
 
@@ -117,7 +119,7 @@ ChartSet set_of(const FigureSource& source, const BlockDesign& block,
                                       .num_columns = 3,
                                       .most_panels = 12,
                                       .panel_in = 1.3},
-               .x = {.title = "Trial", .label = "trial"},
+               .x = {.title = said("Trial"), .label = "trial"},
                .y = quantity_chart_axis(block.quantity, "test"),
                .tables = {{.name = name,
                            .columns = {"series", "participant", "track", "trial", "level",
@@ -142,7 +144,7 @@ ChartSet set_of(const FigureSource& source, const BlockDesign& block,
     const ParticipantEstimate* const own =
         source.own(estimate.section, run->participant, estimate.name);
     if (own == nullptr) {
-      chart.reason = "no answers";
+      chart.reason = said("no answers");
     } else {
       add_value(chart, own->value, own->ci95, own->reason, own->cautions,
                 value_words(block, estimate, own->value));
@@ -155,7 +157,7 @@ ChartSet set_of(const FigureSource& source, const BlockDesign& block,
   set.x.range = {0.0, static_cast<double>(last_trial) + 1.0};
   const Estimate* const found = source.results.find(estimate.name);
   if (found == nullptr) {
-    set.everybody->reason = "nobody has a value";
+    set.everybody->reason = said("nobody has a value");
   } else {
     add_value(*set.everybody, found->value, found->ci95, "", found->cautions,
               value_words(block, estimate, found->value));

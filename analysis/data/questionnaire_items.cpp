@@ -12,7 +12,7 @@ namespace {
 void add_options(QuestionnaireItem& item, const std::vector<experiments::Option>& options) {
   for (const experiments::Option& option : options) {
     item.options.push_back(option.value);
-    item.option_labels.push_back(in_english(option.label));
+    item.option_labels.push_back(in_spoken_language(option.label));
   }
 }
 
@@ -21,12 +21,12 @@ QuestionnaireItem item_of(const std::string& stage,
   QuestionnaireItem item{.stage = stage,
                          .name = written.name,
                          .kind = written.kind,
-                         .question = in_english(written.question),
+                         .question = in_spoken_language(written.question),
                          .unit = written.unit};
   add_options(item, written.options);
   if (item.kind != "scale") return item;
-  item.low_label = in_english(written.low_label);
-  item.high_label = in_english(written.high_label);
+  item.low_label = in_spoken_language(written.low_label);
+  item.high_label = in_spoken_language(written.high_label);
   item.num_steps = written.num_steps;
   item.high_is_good = written.high_is_good;
   return item;
@@ -45,7 +45,7 @@ std::vector<QuestionnaireItem> questionnaire_items(const experiments::Study& stu
         items.push_back({.stage = stage.name,
                          .name = written.name,
                          .kind = written.answer,
-                         .question = in_english(written.question)});
+                         .question = in_spoken_language(written.question)});
       }
     }
   });
@@ -58,7 +58,7 @@ std::vector<QuestionnaireItem> participant_fields(const experiments::Study& stud
     fields.push_back({.stage = kFieldsStage,
                       .name = written.name,
                       .kind = "choice",
-                      .question = in_english(written.question)});
+                      .question = in_spoken_language(written.question)});
     add_options(fields.back(), written.options);
   }
   return fields;

@@ -1,4 +1,5 @@
 #include "analysis/data/stored_studies.h"
+#include "analysis/words/said.h"
 
 #include <variant>
 
@@ -31,6 +32,11 @@ const Block& StoredStudies::block(const std::string& protocol_sha256,
   const std::map<std::string, const Block*>& blocks = blocks_[protocol_sha256];
   const auto found = blocks.find(name);
   return found == blocks.end() ? kNone : *found->second;
+}
+
+std::string in_spoken_language(const experiments::Text& text) {
+  const auto found = text.find(spoken().code);
+  return found == text.end() ? in_english(text) : found->second;
 }
 
 std::string in_english(const experiments::Text& text) {

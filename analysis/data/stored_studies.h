@@ -29,5 +29,7 @@ class StoredStudies {
 
 /// A text in English, or in the first language that it has; "" for an empty one.
 [[nodiscard]] std::string in_english(const experiments::Text& text);
+/// The same in the language that results are told in, where the study has it.
+[[nodiscard]] std::string in_spoken_language(const experiments::Text& text);
 
 }  // namespace jnd::analysis

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analysis/report/plot_parts.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -184,7 +185,7 @@ Figure figure_of(const ChartSet& set, const Words& words) {
 }
 
 std::string panel_title(const Chart& chart) {
-  return chart.who + "   " + (chart.value.empty() ? "no value" : chart.value);
+  return chart.who + "   " + (chart.value.empty() ? said("no value") : chart.value);
 }
 
 /// First and last row of each series of a table, by its number.

@@ -6,6 +6,7 @@
 #include "analysis/charts/axis_range.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/statistics/wilson_interval.h"
+#include "analysis/words/said.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -117,7 +118,7 @@ std::string axes_of(const CurveAxes& axes, const AxisRange& range, bool small) {
 }
 
 std::string title_of(const DrawnCurve& curve) {
-  return curve.name + (curve.probability ? "" : " (no curve)");
+  return curve.name + (curve.probability ? "" : said(" (no curve)"));
 }
 
 DrawnCurve drawn(const std::string& name, const CurveFit& fit) {
@@ -146,8 +147,8 @@ Figure curve_figure(const std::vector<DrawnCurve>& curves, const CurveAxes& axes
   const AxisRange range = intensity_range(shown, axes.logarithmic);
   Figure figure{.name = "psychometric",
                 .section = "psychometric",
-                .title = "Psychometric functions",
-                .caption = "Answers, the fitted curves, and their thresholds with 95 %."};
+                .title = said("Psychometric functions"),
+                .caption = said("Answers, the fitted curves, and their thresholds with 95 %.")};
   figure.tables = {answers_table(shown), curves_table(shown, range, axes.logarithmic),
                    thresholds_table(shown, range)};
   const double most_trials = largest_in(figure.tables[0], "trials");
@@ -190,9 +191,10 @@ Figure curve_figure(const std::vector<std::string>& names, const std::vector<Cur
   std::vector<DrawnCurve> curves;
   for (std::size_t i = 0; i < fits.size(); ++i) curves.push_back(drawn(names[i], fits[i]));
   const double guess = fits.front().guess_rate.value.value_or(0.0);
-  const std::string y_title = answer_name.empty() || answer_name == "num_yes"
-                                  ? (guess > 0.0 ? "Proportion right" : "Proportion yes")
-                                  : "Proportion of " + answer_name;
+  const std::string y_title =
+      answer_name.empty() || answer_name == "num_yes"
+          ? (guess > 0.0 ? said("Proportion right") : said("Proportion yes"))
+          : said("Proportion of {}", answer_name);
   return curve_figure(curves, {.intensity_name = intensity_name,
                                .answer_name = y_title,
                                .logarithmic = fits.front().model.is_logarithmic(),

@@ -8,6 +8,7 @@
 
 #include "analysis/data/json_fields.h"
 #include "analysis/data/stored_studies.h"
+#include "analysis/words/said.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
 #include "core/storage/sha256.h"
@@ -23,7 +24,7 @@ std::int64_t count_in(const json& data, const char* key) {
 }
 
 std::string trial_words(const core::EventRow& event) {
-  return event.trial ? "trial " + std::to_string(*event.trial) : "a trial";
+  return event.trial ? said("trial {}", std::to_string(*event.trial)) : said("a trial");
 }
 
 /// Measurements count from the start of a loop, so the last one of each start is added up.
@@ -97,16 +98,18 @@ void count_events(const core::StudyStore& store, SessionQuality& quality) {
     if (event.kind == "loop_measured") timing.measured(object_in(event.data));
     if (event.kind == "attempt_discarded") {
       ++quality.num_discarded;
-      remark(trial_words(event) + " run again: " + string_at(object_in(event.data), "reason"));
+      remark(said("{} run again: {}", trial_words(event),
+                  string_at(object_in(event.data), "reason")));
     }
     if (event.kind == "trial_excluded" || event.kind == "trial_included") {
-      remark(trial_words(event) +
-             (event.kind == "trial_excluded" ? " set aside: " : " taken back in: ") +
-             string_at(object_in(event.data), "reason"));
+      remark(
+          trial_words(event) +
+          (event.kind == "trial_excluded" ? said(" set aside: ") : said(" taken back in: ")) +
+          string_at(object_in(event.data), "reason"));
     }
     if (event.kind == "fault_raised") {
       ++quality.num_faults;
-      remark("fault: " + string_at(object_in(event.data), "fault"));
+      remark(said("fault: {}", string_at(object_in(event.data), "fault")));
     }
     if (event.kind == "guard_noticed") {
       const json noticed = object_in(event.data);
@@ -114,21 +117,21 @@ void count_events(const core::StudyStore& store, SessionQuality& quality) {
       num_warnings += noticed.value("num_warnings", std::int64_t{0});
       num_shadowed += noticed.value("num_shadowed", std::int64_t{0});
     }
-    if (event.kind == "note_added") remark("note: " + string_at(object_in(event.data), "text"));
+    if (event.kind == "note_added")
+      remark(said("note: {}", string_at(object_in(event.data), "text")));
     if (event.kind == "pause_explained") {
-      remark("paused: " + string_at(object_in(event.data), "reason"));
+      remark(said("paused: {}", string_at(object_in(event.data), "reason")));
     }
     if (event.kind == "session_ended_early") {
       quality.ended_early = string_at(object_in(event.data), "reason");
-      if (quality.ended_early.empty()) quality.ended_early = "no reason given";
-      remark("ended early: " + quality.ended_early);
+      if (quality.ended_early.empty()) quality.ended_early = said("no reason given");
+      remark(said("ended early: {}", quality.ended_early));
     }
   }
   for (const auto& [guard, counts] : guards) {
-    std::string words =
-        "guard " + guard + ": warned " + std::to_string(counts.first) + " times";
+    std::string words = said("guard {}: warned {} times", guard, std::to_string(counts.first));
     if (counts.second > 0) {
-      words += ", only counted " + std::to_string(counts.second) + " faults (shadow mode)";
+      words += said(", only counted {} faults (shadow mode)", std::to_string(counts.second));
     }
     quality.remarks.push_back(words);
   }
@@ -146,21 +149,21 @@ void check_limit(const core::StudyStore& store, SessionQuality& quality) {
   const std::optional<double> most_s =
       studies.study(quality.session.protocol_sha256).session_limits.max_duration_s;
   if (!most_s || quality.duration_s <= *most_s) return;
-  quality.remarks.push_back("took " + minutes_of(quality.duration_s) + ", of at most " +
-                            minutes_of(*most_s) + " that the study allows");
+  quality.remarks.push_back(said("took {}, of at most {} that the study allows",
+                                 minutes_of(quality.duration_s), minutes_of(*most_s)));
 }
 
 void check_recording(const core::StudyStore& store, SessionQuality& quality) {
   if (!quality.session.recorded) return;
   const std::filesystem::path file = store.recording_file(quality.session.session);
   if (!std::filesystem::exists(file)) {
-    quality.remarks.emplace_back("its recording is missing");
+    quality.remarks.emplace_back(said("its recording is missing"));
     return;
   }
   try {
     quality.missing_ticks = core::RecordingReader(file).missing_ticks();
   } catch (const core::Error&) {
-    quality.remarks.emplace_back("its recording cannot be read; jnd verify tells more");
+    quality.remarks.emplace_back(said("its recording cannot be read; jnd verify tells more"));
   }
 }
 
@@ -186,7 +189,7 @@ std::vector<SessionQuality> session_quality(const core::StudyStore& store,
     check_recording(store, quality);
     for (const core::AdverseEventRow& row : store.adverse_events()) {
       if (row.session != session.session) continue;
-      quality.remarks.push_back("adverse event: " + row.text);
+      quality.remarks.push_back(said("adverse event: {}", row.text));
     }
     all.push_back(std::move(quality));
   }

@@ -75,7 +75,7 @@ std::string estimate_title(const StudyTitles& titles, const std::string& name,
     if (!ending.empty() && part.ends_with(ending) && part.size() > ending.size()) {
       part.resize(part.size() - ending.size());
     }
-    words += (words.empty() ? "" : ", ") + in_phrases(in_words(part));
+    words += (words.empty() ? "" : ", ") + said_of(in_phrases(in_words(part)));
   }
   if (stage.empty()) {
     if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') {

@@ -5,6 +5,7 @@
 #include "analysis/data/presentation_use.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/recording_conditions.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -16,8 +17,8 @@ struct Quantity {
 };
 
 constexpr Quantity kQuantities[] = {
-    {"stroke_width_m", "Stroke width [m]", &StrokeMeans::stroke_width_m},
-    {"max_speed_m_per_s", "Highest speed [m/s]", &StrokeMeans::max_speed_m_per_s},
+    {"stroke_width_m", said_later("Stroke width [m]"), &StrokeMeans::stroke_width_m},
+    {"max_speed_m_per_s", said_later("Highest speed [m/s]"), &StrokeMeans::max_speed_m_per_s},
 };
 
 FigureTable explored_table(const std::vector<ExploredMedium>& media) {
@@ -79,13 +80,13 @@ std::vector<Figure> explored_figures(const FigureSource& source,
   FigureTable means = means_table(media);
   std::vector<std::string> titles;
   for (const ExploredMedium& medium : media) titles.push_back(medium.title);
-  Figure figure{.name = "explored_media",
-                .section = "movement",
-                .title = "Stroke width and highest speed by medium",
-                .caption =
-                    "From the recordings of media explored outside of trials, all whole "
-                    "strokes: circles are participants, bars their means. A medium "
-                    "without a mark has no whole stroke."};
+  Figure figure{
+      .name = "explored_media",
+      .section = "movement",
+      .title = said("Stroke width and highest speed by medium"),
+      .caption = said(
+          "From the recordings of media explored outside of trials, all whole strokes: circles "
+          "are participants, bars their means. A medium without a mark has no whole stroke.")};
   PanelGrid grid{.num_columns = 2,
                  .x_title = "",
                  .left_in = 0.75,
@@ -99,7 +100,7 @@ std::vector<Figure> explored_figures(const FigureSource& source,
                    "]\n" + named_tics("x", titles, /*upright=*/true) +
                    "  set xtics font small\n  set yrange [0:*]\n" +
                    small_tics("y", {0.0, largest_in(table, quantity.name)}) + "  set ylabel " +
-                   gnuplot_quoted(quantity.axis) + "\n";
+                   gnuplot_quoted(said(quantity.axis)) + "\n";
     panel.plot = "plot " + from_table(means) + "(column('position')-0.25):'" + quantity.name +
                  "':(0.5):(0.0) with vectors nohead ls 11, " + from_table(table) +
                  "'position':'" + quantity.name + "' with points lt 1 pt 6 ps 0.7";

@@ -4,13 +4,15 @@
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/recording_conditions.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 #include "core/hand.h"
 #include "core/joints.h"
 
 namespace jnd::analysis {
 namespace {
 
-constexpr const char* kJointTitles[] = {"base abduction", "base extension", "proximal"};
+constexpr const char* kJointTitles[] = {said_later("base abduction"),
+                                        said_later("base extension"), said_later("proximal")};
 
 /// At most that many rows of panels on a page.
 constexpr std::size_t kRows = 4;
@@ -106,14 +108,14 @@ constexpr char kKeyAbove[] =
 std::string who_words(const MovementAnalysis& movement, const ParticipantMovement& person,
                       const std::vector<ShownCondition>& conditions, std::size_t num_there) {
   std::string words =
-      "Participant " + person.participant + person_selection_words(movement) + "; rows:";
+      said("Participant {}{}; rows:", person.participant, person_selection_words(movement));
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     words += (i > 0 ? ", " : " ") + conditions[i].title + " (" +
              counted_words(conditions[i].movement->curves.num_strokes, "stroke") + ")";
   }
-  return words + "." +
-         selection_words(conditions.size(), num_there, "conditions with strokes") +
-         " Columns: the five fingers of the exoskeleton, by where they hold the hand. ";
+  return said(
+      "{}.{} Columns: the five fingers of the exoskeleton, by where they hold the hand. ",
+      words, selection_words(conditions.size(), num_there, said("conditions with strokes")));
 }
 
 }  // namespace
@@ -127,17 +129,17 @@ std::optional<Figure> joint_angles_figure(const FigureSource& source,
       joints_table("joint_angles", "_rad", conditions, &StrokeCurves::joint_position_rad);
   Figure figure{.name = "joint_angles",
                 .section = "movement",
-                .title = "Joint angles over a stroke",
-                .thesis = "Fig. D.18 and D.26"};
+                .title = said("Joint angles over a stroke"),
+                .thesis = said("Fig. D.18 and D.26")};
   PanelGrid grid{.num_columns = core::kNumContactPoints,
-                 .x_title = "Stroke [%]",
-                 .y_title = "Change of the joint angle [°]",
+                 .x_title = said("Stroke [%]"),
+                 .y_title = said("Change of the joint angle [°]"),
                  .left_in = 0.95,
                  .top_in = 0.55};
   std::vector<Panel> panels;
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     for (int finger = 0; finger < core::kNumContactPoints; ++finger) {
-      Panel panel{.title = c == 0 ? kFingerTitles[finger] : ""};
+      Panel panel{.title = c == 0 ? said(kFingerTitles[finger]) : ""};
       if (panels.empty()) {
         panel.before =
             std::string(kKeyAbove) + "  set xrange [0:100]\n  set xtics 50 font small\n";
@@ -163,18 +165,18 @@ std::optional<Figure> joint_angles_figure(const FigureSource& source,
                       " fs transparent solid 0.18 noborder, " + from_table(table) +
                       "'stroke_percent':" + here + "(column('" + column + "')-" + mean + ")" +
                       degrees + " with lines lt " + type + " lw 1.5";
-        if (panels.empty()) panel.plot += std::string(" title '") + kJointTitles[joint] + "'";
+        if (panels.empty()) panel.plot += " title " + gnuplot_quoted(said(kJointTitles[joint]));
       }
       panels.push_back(std::move(panel));
     }
   }
   figure.height_in = grid_height_in(grid, panels.size(), 1.25);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
-  figure.caption =
-      who_words(movement, person, conditions, num_there) +
-      "Mean and standard deviation over strokes, each joint about its mean over the stroke; "
+  figure.caption = said(
+      "{}Mean and standard deviation over strokes, each joint about its mean over the stroke; "
       "the distal joint follows the proximal one. 0 % is the middle of the motion back, dashed "
-      "lines are the turning points.";
+      "lines are the turning points.",
+      who_words(movement, person, conditions, num_there));
   figure.tables = {std::move(table)};
   return figure;
 }
@@ -188,17 +190,17 @@ std::optional<Figure> joint_torques_figure(const FigureSource& source,
       joints_table("joint_torques", "_n_m", conditions, &StrokeCurves::joint_torque_n_m);
   Figure figure{.name = "joint_torques",
                 .section = "movement",
-                .title = "Joint torques over the velocity of the hand",
-                .thesis = "Fig. D.19 and D.27"};
+                .title = said("Joint torques over the velocity of the hand"),
+                .thesis = said("Fig. D.19 and D.27")};
   PanelGrid grid{.num_columns = core::kNumContactPoints,
-                 .x_title = "Velocity of the hand, forward positive [m/s]",
-                 .y_title = "Joint torque [N m]",
+                 .x_title = said("Velocity of the hand, forward positive [m/s]"),
+                 .y_title = said("Joint torque [N m]"),
                  .left_in = 1.05,
                  .top_in = 0.55};
   std::vector<Panel> panels;
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     for (int finger = 0; finger < core::kNumContactPoints; ++finger) {
-      Panel panel{.title = c == 0 ? kFingerTitles[finger] : ""};
+      Panel panel{.title = c == 0 ? said(kFingerTitles[finger]) : ""};
       if (panels.empty()) {
         panel.before = std::string(kKeyAbove) + "  set xtics 0.5 font small\n";
       }
@@ -213,7 +215,7 @@ std::optional<Figure> joint_torques_figure(const FigureSource& source,
             (joint > 0 ? ", " : "") + from_table(table) +
             "'forward_velocity_m_per_s':" + if_series(static_cast<int>(c) + 1, column) +
             " with lines lt " + type + " lw 1.3";
-        if (panels.empty()) panel.plot += std::string(" title '") + kJointTitles[joint] + "'";
+        if (panels.empty()) panel.plot += " title " + gnuplot_quoted(said(kJointTitles[joint]));
         panel.plot += ", " + from_table(table) +
                       "(column('stroke_percent')==0 ? column('forward_velocity_m_per_s') : "
                       "NaN):" +
@@ -225,9 +227,10 @@ std::optional<Figure> joint_torques_figure(const FigureSource& source,
   }
   figure.height_in = grid_height_in(grid, panels.size(), 1.25);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
-  figure.caption = who_words(movement, person, conditions, num_there) +
-                   "Means over strokes, as the torque sensors say; black dots: the middle of "
-                   "the motion back, where a stroke begins.";
+  figure.caption = said(
+      "{}Means over strokes, as the torque sensors say; black dots: the middle of the motion "
+      "back, where a stroke begins.",
+      who_words(movement, person, conditions, num_there));
   figure.tables = {std::move(table)};
   return figure;
 }

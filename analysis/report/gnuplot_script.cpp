@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "analysis/report/figure.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -56,7 +57,8 @@ std::string gnuplot_quoted(const std::string& text) {
 std::string gnuplot_script(const Figure& figure, bool simulated) {
   const std::string width = inches(figure.width_in);
   const std::string height = inches(figure.height_in);
-  std::string script = "# " + one_line(figure.title) + (simulated ? " (SIMULATED data)" : "") +
+  std::string script = "# " + one_line(figure.title) +
+                       (simulated ? said(" (SIMULATED data)") : "") +
                        "\n# Draw it here with: gnuplot " + figure.name + ".gp\n";
   script +=
       "do for [format in 'svg pdf'] {\n"
@@ -80,8 +82,8 @@ std::string gnuplot_script(const Figure& figure, bool simulated) {
       "  set datafile columnheaders\n";
   script += kGnuplotStyle;
   if (simulated) {
-    script += "  set label 99 'SIMULATED' at screen 0.995," + inches(0.12 / figure.height_in) +
-              " right font small tc rgb '#777777'\n";
+    script += "  set label 99 " + gnuplot_quoted(said("SIMULATED")) + " at screen 0.995," +
+              inches(0.12 / figure.height_in) + " right font small tc rgb '#777777'\n";
   }
   script += figure.plot;
   script += "}\nunset output\n";

@@ -1,4 +1,5 @@
 #include "analysis/report/html_text.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -79,7 +80,8 @@ std::string html_document(const std::string& title, const std::string& mark,
             "; font: 600 8pt Inter, sans-serif; }\n";
   }
   page += "}\n";
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+  return "<!DOCTYPE html>\n<html lang=\"" + spoken().code +
+         "\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
          html_escaped(title) + "</title>\n<style>" + kPageStyle + style + page +
          "</style>\n</head>\n<body>\n" + body + "</body>\n</html>\n";

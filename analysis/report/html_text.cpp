@@ -1,4 +1,5 @@
 #include "analysis/report/html_text.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -143,7 +144,8 @@ void HtmlText::list(const std::vector<std::string>& items) {
 void HtmlText::table(const HtmlTable& table) {
   if (table.rows.empty()) return;
   text_ += std::string("<div class=\"") + (is_short(table) ? "short table" : "table") +
-           "\"><table>\n<caption><b>Table " + mark_ + std::to_string(++num_tables_) + ".</b> " +
+           "\"><table>\n<caption><b>" +
+           said("Table {}", mark_ + std::to_string(++num_tables_)) + ".</b> " +
            html_escaped(table.caption) + "</caption>\n<thead><tr>";
   for (const HtmlTable::Column& column : table.columns) {
     text_ += std::string(column.is_number ? "<th class=\"number\">" : "<th>") +
@@ -172,10 +174,10 @@ void HtmlText::table(const HtmlTable& table) {
 
 int HtmlText::figure(const std::string& name, const std::string& svg, const std::string& title,
                      const std::string& caption) {
-  text_ += "<figure id=\"figure-" + html_escaped(name) + "\">\n" +
-           inline_svg(svg, name, title) + "\n<figcaption><b>Figure " + mark_ +
-           std::to_string(++num_figures_) + ". " + html_escaped(title) + ".</b> " +
-           html_escaped(caption) + "</figcaption>\n</figure>\n";
+  text_ +=
+      "<figure id=\"figure-" + html_escaped(name) + "\">\n" + inline_svg(svg, name, title) +
+      "\n<figcaption><b>" + said("Figure {}", mark_ + std::to_string(++num_figures_)) + ". " +
+      html_escaped(title) + ".</b> " + html_escaped(caption) + "</figcaption>\n</figure>\n";
   return num_figures_;
 }
 

@@ -7,11 +7,12 @@
 #include "analysis/report/plot_parts.h"
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/comparison.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
 
-constexpr char kMagnitudeAxis[] = "Perceived magnitude (modulus = 1)";
+constexpr const char* kMagnitudeAxis = said_later("Perceived magnitude (modulus = 1)");
 
 /// The largest answer of a participant; 1 if none is above 0.
 double largest(const MagnitudeData::Own& own) {
@@ -46,17 +47,17 @@ std::vector<Figure> repetition_figures(const MagnitudeData& data) {
   if (num_repetitions < 2) return figures;
   for (std::size_t first = 0; first < data.participants.size(); first += kPanels) {
     const std::size_t end = std::min(first + kPanels, data.participants.size());
-    Figure figure{.name = file_word(data.block) + "_repetitions" +
-                          (first == 0 ? "" : "_" + std::to_string(first / kPanels + 1)),
-                  .section = data.block,
-                  .title = data.title + ": repetitions of every participant",
-                  .caption =
-                      "One line a repetition: first solid blue, second dashed orange, "
-                      "third dotted green. Each panel has its own vertical scale.",
-                  .thesis = "Fig. D.8"};
+    Figure figure{
+        .name = file_word(data.block) + "_repetitions" +
+                (first == 0 ? "" : "_" + std::to_string(first / kPanels + 1)),
+        .section = data.block,
+        .title = said("{}: repetitions of every participant", data.title),
+        .caption = said("One line a repetition: first solid blue, second dashed orange, third "
+                        "dotted green. Each panel has its own vertical scale."),
+        .thesis = said("Fig. D.8")};
     PanelGrid grid{.num_columns = 5,
                    .x_title = quantity_axis(data.quantity),
-                   .y_title = kMagnitudeAxis,
+                   .y_title = said(kMagnitudeAxis),
                    .gap_x_in = 0.36};
     std::vector<Panel> panels;
     for (std::size_t i = first; i < end; ++i) {
@@ -98,11 +99,10 @@ Figure estimation_boxes(const MagnitudeData& data) {
   }
   Figure figure{.name = file_word(data.block) + "_boxes",
                 .section = data.block,
-                .title = data.title + ": participants’ means",
-                .caption =
-                    "One circle a participant; boxes: quartiles and median, whiskers to "
-                    "the last value within 1.5 interquartile ranges.",
-                .thesis = "Fig. D.10",
+                .title = said("{}: participants’ means", data.title),
+                .caption = said("One circle a participant; boxes: quartiles and median, "
+                                "whiskers to the last value within 1.5 interquartile ranges."),
+                .thesis = said("Fig. D.10"),
                 .width_in = 5.2,
                 .height_in = 3.0};
   FigureTable boxes = box_table(file_word(data.block) + "_boxes", groups);
@@ -111,7 +111,7 @@ Figure estimation_boxes(const MagnitudeData& data) {
                 "]\n" + named_tics("x", names, names.size() > 14) +
                 "  set yrange [0:*]\n  set xlabel " +
                 gnuplot_quoted(quantity_axis(data.quantity)) + "\n  set ylabel " +
-                gnuplot_quoted(kMagnitudeAxis) + "\n  plot " +
+                gnuplot_quoted(said(kMagnitudeAxis)) + "\n  plot " +
                 box_plot_commands(boxes, values, 0.5) + "\n";
   figure.tables = {std::move(boxes), std::move(values)};
   return figure;
@@ -119,19 +119,19 @@ Figure estimation_boxes(const MagnitudeData& data) {
 
 /// D.1, D.2 and D.11: what each participant set for each target.
 Figure production_boxes(const MagnitudeData& data) {
-  Figure figure{.name = file_word(data.block) + "_boxes",
-                .section = data.block,
-                .title = data.title + ": values set by every participant",
-                .caption =
-                    "One panel a magnitude that was asked for; one circle a production; "
-                    "boxes: quartiles and median, whiskers to the last value within 1.5 "
-                    "interquartile ranges.",
-                .thesis = "Fig. D.1, D.2 and D.11"};
+  Figure figure{
+      .name = file_word(data.block) + "_boxes",
+      .section = data.block,
+      .title = said("{}: values set by every participant", data.title),
+      .caption = said(
+          "One panel a magnitude that was asked for; one circle a production; boxes: quartiles "
+          "and median, whiskers to the last value within 1.5 interquartile ranges."),
+      .thesis = said("Fig. D.1, D.2 and D.11")};
   std::vector<std::string> names;
   for (const MagnitudeData::Own& own : data.participants) names.push_back(own.participant);
   PanelGrid grid{.num_columns = 1,
-                 .x_title = "Participant",
-                 .y_title = quantity_axis(data.quantity) + ", as set"};
+                 .x_title = said("Participant"),
+                 .y_title = said("{}, as set", quantity_axis(data.quantity))};
   std::vector<Panel> panels;
   for (const auto& [target, people] : data.by_x()) {
     std::vector<BoxGroup> groups;
@@ -146,7 +146,7 @@ Figure production_boxes(const MagnitudeData& data) {
     const std::string name = file_word(data.block) + "_" + percent;
     FigureTable boxes = box_table(name + "_boxes", groups);
     FigureTable values = box_values_table(name + "_values", groups);
-    Panel panel{.title = "set to feel like " + percent + " %"};
+    Panel panel{.title = said("set to feel like {} %", percent)};
     if (panels.empty()) {
       panel.before =
           "  set xrange [0.4:" + plot_number(static_cast<double>(names.size()) + 0.6) + "]\n" +
@@ -186,20 +186,22 @@ std::optional<Figure> ratios_figure(const MagnitudeData& data) {
   FigureTable boxes = box_table(file_word(data.block) + "_ratio_boxes", groups);
   FigureTable values = box_values_table(file_word(data.block) + "_ratios", groups);
   if (boxes.rows.empty()) return std::nullopt;
-  Figure figure{.name = file_word(data.block) + "_ratios",
-                .section = data.block,
-                .title = data.title + ": ratios of set values",
-                .caption =
-                    "Mean value set for the larger over that for the smaller magnitude, "
-                    "one circle a participant; dashed: the ratio of the magnitudes that "
-                    "were asked for, where the two differ by a factor of 2.",
-                .thesis = "Fig. D.13",
-                .width_in = 3.6,
-                .height_in = 3.0};
+  Figure figure{
+      .name = file_word(data.block) + "_ratios",
+      .section = data.block,
+      .title = said("{}: ratios of set values", data.title),
+      .caption = said("Mean value set for the larger over that for the smaller magnitude, one "
+                      "circle a participant; dashed: the ratio of the magnitudes that were "
+                      "asked for, where the two differ by a factor of 2."),
+      .thesis = said("Fig. D.13"),
+      .width_in = 3.6,
+      .height_in = 3.0};
   figure.plot = "  set xrange [0.4:" + plot_number(static_cast<double>(names.size()) + 0.6) +
-                "]\n" + named_tics("x", names, false) +
-                "  set xlabel 'Magnitudes asked for'\n" +
-                "  set yrange [0:*]\n  set ylabel 'Ratio of set values'\n  plot 2.0 with lines "
+                "]\n" + named_tics("x", names, false) + "  set xlabel " +
+                gnuplot_quoted(said("Magnitudes asked for")) + "\n" +
+                "  set yrange [0:*]\n  set ylabel " +
+                gnuplot_quoted(said("Ratio of set values")) +
+                "\n  plot 2.0 with lines "
                 "ls 12, " +
                 box_plot_commands(boxes, values, 0.4) + "\n";
   figure.tables = {std::move(boxes), std::move(values)};

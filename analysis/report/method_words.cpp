@@ -8,6 +8,7 @@
 #include "analysis/report/test_methods.h"
 #include "analysis/report/threshold_methods.h"
 #include "analysis/results/inverted_answers.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -66,70 +67,66 @@ class MethodWriter {
 };
 
 void MethodWriter::write_analysis() {
-  std::string text = "Computed by jnd " + source_.program_version +
-                     ". Each table says what is estimated and how.";
+  std::string text = said("Computed by jnd {}. Each table says what is estimated and how.",
+                          source_.program_version);
   if (!source_.data.blocks.empty()) {
-    text +=
+    text += said(
         " Where a value does not exist for the data, it is left out with the reason, never "
         "replaced by a number. Trials that were undone or set aside and sessions of "
-        "participants who withdrew are left out";
+        "participants who withdrew are left out");
   } else {
-    text += " Sessions of participants who withdrew are left out";
+    text += said(" Sessions of participants who withdrew are left out");
   }
-  text += source_.pilot ? "; PILOT sessions are included." : ", as are pilot sessions.";
+  text +=
+      source_.pilot ? said("; PILOT sessions are included.") : said(", as are pilot sessions.");
   if (!source_.results.citation.empty()) {
-    text += " Published values, for comparison alone: " + source_.results.citation;
+    text += said(" Published values, for comparison alone: {}", source_.results.citation);
   }
-  add("Analysis", text);
+  add(said("Analysis"), text);
 }
 
 void MethodWriter::write_psychometric() {
   if (!discriminates()) return;
-  add("Psychometric function",
-      "The probability of the answer “more than the reference” at intensity x is P(x) = "
-      "Φ(ln(x / PSE) / ln(1 + w)), Φ being the standard normal distribution function (" +
-          cite("Bergmann Tiest et al. 2013") +
-          "): 50 % at the point of subjective equality PSE, 84.13 % at PSE (1 + w) and 15.87 % "
-          "at PSE / (1 + w), w being the Weber fraction: half the distance between the two on "
-          "the logarithmic scale. There are no lapses in it (lapse rate 0). “PSE at the "
-          "reference” "
+  add(said("Psychometric function"),
+      said(
+          "The probability of the answer “more than the reference” at intensity x is P(x) = "
+          "Φ(ln(x / PSE) / ln(1 + w)), Φ being the standard normal distribution function ({}): "
+          "50 % at the point of subjective equality PSE, 84.13 % at PSE (1 + w) and 15.87 % at "
+          "PSE / (1 + w), w being the Weber fraction: half the distance between the two on the "
+          "logarithmic scale. There are no lapses in it (lapse rate 0). “PSE at the reference” "
           "fixes PSE = reference; otherwise it is free. Group curves “as Schmidt (2018)” are "
-          "unweighted least squares on the proportions pooled over "
-          "participants, one term a level; all others are of maximum likelihood, answers being "
-          "binomial. Intervals of one participant’s w and PSE are those of the likelihood "
-          "ratio, profiled over the other parameter: all values whose log-likelihood is at "
-          "most "
-          "1.92 (half the 95 % quantile of χ² with 1 degree of freedom) below the greatest; an "
-          "end that the answers do not bound is open. No curve exists for answers that one "
-          "threshold separates without overlap, or that do not rise with the intensity. "
-          "Goodness of fit: 1000 sets of answers are drawn from the fitted curve (seed " +
-          std::to_string(source_.results_options.seed) +
-          ") and fitted anew; p = (1 + number with at least the deviance of the data) / 1001 "
-          "(" +
-          cite("Wichmann and Hill 2001") +
-          "). Error bars of single proportions are Wilson’s (" + cite("Wilson 1927") + ").");
+          "unweighted least squares on the proportions pooled over participants, one term a "
+          "level; all others are of maximum likelihood, answers being binomial. Intervals of "
+          "one participant’s w and PSE are those of the likelihood ratio, profiled over the "
+          "other parameter: all values whose log-likelihood is at most 1.92 (half the 95 % "
+          "quantile of χ² with 1 degree of freedom) below the greatest; an end that the "
+          "answers do not bound is open. No curve exists for answers that one threshold "
+          "separates without overlap, or that do not rise with the intensity. Goodness of fit: "
+          "1000 sets of answers are drawn from the fitted curve (seed {}) and fitted anew; p = "
+          "(1 + number with at least the deviance of the data) / 1001 ({}). Error bars of "
+          "single proportions are Wilson’s ({}).",
+          cite("Bergmann Tiest et al. 2013"), std::to_string(source_.results_options.seed),
+          cite("Wichmann and Hill 2001"), cite("Wilson 1927")));
 }
 
 void MethodWriter::write_wrong_way_round() {
   if (!any_inverted()) return;
   std::string text;
   if (discriminates()) {
-    text =
+    text = said(
         "Who gives the answer “more” significantly less often the more there is, by the exact "
-        "one-sided trend test on the ranks of the intensities (" +
-        cite("Armitage 1955") +
-        ") with p < 0.01, is named: as if the question or the answers had been taken for each "
-        "other.";
+        "one-sided trend test on the ranks of the intensities ({}) with p < 0.01, is named: as "
+        "if the question or the answers had been taken for each other.",
+        cite("Armitage 1955"));
   }
   if (has_magnitudes()) {
-    text +=
-        std::string(text.empty() ? "" : " ") +
-        "Whose magnitudes fall significantly as the intensity grows, or the intensities set "
-        "as the target grows, is named as well: Spearman’s rank correlation over all "
-        "trials, one-sided, p < 0.01, exact up to 14 trials and beyond by the normal "
-        "distribution.";
+    text += said(
+        "{}Whose magnitudes fall significantly as the intensity grows, or the intensities set "
+        "as the target grows, is named as well: Spearman’s rank correlation over all trials, "
+        "one-sided, p < 0.01, exact up to 14 trials and beyond by the normal distribution.",
+        std::string(text.empty() ? "" : " "));
   }
-  add("Wrong way round", text);
+  add(said("Wrong way round"), text);
 }
 
 void MethodWriter::write_thresholds() {
@@ -146,121 +143,111 @@ void MethodWriter::write_hierarchical() {
         });
       });
   if (!any) return;
-  add("Hierarchical model",
-      "Everybody’s answers at once: participant i says “more” with probability λ + (1 − 2λ) "
-      "Φ(e^a_i "
-      "(ln(x / reference) − p_i)), with a_i = −ln ln(1 + w_i) and p_i = ln(PSE_i / reference). "
-      "Over "
-      "people a and p are normal. The a of two conditions have a spread each and are "
-      "correlated; each condition’s p has its own spread and is independent of all others. "
-      "“PSE at the reference” sets every p to 0. The likelihood, integrated over people by "
-      "adaptive Gauss-Hermite quadrature (" +
-          cite("Pinheiro and Bates 1995") +
-          "), is maximised. The lapse rate λ, one for everybody, keeps the few slips in very "
-          "easy "
-          "comparisons from flattening every curve; the share of random answers, 2λ, has the "
-          "prior Beta(1, 20), as answers to hard comparisons alone cannot tell it (" +
-          cite("Schütt et al. 2016") +
-          "). The estimand is the median person’s Weber fraction, which a curve "
-          "through pooled answers flattens. Intervals and tests are Wald’s on ln ln(1 + w), "
-          "the interval of a condition over all lapse rates that answers and prior leave, "
-          "with the standard error times √(n / (n − 1)) and Student’s t with n − 1 degrees of "
-          "freedom, n being the number of participants; the standard error of one condition is "
-          "of the observed information, that of a difference of the sandwich over "
-          "participants’ scores (" +
-          cite("Huber 1967") + "; " + cite("Liang and Zeger 1986") +
-          "); nobody with answers is left out.");
+  add(said("Hierarchical model"),
+      said("Everybody’s answers at once: participant i says “more” with probability λ + (1 − "
+           "2λ) Φ(e^a_i (ln(x / reference) − p_i)), with a_i = −ln ln(1 + w_i) and p_i = "
+           "ln(PSE_i / reference). Over people a and p are normal. The a of two conditions "
+           "have a spread each and are correlated; each condition’s p has its own spread and "
+           "is independent of all others. “PSE at the reference” sets every p to 0. The "
+           "likelihood, integrated over people by adaptive Gauss-Hermite quadrature ({}), is "
+           "maximised. The lapse rate λ, one for everybody, keeps the few slips in very easy "
+           "comparisons from flattening every curve; the share of random answers, 2λ, has the "
+           "prior Beta(1, 20), as answers to hard comparisons alone cannot tell it ({}). The "
+           "estimand is the median person’s Weber fraction, which a curve through pooled "
+           "answers flattens. Intervals and tests are Wald’s on ln ln(1 + w), the interval of "
+           "a condition over all lapse rates that answers and prior leave, with the standard "
+           "error times √(n / (n − 1)) and Student’s t with n − 1 degrees of freedom, n being "
+           "the number of participants; the standard error of one condition is of the observed "
+           "information, that of a difference of the sandwich over participants’ scores ({}; "
+           "{}); nobody with answers is left out.",
+           cite("Pinheiro and Bates 1995"), cite("Schütt et al. 2016"), cite("Huber 1967"),
+           cite("Liang and Zeger 1986")));
 }
 
 void MethodWriter::write_power_laws() {
   if (!has_magnitudes()) return;
-  std::string text = "S = k I^a (" + cite("Stevens 1957") +
-                     "), S being the magnitude as a ratio to the modulus and I the intensity. "
-                     "Unless a name says otherwise, k and a are of nonlinear least "
-                     "squares of S, through the arithmetic means over participants, every mean "
-                     "of equal weight";
+  std::string text = said(
+      "S = k I^a ({}), S being the magnitude as a ratio to the modulus and I the intensity. "
+      "Unless a name says otherwise, k and a are of nonlinear least squares of S, through the "
+      "arithmetic means over participants, every mean of equal weight",
+      cite("Stevens 1957"));
   if (any_block(&BlockDesign::estimates))
-    text +=
+    text += said(
         "; means at intensity 0 are left out, where k I^a is 0 for every k and every a > 0, so "
-        "that they tell nothing of either";
+        "that they tell nothing of either");
   text += ".";
   if (any_block(&BlockDesign::counts_in_standard)) {
-    text +=
+    text += said(
         " Where a standard was felt that had a number, magnitudes are ratios to it, not to "
-        "water.";
+        "water.");
   }
   if (any_block(&BlockDesign::counts_in_own_numbers)) {
-    text +=
+    text += said(
         " Where everybody chose their own numbers, each participant’s answers are divided by "
-        "the geometric mean of their answers to the stimuli that all answered (" +
-        cite("Lane et al. 1961") +
-        ") before anything else: exponents are as they were, k has no meaning, and nothing is "
-        "compared in percent of water.";
+        "the geometric mean of their answers to the stimuli that all answered ({}) before "
+        "anything else: exponents are as they were, k has no meaning, and nothing is compared "
+        "in percent of water.",
+        cite("Lane et al. 1961"));
   }
   if (any_block(&BlockDesign::produces)) {
-    text +=
+    text += said(
         " Production: the magnitude asked for over the mean intensity set, as in Schmidt "
-        "(2018); "
-        "“intensity_on_magnitude” is instead the line ln I = c + d ln S, what was set on what "
-        "was asked, turned around to a = 1 / d and k = e^(−c / d).";
+        "(2018); “intensity_on_magnitude” is instead the line ln I = c + d ln S, what was set "
+        "on what was asked, turned around to a = 1 / d and k = e^(−c / d).");
   }
   if (source_.results.find("combined.a") != nullptr) {
-    text +=
+    text += said(
         " Combined: the power law that lies nearest to both curves (least squares of S) at the "
-        "intensities of the estimation.";
+        "intensities of the estimation.");
   }
-  text +=
+  text += said(
       " “log_log” is a line through the logarithms of the arithmetic means above 0, "
-      "“geometric” "
-      "one through the geometric means, where an answer of 0 counts as half the person’s "
-      "smallest above 0; both are without intensity 0. “equalised” brings all participants to "
-      "the same geometric mean first (" +
-      cite("Lane et al. 1961") +
-      "). Intervals of one participant’s a and ln k have Student’s t with as many degrees of "
-      "freedom as points less 2.";
-  add("Power laws", text);
+      "“geometric” one through the geometric means, where an answer of 0 counts as half the "
+      "person’s smallest above 0; both are without intensity 0. “equalised” brings all "
+      "participants to the same geometric mean first ({}). Intervals of one participant’s a "
+      "and ln k have Student’s t with as many degrees of freedom as points less 2.",
+      cite("Lane et al. 1961"));
+  add(said("Power laws"), text);
 }
 
 void MethodWriter::write_matching() {
   if (!any_block(&BlockDesign::matches)) return;
-  add("Matching",
-      "Method of adjustment (as in " + cite("Bergmann Tiest et al. 2013") +
-          "): a match is the intensity at which the comparison was said to feel like the "
-          "standard, with free switching between both. Everything is computed with the "
-          "logarithms of matches; matches of 0 are left out and counted. A participant’s value "
-          "at a standard is the geometric mean over repetitions and starting values. Over the "
-          "standard, where both have the same unit, it is the constant error as a ratio. The "
-          "spread is the standard deviation of ln(match) about its mean at each standard, "
-          "pooled over standards. The effect of the starting value is the slope of ln(match) "
-          "on "
-          "its logarithm that all standards share, each with a level of its own.");
+  add(said("Matching"),
+      said("Method of adjustment (as in {}): a match is the intensity at which the comparison "
+           "was said to feel like the standard, with free switching between both. Everything "
+           "is computed with the logarithms of matches; matches of 0 are left out and counted. "
+           "A participant’s value at a standard is the geometric mean over repetitions and "
+           "starting values. Over the standard, where both have the same unit, it is the "
+           "constant error as a ratio. The spread is the standard deviation of ln(match) about "
+           "its mean at each standard, pooled over standards. The effect of the starting value "
+           "is the slope of ln(match) on its logarithm that all standards share, each with a "
+           "level of its own.",
+           cite("Bergmann Tiest et al. 2013")));
 }
 
 void MethodWriter::write_groups() {
   std::string text;
   if (discriminates() || has_magnitudes() || any_block(&BlockDesign::matches)) {
-    text =
-        "Group intervals: participants are drawn anew with replacement, " +
-        std::to_string(source_.results_options.num_resamples) + " times (seed " +
-        std::to_string(source_.results_options.seed) +
-        "), and everything is computed again; the 95 % interval runs between the percentiles α "
+    text = said(
+        "Group intervals: participants are drawn anew with replacement, {} times (seed {}), "
+        "and everything is computed again; the 95 % interval runs between the percentiles α "
         "and 1 − α with α = Φ(−√(n / (n − 1)) t), t being the 97.5 % quantile of Student’s t "
-        "with n − 1 degrees of freedom (expanded percentiles, " +
-        cite("Hesterberg 2015") +
-        "), so it respects that people differ; there is none below 5 participants. ";
+        "with n − 1 degrees of freedom (expanded percentiles, {}), so it respects that people "
+        "differ; there is none below 5 participants. ",
+        std::to_string(source_.results_options.num_resamples),
+        std::to_string(source_.results_options.seed), cite("Hesterberg 2015"));
   }
   if (discriminates()) {
-    text +=
+    text += said(
         "Of w and PSE of a curve through everybody’s answers the interval is the value times "
         "exp(±t √(n / (n − 1)) s), s being the standard deviation of the logarithms of those "
-        "values (" +
-        cite("Efron and Tibshirani 1993") +
-        "), for their percentiles are too narrow with few people. ";
+        "values ({}), for their percentiles are too narrow with few people. ",
+        cite("Efron and Tibshirani 1993"));
   }
   if (!source_.data.blocks.empty() || !source_.data.items.empty()) {
-    text += "Means over participants have Student’s t intervals.";
+    text += said("Means over participants have Student’s t intervals.");
   }
-  add("Groups", text);
+  add(said("Groups"), text);
 }
 
 void MethodWriter::write_tests() {
@@ -272,36 +259,36 @@ void MethodWriter::write_tests() {
 void MethodWriter::write_movement() {
   const bool presented = !presentation_uses(source_.data).empty();
   if (!presented && !source_.movement.any()) return;
-  std::string text =
+  std::string text = said(
       "A stroke is a full cycle, from a turning point to the other side and back. The hand is "
       "the mean of its contact points, seen from above. The farthest point from the last "
       "turning point becomes one once the hand has come back from it by 3 cm (hysteresis); the "
       "way to the first turning point is left out, and so is a stroke that is not finished, or "
-      "that ends farther from its beginning than 0.4 of its width. "
-      "Width: mean distance between the turning points of whole strokes; highest speed: mean "
-      "over strokes of the highest speed in each.";
+      "that ends farther from its beginning than 0.4 of its width. Width: mean distance "
+      "between the turning points of whole strokes; highest speed: mean over strokes of the "
+      "highest speed in each.");
   if (presented) {
-    text +=
-        " A participant’s value is the mean over presentations with a whole stroke, free "
-        "space between stimuli left out; the mean over participants follows.";
+    text += said(
+        " A participant’s value is the mean over presentations with a whole stroke, free space "
+        "between stimuli left out; the mean over participants follows.");
     if (source_.results.find("stroke_width_m") != nullptr &&
         std::ranges::any_of(source_.results.sections, [](const ResultsSection& section) {
           return std::ranges::any_of(section.estimates, [](const Estimate& one) {
             return one.name.ends_with(".equal_intervals");
           });
         })) {
-      text +=
-          " “References and tests weighed equally”: the mean over references and the mean "
-          "over tests, and the mean of the two.";
+      text += said(
+          " “References and tests weighed equally”: the mean over references and the mean over "
+          "tests, and the mean of the two.");
     }
   }
   if (source_.movement.any()) {
-    text +=
+    text += said(
         " From recordings: all whole strokes, after the medium’s ramp, without those with "
         "missing samples, a lost contact or a fault; mean speed is over the time of the "
-        "strokes, pauses included.";
+        "strokes, pauses included.");
   }
-  add("Movement", text);
+  add(said("Movement"), text);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "analysis/charts/axis_range.h"
 #include "analysis/report/plot_parts.h"
+#include "analysis/words/said.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -96,7 +97,7 @@ std::string law_commands(const std::vector<FigureTable>& tables, int series, int
 }
 
 std::string title_of_law(const DrawnPowerLaw& law) {
-  return law.name + (law.k ? "" : " (no law)");
+  return law.name + (law.k ? "" : said(" (no law)"));
 }
 
 }  // namespace
@@ -111,8 +112,8 @@ Figure power_law_figure(const std::vector<DrawnPowerLaw>& laws) {
   const LawAxes axes = axes_of(shown);
   Figure figure{.name = "power_law",
                 .section = "power_law",
-                .title = "Power laws",
-                .caption = "Magnitudes, and the power laws that are fitted to them."};
+                .title = said("Power laws"),
+                .caption = said("Magnitudes, and the power laws that are fitted to them.")};
   figure.tables = {magnitudes_table(shown), laws_table(shown, axes)};
   if (shown.size() <= kMostLawsTogether) {
     figure.width_in = 5.2;
@@ -122,7 +123,8 @@ Figure power_law_figure(const std::vector<DrawnPowerLaw>& laws) {
       figure.height_in += 0.2 * std::ceil(static_cast<double>(shown.size()) / 2.0);
       figure.plot = "  set key outside above left horizontal reverse Left font small\n";
     }
-    figure.plot += "  set xlabel 'Intensity'\n  set ylabel 'Magnitude'\n" +
+    figure.plot += "  set xlabel " + gnuplot_quoted(said("Intensity")) + "\n  set ylabel " +
+                   gnuplot_quoted(said("Magnitude")) + "\n" +
                    axis_commands(axes, /*small=*/false) + "  plot ";
     for (std::size_t i = 0; i < shown.size(); ++i) {
       const int series = static_cast<int>(i) + 1;
@@ -133,7 +135,8 @@ Figure power_law_figure(const std::vector<DrawnPowerLaw>& laws) {
     figure.plot += "\n";
     return figure;
   }
-  const PanelGrid grid{.num_columns = 4, .x_title = "Intensity", .y_title = "Magnitude"};
+  const PanelGrid grid{
+      .num_columns = 4, .x_title = said("Intensity"), .y_title = said("Magnitude")};
   std::vector<Panel> panels;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     panels.push_back(

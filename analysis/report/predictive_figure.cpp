@@ -7,6 +7,7 @@
 #include "analysis/report/plot_parts.h"
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -64,12 +65,13 @@ void add_bins(FigureTable& table, int series, const Estimate& estimate,
 }
 
 std::string caption_of(const Predictive& predictive) {
-  return "Each panel: what " + std::to_string(predictive.num_studies) + " simulated studies" +
-         " of " + counted_words(predictive.num_participants, "participant") +
-         " come to by the statistic that was published (shape), the published value (point "
-         "and line; circles held out, squares calibrated or implied), and this run (open "
-         "triangle). Simulated studies far out of the panel are cut. Shares of them "
-         "as far out stand in the table.";
+  return said(
+      "Each panel: what {} simulated studies of {} come to by the statistic that was published "
+      "(shape), the published value (point and line; circles held out, squares calibrated or "
+      "implied), and this run (open triangle). Simulated studies far out of the panel are cut. "
+      "Shares of them as far out stand in the table.",
+      std::to_string(predictive.num_studies),
+      counted_words(predictive.num_participants, "participant"));
 }
 
 }  // namespace
@@ -108,12 +110,12 @@ std::optional<Figure> predictive_figure(const StudyResults& results) {
   }
   if (panels.empty()) return std::nullopt;
   const PanelGrid grid{.num_columns = 3,
-                       .x_title = "Value",
-                       .y_title = "Share of simulated studies",
+                       .x_title = said("Value"),
+                       .y_title = said("Share of simulated studies"),
                        .left_in = 0.4};
   Figure figure{.name = "published",
                 .section = "",
-                .title = "Published values among simulated studies",
+                .title = said("Published values among simulated studies"),
                 .caption = caption_of(results.predictive),
                 .height_in = grid_height_in(grid, panels.size(), 0.75)};
   figure.plot = "  unset ytics\n  set yrange [0:1.15]\n  unset key\n" +

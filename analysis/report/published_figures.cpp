@@ -4,6 +4,7 @@
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/predictive_figure.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -69,7 +70,7 @@ std::vector<Figure> published_figures(const FigureSource& source) {
   const auto count = static_cast<double>(names.size());
   Figure figure{.name = "published",
                 .section = "",
-                .title = "Ours over published",
+                .title = said("Ours over published"),
                 .height_in = 1.0 + 0.2 * count};
   figure.plot =
       "  set lmargin at screen 0.44\n  set rmargin at screen 0.97\n"
@@ -78,7 +79,9 @@ std::vector<Figure> published_figures(const FigureSource& source) {
       plot_number(count + 0.7) + ":0.3]\n" + named_tics("y", names, false) +
       "  set ytics font small\n"
       "  set xtics (0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5, 10)\n"
-      "  set xlabel 'Estimate over published value'\n"
+      "  set xlabel " +
+      gnuplot_quoted(said("Estimate over published value")) +
+      "\n"
       "  set arrow 1 from 1,graph 0 to 1,graph 1 nohead ls 12\n"
       "  set bars 0.6\n" +
       arrows + "  plot ";
@@ -90,19 +93,20 @@ std::vector<Figure> published_figures(const FigureSource& source) {
   if (source.results.simulated) {
     figure.plot =
         "  set key at screen 0.7,0.985 center top vertical maxrows 1 reverse Left samplen 1\n" +
-        figure.plot + part(1, "1") + " title 'held out', " + part(0, "2") +
-        " title 'calibrated or implied'\n";
-    figure.caption =
+        figure.plot + part(1, "1") + " title " + gnuplot_quoted(said("held out")) + ", " +
+        part(0, "2") + " title " + gnuplot_quoted(said("calibrated or implied")) + "\n";
+    figure.caption = said(
         "With 95 % intervals. Circles: nothing of the published value went into the simulated "
         "laboratory; squares: it was calibrated on it, or the value follows from one that "
-        "was. ";
+        "was. ");
   } else {
     figure.plot += part(1, "1") + "\n";
-    figure.caption = "With 95 % intervals. ";
+    figure.caption = said("With 95 % intervals. ");
   }
-  figure.caption += "At 1 ours and the published value agree.";
-  figure.caption += " The published value's own error is not drawn.";
-  if (!arrows.empty()) figure.caption += " An arrow: the interval goes on beyond the axis.";
+  figure.caption += said("At 1 ours and the published value agree.");
+  figure.caption += said(" The published value's own error is not drawn.");
+  if (!arrows.empty())
+    figure.caption += said(" An arrow: the interval goes on beyond the axis.");
   figure.tables = {std::move(table)};
   return {std::move(figure)};
 }

@@ -2,6 +2,7 @@
 
 #include "analysis/report/plot_parts.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -33,15 +34,15 @@ ShownCondition shown_condition(const FigureSource& source, const ConditionMoveme
   const std::string amount = shortest_words(*condition.intensity);
   const std::string unit = experiments::quantity_unit(quantity_of(source, condition));
   one.name = file_word(one.name + "_" + amount);
-  one.title += unit.empty() ? ", scale " + amount : ", " + amount + " " + unit;
+  one.title += unit.empty() ? said(", scale {}", amount) : ", " + amount + " " + unit;
   return one;
 }
 
 std::string selection_words(std::size_t num_shown, std::size_t num_there,
                             const std::string& of_what) {
   if (num_shown >= num_there) return "";
-  return " A selection: the first " + std::to_string(num_shown) + " of " +
-         std::to_string(num_there) + " " + of_what + ".";
+  return said(" A selection: the first {} of {} {}.", std::to_string(num_shown),
+              std::to_string(num_there), of_what);
 }
 
 std::string person_selection_words(const MovementAnalysis& movement) {
@@ -50,7 +51,7 @@ std::string person_selection_words(const MovementAnalysis& movement) {
     num_recorded += person.num_samples > 0 ? 1 : 0;
   }
   if (num_recorded < 2) return "";
-  return " (one of " + std::to_string(num_recorded) + " with recordings)";
+  return said(" (one of {} with recordings)", std::to_string(num_recorded));
 }
 
 std::vector<ShownCondition> whole_conditions(const FigureSource& source,

@@ -4,6 +4,7 @@
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/recording_conditions.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -69,10 +70,10 @@ std::optional<Figure> trajectories_figure(const FigureSource& source,
   if (blocks.empty()) return std::nullopt;
   Figure figure{.name = "trajectories",
                 .section = "movement",
-                .title = "Trajectories of the hand",
-                .thesis = "Fig. D.16 and D.24"};
+                .title = said("Trajectories of the hand"),
+                .thesis = said("Fig. D.16 and D.24")};
   PanelGrid grid{.num_columns = 2,
-                 .x_title = "x, to the right [m]",
+                 .x_title = said("x, to the right [m]"),
                  .left_in = 0.8,
                  .top_in = most > 1 ? 0.62 : 0.42,
                  .gap_x_in = 0.85};
@@ -81,11 +82,13 @@ std::optional<Figure> trajectories_figure(const FigureSource& source,
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::string title = blocks[b].empty() ? "" : source.titles.short_title_of(blocks[b]);
     for (const bool from_above : {true, false}) {
-      Panel panel{.title = title + (from_above ? ", from above" : ", from the front")};
+      Panel panel{.title =
+                      title + (from_above ? said(", from above") : said(", from the front"))};
       const AxisRange range = at_least(column_range(table, from_above ? 4 : 5), kLeastWidthM);
-      panel.before = small_tics("x", x_range) + small_tics("y", range) + "  set xrange " +
-                     range_words(x_range) + "\n  set yrange " + range_words(range) +
-                     "\n  set ylabel " + (from_above ? "'y, away [m]'\n" : "'z, up [m]'\n");
+      panel.before =
+          small_tics("x", x_range) + small_tics("y", range) + "  set xrange " +
+          range_words(x_range) + "\n  set yrange " + range_words(range) + "\n  set ylabel " +
+          gnuplot_quoted(from_above ? said("y, away [m]") : said("z, up [m]")) + "\n";
       if (panels.empty()) {
         panel.before +=
             "  set key at screen 0.5,0.99 center top vertical maxrows 1 reverse Left samplen 2 "
@@ -99,7 +102,7 @@ std::optional<Figure> trajectories_figure(const FigureSource& source,
                       "'x_m':" + if_series(series, y) + " with lines lt " + std::to_string(r) +
                       " lw 0.8";
         if (panels.empty() && most > 1) {
-          panel.plot += " title 'repetition " + std::to_string(r) + "'";
+          panel.plot += " title " + gnuplot_quoted(said("repetition {}", r));
         }
       }
       panels.push_back(std::move(panel));
@@ -107,12 +110,12 @@ std::optional<Figure> trajectories_figure(const FigureSource& source,
   }
   figure.height_in = grid_height_in(grid, panels.size(), 1.7);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
-  figure.caption =
-      "Participant " + person.participant + person_selection_words(movement) +
-      ": mean of the points of the hand, the first quarter of a minute of the "
+  figure.caption = said(
+      "Participant {}{}: mean of the points of the hand, the first quarter of a minute of the "
       "longest stretch without a gap in each repetition. Workspace frame: x to the "
-      "participant’s right, y away, z up from the surface of the fluid." +
-      selection_words(most, num_there, "repetitions");
+      "participant’s right, y away, z up from the surface of the fluid.{}",
+      person.participant, person_selection_words(movement),
+      selection_words(most, num_there, "repetitions"));
   figure.tables = {std::move(table)};
   return figure;
 }
@@ -153,10 +156,10 @@ std::optional<Figure> force_figure(const FigureSource& source, const MovementAna
       [](const ConditionMovement& condition) { return condition.force.is_measured; });
   Figure figure{.name = "force_by_speed",
                 .section = "movement",
-                .title = "Delivered and commanded force over speed"};
+                .title = said("Delivered and commanded force over speed")};
   PanelGrid grid{.num_columns = static_cast<int>(std::min<std::size_t>(2, blocks.size())),
-                 .x_title = "Speed of the hand [m/s]",
-                 .y_title = "Force against the motion [N]",
+                 .x_title = said("Speed of the hand [m/s]"),
+                 .y_title = said("Force against the motion [N]"),
                  .gap_x_in = 0.5};
   const AxisRange speeds{0.0, column_range(table, 3).high};
   std::vector<Panel> panels;
@@ -177,13 +180,13 @@ std::optional<Figure> force_figure(const FigureSource& source, const MovementAna
   }
   figure.height_in = grid_height_in(grid, panels.size(), 2.0);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
-  figure.caption = "Participant " + person.participant + person_selection_words(movement) +
-                   ": circles: mean force " +
-                   (is_measured ? "against the motion that the device's sensors measured"
-                                : "that was rendered against the motion, after every limit") +
-                   ", in classes of speed; lines: what the law commands there. One line "
-                   "an intensity." +
-                   selection_words(kIntensities, num_there, "intensities of a block");
+  figure.caption = said(
+      "Participant {}{}: circles: mean force {}, in classes of speed; lines: what the law "
+      "commands there. One line an intensity.{}",
+      person.participant, person_selection_words(movement),
+      (is_measured ? said("against the motion that the device's sensors measured")
+                   : said("that was rendered against the motion, after every limit")),
+      selection_words(kIntensities, num_there, said("intensities of a block")));
   figure.tables = {std::move(table)};
   return figure;
 }

@@ -6,6 +6,7 @@
 
 #include "analysis/results/contrast_words.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -31,15 +32,15 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 HtmlTable plan_table(const StudyResults& results) {
-  HtmlTable table{.caption = "Contrasts as they were planned in the study file",
-                  .columns = {{"Contrast", false, true},
-                              {"In"},
-                              {"Conditions and their weights"},
-                              {"Role, family"},
-                              {"Direction"},
-                              {"Smallest effect", true},
-                              {"Alpha", true},
-                              {"Correction"}}};
+  HtmlTable table{.caption = said("Contrasts as they were planned in the study file"),
+                  .columns = {{said("Contrast"), false, true},
+                              {said("In")},
+                              {said("Conditions and their weights")},
+                              {said("Role, family")},
+                              {said("Direction")},
+                              {said("Smallest effect"), true},
+                              {said("Alpha"), true},
+                              {said("Correction")}}};
   for (const ContrastResult& one : results.contrasts) {
     const PlannedContrast& plan = one.plan;
     const std::string role = plan.primary ? "primary" : "secondary";
@@ -70,13 +71,13 @@ std::vector<std::string> test_row(const std::string& title, const ContrastTest& 
 
 HtmlTable outcome_table(const std::string& caption) {
   return {.caption = caption,
-          .columns = {{"Contrast", false, true},
-                      {"Effect", true},
-                      {"95 % interval", true},
-                      {"Statistic", true},
+          .columns = {{said("Contrast"), false, true},
+                      {said("Effect"), true},
+                      {said("95 % interval"), true},
+                      {said("Statistic"), true},
                       {"df", true},
                       {"p", true},
-                      {"p, adjusted", true},
+                      {said("p, adjusted"), true},
                       {"n", true}}};
 }
 
@@ -87,13 +88,13 @@ void write_contrast_sentences(HtmlText& html, const StudyResults& results) {
     std::vector<std::string> sentences;
     for (const ContrastResult& one : results.contrasts) {
       if (one.plan.primary != primary) continue;
-      sentences.push_back(one.sentence.empty() ? "The contrast “" + spaced(one.plan.name) +
-                                                     "” has no value: " + one.test.reason + "."
+      sentences.push_back(one.sentence.empty() ? said("The contrast “{}” has no value: {}.",
+                                                      spaced(one.plan.name), one.test.reason)
                                                : one.sentence);
     }
     if (sentences.empty()) continue;
-    html.paragraph(primary ? "What the study was planned to answer:"
-                           : "What else was planned:");
+    html.paragraph(primary ? said("What the study was planned to answer:")
+                           : said("What else was planned:"));
     html.list(sentences);
   }
 }
@@ -101,12 +102,12 @@ void write_contrast_sentences(HtmlText& html, const StudyResults& results) {
 void write_deviations(HtmlText& html, const StudyResults& results) {
   const PreregisteredStudy& plan = results.preregistration;
   if (plan.registered_on.empty()) return;
-  html.heading(2, "Deviations from the preregistration");
-  html.paragraph("The study was registered on " + plan.registered_on + " (SHA-256 " +
-                 plan.sha256 + "). " +
-                 (plan.deviations.empty() ? "Nothing deviates from it." : ""));
-  HtmlTable table{.caption = "What is not as it was planned",
-                  .columns = {{"What"}, {"Planned"}, {"Found"}}};
+  html.heading(2, said("Deviations from the preregistration"));
+  html.paragraph(said("The study was registered on {} (SHA-256 {}). {}", plan.registered_on,
+                      plan.sha256,
+                      (plan.deviations.empty() ? said("Nothing deviates from it.") : "")));
+  HtmlTable table{.caption = said("What is not as it was planned"),
+                  .columns = {{said("What")}, {said("Planned")}, {said("Found")}}};
   for (const Deviation& one : plan.deviations) {
     table.rows.push_back({one.topic, one.planned, one.found});
   }
@@ -115,18 +116,19 @@ void write_deviations(HtmlText& html, const StudyResults& results) {
 
 void write_contrasts(HtmlText& html, const StudyResults& results) {
   if (results.contrasts.empty()) return;
-  html.heading(3, "Planned contrasts");
+  html.heading(3, said("Planned contrasts"));
   html.table(plan_table(results));
-  HtmlTable answers = outcome_table("What came of them");
-  HtmlTable otherwise = outcome_table("The same by other means");
-  HtmlTable equivalence{.caption = "Against the smallest effect of interest",
-                        .columns = {{"Contrast", false, true},
-                                    {"Margin", true},
-                                    {"Interval", true},
-                                    {"p, two one-sided tests", true},
-                                    {"Equivalent"}}};
-  HtmlTable excluded{.caption = "Left out of people's own contrasts, and why",
-                     .columns = {{"Contrast", false, true}, {"Who"}, {"Reason"}}};
+  HtmlTable answers = outcome_table(said("What came of them"));
+  HtmlTable otherwise = outcome_table(said("The same by other means"));
+  HtmlTable equivalence{.caption = said("Against the smallest effect of interest"),
+                        .columns = {{said("Contrast"), false, true},
+                                    {said("Margin"), true},
+                                    {said("Interval"), true},
+                                    {said("p, two one-sided tests"), true},
+                                    {said("Equivalent")}}};
+  HtmlTable excluded{
+      .caption = said("Left out of people's own contrasts, and why"),
+      .columns = {{said("Contrast"), false, true}, {said("Who")}, {said("Reason")}}};
   std::vector<std::string> cautions;
   for (const ContrastResult& one : results.contrasts) {
     const std::string title = spaced(one.plan.name);
@@ -139,7 +141,7 @@ void write_contrasts(HtmlText& html, const StudyResults& results) {
       const Equivalence& found = *one.equivalence;
       equivalence.rows.push_back(
           {title, shortest_words(found.margin), interval_words(found.interval, one.test.effect),
-           p_words(found.p_value), found.is_shown ? "yes" : "not shown"});
+           p_words(found.p_value), found.is_shown ? "yes" : said("not shown")});
     }
     for (const ExcludedParticipant& left_out : one.excluded) {
       excluded.rows.push_back({title, left_out.participant, left_out.reason});
@@ -148,8 +150,8 @@ void write_contrasts(HtmlText& html, const StudyResults& results) {
     if (const std::string looks = looks_sentence(one); !looks.empty()) html.paragraph(looks);
   }
   answers.notes.emplace_back(
-      "Effects are ratios, but of exponents differences. p values are on the side that was "
-      "planned; the adjusted ones are within the family of each contrast.");
+      said("Effects are ratios, but of exponents differences. p values are on the side that "
+           "was planned; the adjusted ones are within the family of each contrast."));
   html.table(answers);
   if (!cautions.empty()) html.list(cautions);
   html.table(equivalence);

@@ -3,6 +3,7 @@
 #include "analysis/report/report_results.h"
 #include "analysis/results/discrimination_own_values.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -48,17 +49,17 @@ struct OwnRow {
 };
 
 std::string rejected_words(const FitsBorne& borne) {
-  std::string words =
+  std::string words = said(
       "† The answers reject the curve (p < 0.05). Goodness of fit: the share of answers "
-      "redrawn "
-      "from the fitted curve that lie at least as far off it. With the point of subjective "
-      "equality (PSE) at the reference " +
-      std::to_string(borne.num_rejected) + " of " + counted_words(borne.num_fits, "fit") +
-      (borne.num_rejected == 1 ? " is" : " are") + " rejected";
+      "redrawn from the fitted curve that lie at least as far off it. With the point of "
+      "subjective equality (PSE) at the reference {} of {}{} rejected",
+      std::to_string(borne.num_rejected), counted_words(borne.num_fits, "fit"),
+      (borne.num_rejected == 1 ? said(" is") : said(" are")));
   if (borne.num_rejected == 0) return words + ".";
-  return words +
-         ": where the PSE lies elsewhere, such a Weber fraction holds this bias beside the "
-         "sensitivity; the one with a free PSE does not.";
+  return said(
+      "{}: where the PSE lies elsewhere, such a Weber fraction holds this bias beside the "
+      "sensitivity; the one with a free PSE does not.",
+      words);
 }
 
 }  // namespace
@@ -72,14 +73,14 @@ bool write_own_fractions(HtmlText& html, const ResultsSection& section) {
   if (people.empty()) return false;
   const bool frees = section.own_fractions_free_pse;
   HtmlTable table{
-      .caption = std::string("Values of every participant, with 95 % intervals: Weber fraction "
-                             "w with the PSE ") +
-                 (frees ? "free, as the primary value has it, and at the reference"
-                        : "at the reference, as the primary value has it, and free"),
-      .columns = {{"Participant"}}};
-  const HtmlTable::Column at_reference = {"w, PSE at the reference", true};
-  const HtmlTable::Column free = {"w, PSE free", true};
-  const HtmlTable::Column goodness = {"Goodness p", true};
+      .caption = said(
+          "Values of every participant, with 95 % intervals: Weber fraction w with the PSE {}",
+          (frees ? said("free, as the primary value has it, and at the reference")
+                 : said("at the reference, as the primary value has it, and free"))),
+      .columns = {{said("Participant")}}};
+  const HtmlTable::Column at_reference = {said("w, PSE at the reference"), true};
+  const HtmlTable::Column free = {said("w, PSE free"), true};
+  const HtmlTable::Column goodness = {said("Goodness p"), true};
   if (frees) {
     table.columns.insert(table.columns.end(),
                          {free, {"PSE", true}, goodness, at_reference, goodness});
@@ -91,11 +92,11 @@ bool write_own_fractions(HtmlText& html, const ResultsSection& section) {
   for (const std::string& person : people) {
     const OwnRow row{section, person};
     const std::vector<std::string> fixed = {
-        row.value("weber_fraction", "PSE at the reference", reasons),
+        row.value("weber_fraction", said("PSE at the reference"), reasons),
         row.goodness("goodness_p")};
     const ParticipantEstimate* const pse = row.find("pse");
     const std::vector<std::string> freed = {
-        row.value("weber_fraction_free_pse", "PSE free", reasons),
+        row.value("weber_fraction_free_pse", said("PSE free"), reasons),
         pse == nullptr ? "–" : with_interval(pse->value, bounded(pse->ci95, pse->value)),
         row.goodness("goodness_p_free_pse")};
     std::vector<std::string> cells = {person};
@@ -105,7 +106,7 @@ bool write_own_fractions(HtmlText& html, const ResultsSection& section) {
     table.rows.push_back(std::move(cells));
   }
   table.notes.push_back(rejected_words(fits_borne(section, section.name)));
-  table.notes.emplace_back("An end more than a factor 1000 off its value is left open.");
+  table.notes.emplace_back(said("An end more than a factor 1000 off its value is left open."));
   table.notes.insert(table.notes.end(), reasons.begin(), reasons.end());
   html.table(table);
   return true;

@@ -8,6 +8,7 @@
 #include "analysis/report/report_published.h"
 #include "analysis/report/report_results.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -64,7 +65,7 @@ class FigureChapters {
     bool any = false;
     for (std::size_t i = 0; i < figures_.size(); ++i) {
       if (numbers_[i] != 0 || in_report_.contains(i)) continue;
-      if (!any) html_.heading(3, "Further figures");
+      if (!any) html_.heading(3, said("Further figures"));
       any = true;
       write(i);
     }
@@ -72,16 +73,17 @@ class FigureChapters {
 
   void write_list() {
     if (figures_.empty()) return;
-    html_.heading(2, "Files of the figures");
-    html_.paragraph(
+    html_.heading(2, said("Files of the figures"));
+    html_.paragraph(said(
         "Beside this report, in the folder figures, each figure lies as NAME.svg and NAME.pdf "
-        "with the gnuplot script that draws it, NAME.gp, and the tables it is drawn from.");
+        "with the gnuplot script that draws it, NAME.gp, and the tables it is drawn from."));
     HtmlTable table{
-        .caption = of_thesis_ ? "Figures, those of Schmidt (2018) that they answer, and files"
-                              : "Figures and files",
-        .columns = {{"Figure", true}, {"Title"}}};
+        .caption = of_thesis_
+                       ? said("Figures, those of Schmidt (2018) that they answer, and files")
+                       : said("Figures and files"),
+        .columns = {{said("Figure"), true}, {said("Title")}}};
     if (of_thesis_) table.columns.push_back({"Schmidt (2018)"});
-    table.columns.push_back({"Name", false, true});
+    table.columns.push_back({said("Name"), false, true});
     for (std::size_t i = 0; i < figures_.size(); ++i) {
       const Figure& figure = figures_[i];
       auto& row = table.rows.emplace_back();
@@ -99,8 +101,8 @@ class FigureChapters {
     if (of_thesis_ && !figure.thesis.empty()) {
       caption += " Schmidt (2018): " + figure.thesis + ".";
     }
-    if (simulated_) caption += " SIMULATED data.";
-    if (drawn_[i].svg.empty()) caption += " Not drawn: " + drawn_[i].problem + ".";
+    if (simulated_) caption += said(" SIMULATED data.");
+    if (drawn_[i].svg.empty()) caption += said(" Not drawn: {}.", drawn_[i].problem);
     numbers_[i] = html_.figure(figure.name, drawn_[i].svg, figure.title, caption);
   }
 
@@ -127,29 +129,30 @@ std::string front(const ReportSource& source, const std::string& title,
   std::string text = "<h1>" + html_escaped(title) + "</h1>\n<p class=\"authors\">";
   std::string authors;
   for (const std::string& author : source.data.written.authors) {
-    authors += (authors.empty() ? "Study by " : ", ") + author;
+    authors += (authors.empty() ? said("Study by ") : ", ") + author;
   }
   if (!authors.empty()) authors += ". ";
-  authors += what + " “" + source.data.study + "”, " +
-             counted_words(std::ssize(source.data.participants), "participant") + ".";
+  authors += said("{} “{}”, {}.", what, source.data.study,
+                  counted_words(std::ssize(source.data.participants), "participant"));
   text += html_escaped(authors) + "</p>\n";
   if (source.results.simulated) {
-    text +=
-        "<p class=\"banner\">SIMULATED data: participants and apparatus are those of the "
-        "laboratory “" +
-        html_escaped(source.results.laboratory) +
-        "”. No person felt or judged anything here.</p>\n";
+    text += "<p class=\"banner\">" +
+            html_escaped(said("SIMULATED data: participants and apparatus are those of the "
+                              "laboratory “{}”. No person felt or judged anything here.",
+                              source.results.laboratory)) +
+            "</p>\n";
   }
   if (source.pilot) {
-    text += "<p class=\"banner\">PILOT sessions are among these data.</p>\n";
+    text += "<p class=\"banner\">" +
+            html_escaped(said("PILOT sessions are among these data.")) + "</p>\n";
   }
   return text;
 }
 
 std::string whole_document(const ReportSource& source, const std::string& title,
                            const std::string& what, const HtmlText& html) {
-  const std::string mark = source.results.simulated ? "SIMULATED data"
-                           : source.pilot           ? "PILOT data"
+  const std::string mark = source.results.simulated ? said("SIMULATED data")
+                           : source.pilot           ? said("PILOT data")
                                                     : "";
   return html_document(title, mark, front(source, title, what) + contents(html) + html.text());
 }
@@ -170,21 +173,20 @@ std::string report_html(const ReportSource& source, const std::vector<Figure>& f
     write_delivered(html, source.results, *source.delivered, titles);
     figure_chapters.write_first("delivered");
   }
-  html.heading(2, "Results");
+  html.heading(2, said("Results"));
   write_contrasts(html, source.results);
   for (const ResultsSection& section : source.results.sections) {
     if (is_in_report(section.name)) figure_chapters.write_first(section.name);
   }
   figure_chapters.write_first("");
-  html.paragraph(
-      "Every other estimate, comparison and figure, everybody’s own values and what was left "
-      "out and why are in the supplement.",
-      "note");
+  html.paragraph(said("Every other estimate, comparison and figure, everybody’s own values and "
+                      "what was left out and why are in the supplement."),
+                 "note");
   write_participants_in_short(html, chapters);
   write_data_quality_in_short(html, chapters);
   write_methods(html, chapters);
   write_references(html, chapters);
-  return whole_document(source, titles.study, "Report on", html);
+  return whole_document(source, titles.study, said("Report on"), html);
 }
 
 std::string supplement_html(const ReportSource& source, const std::vector<Figure>& figures,
@@ -197,7 +199,7 @@ std::string supplement_html(const ReportSource& source, const std::vector<Figure
   FigureChapters figure_chapters(html, figures, drawn, source.results);
   write_participants(html, chapters);
   write_data_quality(html, chapters);
-  html.heading(2, "Results");
+  html.heading(2, said("Results"));
   for (const ResultsSection& section : source.results.sections) {
     html.heading(3, section_title(titles, section.name));
     write_section(html, source.data, source.results, titles, section);
@@ -206,7 +208,7 @@ std::string supplement_html(const ReportSource& source, const std::vector<Figure
   }
   const HtmlTable published = published_table(source.results, titles);
   if (!published.rows.empty()) {
-    html.heading(2, "Published values");
+    html.heading(2, said("Published values"));
     html.table(published);
   }
   figure_chapters.write_others_of("");
@@ -214,7 +216,7 @@ std::string supplement_html(const ReportSource& source, const std::vector<Figure
   figure_chapters.write_others();
   figure_chapters.write_list();
   write_provenance(html, chapters);
-  return whole_document(source, titles.study, "Supplement to the report on", html);
+  return whole_document(source, titles.study, said("Supplement to the report on"), html);
 }
 
 }  // namespace jnd::analysis

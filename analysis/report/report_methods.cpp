@@ -11,6 +11,7 @@
 #include "analysis/results/number_words.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 #include "core/storage/sha256.h"
 #include "experiments/study/media.h"
 #include "experiments/study/stage_walk.h"
@@ -32,21 +33,22 @@ std::string joined(const std::set<double>& numbers, const std::string& unit) {
 
 std::string reference_words(const BlockDesign& block, const std::set<double>& references) {
   if (block.written.standard_medium.empty()) {
-    return "reference " + joined(references, experiments::quantity_unit(block.quantity));
+    return said("reference {}", joined(references, experiments::quantity_unit(block.quantity)));
   }
   const std::string quantity = block.standard_quantity();
-  return "standard " + experiments::quantity_words(quantity) + " " +
-         joined(references, experiments::quantity_unit(quantity)) + " of the medium “" +
-         block.written.standard_medium + "”" +
-         (block.counts_in_standard()
-              ? ", which counts as " +
-                    shortest_words(block.written.settings.number("modulus_value"))
-              : "");
+  return said(
+      "standard {} {} of the medium “{}”{}", said_of(experiments::quantity_words(quantity)),
+      joined(references, experiments::quantity_unit(quantity)), block.written.standard_medium,
+      (block.counts_in_standard()
+           ? said(", which counts as {}",
+                  shortest_words(block.written.settings.number("modulus_value")))
+           : ""));
 }
 
 /// How many trials people ran. Where the answers decide it, as the data have it.
 std::string num_trials_words(const StudyData& data, const BlockDesign& block) {
-  if (!block.is_adaptive()) return counted_words(block.num_trials, "trial") + " a participant";
+  if (!block.is_adaptive())
+    return said("{} a participant", counted_words(block.num_trials, "trial"));
   const auto count = [&](const std::vector<core::TrialRow>& trials) {
     return std::ranges::count(trials, block.block, &core::TrialRow::block);
   };
@@ -55,34 +57,35 @@ std::string num_trials_words(const StudyData& data, const BlockDesign& block) {
     const auto num = count(one.trials) + count(one.catch_trials) + count(one.excluded_trials);
     if (num > 0) counts.push_back(static_cast<double>(num));
   }
-  if (counts.empty()) return "no trials";
+  if (counts.empty()) return said("no trials");
   const auto [least, most] = std::ranges::minmax(counts);
   if (least == most) {
-    return counted_words(static_cast<std::int64_t>(least), "trial") + " a participant";
+    return said("{} a participant", counted_words(static_cast<std::int64_t>(least), "trial"));
   }
-  return "trials a participant as the answers led to: mean " +
-         number_words(summary_of(counts).mean, 1) + ", from " + shortest_words(least) + " to " +
-         shortest_words(most);
+  return said("trials a participant as the answers led to: mean {}, from {} to {}",
+              number_words(summary_of(counts).mean, 1), shortest_words(least),
+              shortest_words(most));
 }
 
 std::string practice_words(const experiments::Block& block) {
   const experiments::Practice& practice = *block.practice;
   const std::string unit = experiments::quantity_unit(block.quantity);
-  std::string words = "practice, no data; " + procedure_words(block) + "; " +
-                      experiments::quantity_words(block.quantity);
+  std::string words = said("practice, no data; {}; {}", procedure_words(block),
+                           said_of(experiments::quantity_words(block.quantity)));
   if (!block.intensities.empty()) {
-    words += "; levels " +
-             joined(std::set(block.intensities.begin(), block.intensities.end()), unit);
+    words += said("; levels {}",
+                  joined(std::set(block.intensities.begin(), block.intensities.end()), unit));
   }
   if (block.reference_intensity) {
-    words += "; reference " + joined(std::set{*block.reference_intensity}, unit);
+    words += said("; reference {}", joined(std::set{*block.reference_intensity}, unit));
   }
-  words += block.feedback ? "; participants were told after every answer whether it was right"
-                          : "; without feedback";
-  return words + "; until " +
-         shortest_words(std::round(1000.0 * practice.min_correct_ratio) / 10.0) +
-         " % of the last " + counted_words(practice.num_trials_judged, "answer") +
-         " were right, at most " + counted_words(practice.max_trials, "trial") + ".";
+  words += block.feedback
+               ? said("; participants were told after every answer whether it was right")
+               : said("; without feedback");
+  return said("{}; until {} % of the last {} were right, at most {}.", words,
+              shortest_words(std::round(1000.0 * practice.min_correct_ratio) / 10.0),
+              counted_words(practice.num_trials_judged, "answer"),
+              counted_words(practice.max_trials, "trial"));
 }
 
 /// What bounds a trial: its stimuli, going back to them, its answer.
@@ -90,24 +93,25 @@ std::string answering_words(const experiments::Block& block) {
   const auto seconds = [](double duration_s) { return shortest_words(duration_s) + " s"; };
   std::string words;
   if (block.min_stimulus_s > 0.0 && block.max_stimulus_s == block.min_stimulus_s) {
-    words += "; each stimulus was felt for " + seconds(block.min_stimulus_s);
+    words += said("; each stimulus was felt for {}", seconds(block.min_stimulus_s));
   } else {
     if (block.min_stimulus_s > 0.0)
-      words += "; each stimulus was felt for " + seconds(block.min_stimulus_s) + " at least";
+      words += said("; each stimulus was felt for {} at least", seconds(block.min_stimulus_s));
     if (block.max_stimulus_s)
-      words += "; each stimulus ended after " + seconds(*block.max_stimulus_s) + " at most";
+      words += said("; each stimulus ended after {} at most", seconds(*block.max_stimulus_s));
   }
   if (block.max_returns) {
-    words += *block.max_returns == 0
-                 ? "; nobody went back to a stimulus"
-                 : "; at most " + counted_words(*block.max_returns, "return") +
-                       " to stimuli in a trial";
+    words += *block.max_returns == 0 ? said("; nobody went back to a stimulus")
+                                     : said("; at most {} to stimuli in a trial",
+                                            counted_words(*block.max_returns, "return"));
   }
   if (block.answer_deadline_s) {
-    words += "; a trial without an answer " + seconds(*block.answer_deadline_s) +
-             " after the start of the stimulus with which all had been felt was run again";
+    words += said(
+        "; a trial without an answer {} after the start of the stimulus with which all had "
+        "been felt was run again",
+        seconds(*block.answer_deadline_s));
   }
-  if (block.cannot_tell) words += "; “cannot tell” was an answer, too";
+  if (block.cannot_tell) words += said("; “cannot tell” was an answer, too");
   return words;
 }
 
@@ -132,30 +136,32 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
   }
   const std::string unit = experiments::quantity_unit(block.quantity);
   std::string words = procedure_words(block.written);
-  if (!block.quantity.empty()) words += "; " + experiments::quantity_words(block.quantity);
-  if (!media.empty()) words += " of the medium “" + joined(media) + "”";
+  if (!block.quantity.empty())
+    words += "; " + said_of(experiments::quantity_words(block.quantity));
+  if (!media.empty()) words += said(" of the medium “{}”", joined(media));
   constexpr std::size_t kMostListed = 20;
   const bool are_listed = block.has_fixed_levels() && intensities.size() <= kMostListed;
   if (!intensities.empty() && !are_listed) {
-    words += "; " + counted_words(std::ssize(intensities), "level") + " from " +
-             number_words(*intensities.begin()) + " to " + number_words(*intensities.rbegin()) +
-             (unit.empty() ? "" : " " + unit);
+    words += said("; {} from {} to {}{}", counted_words(std::ssize(intensities), "level"),
+                  number_words(*intensities.begin()), number_words(*intensities.rbegin()),
+                  (unit.empty() ? "" : " " + unit));
   } else if (!intensities.empty()) {
-    words += "; levels " + joined(intensities, unit);
+    words += said("; levels {}", joined(intensities, unit));
   }
   if (!references.empty()) words += "; " + reference_words(block, references);
-  if (block.counts_in_own_numbers()) words += "; numbers of everybody’s own choice";
-  if (!targets.empty()) words += "; set to feel like " + joined(targets, "%");
-  if (!starts.empty()) words += "; starting from " + joined(starts, unit);
+  if (block.counts_in_own_numbers()) words += said("; numbers of everybody’s own choice");
+  if (!targets.empty()) words += said("; set to feel like {}", joined(targets, "%"));
+  if (!starts.empty()) words += said("; starting from {}", joined(starts, unit));
   if (block.rates()) {
-    words += "; on a scale from 1, “" + in_english(block.written.low_label) + "”, to " +
-             shortest_words(block.written.settings.number("num_steps", 10.0)) + ", “" +
-             in_english(block.written.high_label) + "”";
+    words += said("; on a scale from 1, “{}”, to {}, “{}”",
+                  in_spoken_language(block.written.low_label),
+                  shortest_words(block.written.settings.number("num_steps", 10.0)),
+                  in_spoken_language(block.written.high_label));
   }
   words += answering_words(block.written);
   for (const experiments::QuestionnaireItem& item : block.written.questions) {
-    words += "; after each trial “" + in_english(item.question) + "”";
-    if (item.kind == "scale") words += " on " + std::to_string(item.num_steps) + " steps";
+    words += said("; after each trial “{}”", in_spoken_language(item.question));
+    if (item.kind == "scale") words += said(" on {} steps", std::to_string(item.num_steps));
   }
   words += "; ";
   if (block.has_fixed_levels()) words += counted_words(repetitions, "repetition") + ", ";
@@ -164,17 +170,16 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
 
 std::string design_words(const ChapterSource& source) {
   const experiments::Study& study = source.report.data.written;
-  std::string text = in_english(study.description);
+  std::string text = in_spoken_language(study.description);
   if (!text.empty() && !text.ends_with('.')) text += ".";
   // Where nothing is asked there is nothing to be blind to.
   if (!source.report.data.blocks.empty()) {
-    text += std::string(" Blinding: ") +
-            (study.blinding == experiments::Blinding::kDouble
-                 ? "double; the levels were unblinded before this report"
-             : study.blinding == experiments::Blinding::kParticipant
-                 ? "single, the participant did not know the levels"
-                 : "none") +
-            ".";
+    text += said(" Blinding: {}.",
+                 (study.blinding == experiments::Blinding::kDouble
+                      ? said("double; the levels were unblinded before this report")
+                  : study.blinding == experiments::Blinding::kParticipant
+                      ? said("single, the participant did not know the levels")
+                      : "none"));
   }
   std::map<std::string, int> cells;
   for (const core::SessionRow& session : source.sessions) ++cells[session.cells];
@@ -186,15 +191,14 @@ std::string design_words(const ChapterSource& source) {
       fewest = std::min(fewest, count);
       most = std::max(most, count);
     }
-    text += " Counterbalancing: " + std::to_string(cells.size()) + " cells of " +
-            std::to_string(fewest) +
-            (most > fewest ? " to " + std::to_string(most) + " participants" : "") +
-            (most > fewest ? ""
-             : most == 1   ? " participant"
-                           : " participants") +
-            "; everybody’s is in the supplement.";
+    text += said(" Counterbalancing: {} cells of {}{}{}; everybody’s is in the supplement.",
+                 std::to_string(cells.size()), std::to_string(fewest),
+                 (most > fewest ? said(" to {} participants", std::to_string(most)) : ""),
+                 (most > fewest ? ""
+                  : most == 1   ? said(" participant")
+                                : said(" participants")));
   } else if (cells.size() > 1) {
-    text += " Counterbalancing, with the number of participants in each cell: ";
+    text += said(" Counterbalancing, with the number of participants in each cell: ");
     bool first = true;
     for (const auto& [cell, count] : cells) {
       text += (first ? "" : " | ") + cell_words(cell) + " (" + std::to_string(count) + ")";
@@ -214,17 +218,19 @@ std::string apparatus_words(const ChapterSource& source) {
     rates.insert(session.rate_hz);
     if (!session.simulated && !session.realtime.empty()) realtime.insert(session.realtime);
   }
-  std::string text = "Device: " + joined(devices) + "; haptic loop at " + joined(rates, "Hz");
-  if (!realtime.empty()) text += "; the loop was given: " + joined(realtime, "; ");
+  std::string text =
+      said("Device: {}; haptic loop at {}", joined(devices), joined(rates, "Hz"));
+  if (!realtime.empty()) text += said("; the loop was given: {}", joined(realtime, "; "));
   text += ".";
   const StudyData& data = source.report.data;
   if (data.simulated) {
-    text +=
-        " Participants and apparatus are SIMULATED by the laboratory “" + data.laboratory +
-        "”" +
-        (source.report.results.laboratory_changed ? ", changed from the shipped one," : "") +
-        " with SHA-256 " + core::sha256(data.laboratory_text) +
-        "; nothing here was felt by a person.";
+    text += said(
+        " Participants and apparatus are SIMULATED by the laboratory “{}”{} with SHA-256 {}; "
+        "nothing here was felt by a person.",
+        data.laboratory,
+        (source.report.results.laboratory_changed ? said(", changed from the shipped one,")
+                                                  : ""),
+        core::sha256(data.laboratory_text));
   }
   return text;
 }
@@ -245,15 +251,20 @@ std::string interleaved_words(const ChapterSource& source) {
   });
   std::string text;
   for (const Group& group : groups) {
-    text += text.empty() ? "Trials of " : " Trials of ";
+    text += text.empty() ? said("Trials of ") : said(" Trials of ");
     for (std::size_t i = 0; i < group.titles.size(); ++i) {
-      text += (i == 0 ? "" : i + 1 == group.titles.size() ? " and " : ", ") + group.titles[i];
+      text += (i == 0                         ? ""
+               : i + 1 == group.titles.size() ? said(" and ")
+                                              : ", ") +
+              group.titles[i];
     }
     text += group.its.turns == experiments::Turns::kRandom
-                ? " were interleaved: the next trial was drawn from all that were left, "
-                  "whatever their block."
-                : " were interleaved: in every round each block that had trials left came "
-                  "once, in an order drawn anew.";
+                ? said(
+                      " were interleaved: the next trial was drawn from all that were left, "
+                      "whatever their block.")
+                : said(
+                      " were interleaved: in every round each block that had trials left came "
+                      "once, in an order drawn anew.");
   }
   return text;
 }
@@ -261,8 +272,8 @@ std::string interleaved_words(const ChapterSource& source) {
 }  // namespace
 
 void write_methods(HtmlText& html, const ChapterSource& source) {
-  html.heading(2, "Methods");
-  html.paragraph_about("Study", design_words(source));
+  html.heading(2, said("Methods"));
+  html.paragraph_about(said("Study"), design_words(source));
   std::vector<std::string> blocks;
   for_each_stage(source.report.data.written.stages, [&](const experiments::Stage& stage) {
     const auto* block = std::get_if<experiments::Block>(&stage.content);
@@ -275,28 +286,28 @@ void write_methods(HtmlText& html, const ChapterSource& source) {
   }
   html.list(blocks);
   if (const std::string mixed = interleaved_words(source); !mixed.empty()) {
-    html.paragraph_about("Interleaved blocks", mixed);
+    html.paragraph_about(said("Interleaved blocks"), mixed);
   }
-  html.paragraph_about("Apparatus", apparatus_words(source));
+  html.paragraph_about(said("Apparatus"), apparatus_words(source));
   if (const std::string sound = sound_words(source); !sound.empty()) {
-    html.paragraph_about("Sound", sound);
+    html.paragraph_about(said("Sound"), sound);
   }
   for (const auto& [topic, text] : method_words(source.report).topics) {
     html.paragraph_about(topic, text);
   }
   const std::string& citation = source.report.data.written.citation;
-  if (!citation.empty()) html.paragraph_about("After", citation);
+  if (!citation.empty()) html.paragraph_about(said("After"), citation);
 }
 
 void write_references(HtmlText& html, const ChapterSource& source) {
   const std::vector<std::string> references = method_words(source.report).references;
   if (references.empty()) return;
-  html.heading(2, "References");
+  html.heading(2, said("References"));
   html.list(references);
 }
 
 void write_provenance(HtmlText& html, const ChapterSource& source) {
-  html.heading(2, "Provenance");
+  html.heading(2, said("Provenance"));
   const ReportSource& report = source.report;
   std::set<std::string> versions;
   std::set<std::string> protocols;
@@ -304,24 +315,28 @@ void write_provenance(HtmlText& html, const ChapterSource& source) {
     versions.insert(session.program_version);
     protocols.insert(session.protocol_sha256);
   }
-  HtmlTable facts{.caption = "What this report rests on",
-                  .columns = {{"What"}, {"Which", false, true}}};
+  HtmlTable facts{.caption = said("What this report rests on"),
+                  .columns = {{said("What")}, {said("Which"), false, true}}};
   for (const std::string& hash : protocols) {
     const core::ProtocolRow protocol = report.store.protocol(hash);
-    facts.rows.push_back({"SHA-256 of the study file " + protocol.file_name, hash});
+    facts.rows.push_back({said("SHA-256 of the study file {}", protocol.file_name), hash});
   }
-  facts.rows.push_back({"SHA-256 of the data (every event of the sessions below)",
+  facts.rows.push_back({said("SHA-256 of the data (every event of the sessions below)"),
                         data_sha256(report.store, source.sessions)});
   if (report.data.simulated) {
-    facts.rows.push_back({"SHA-256 of the laboratory " + report.data.laboratory,
+    facts.rows.push_back({said("SHA-256 of the laboratory {}", report.data.laboratory),
                           core::sha256(report.data.laboratory_text)});
   }
-  facts.rows.push_back({"Recorded with jnd", joined(versions)});
-  facts.rows.push_back({"Analysed with jnd", report.program_version});
+  facts.rows.push_back({said("Recorded with jnd"), joined(versions)});
+  facts.rows.push_back({said("Analysed with jnd"), report.program_version});
   html.table(facts);
   HtmlTable sessions{
-      .caption = "Sessions, with the seeds of everything that was drawn in them",
-      .columns = {{"Session", true}, {"Participant"}, {"Seed", true}, {"Began"}, {"Cell"}}};
+      .caption = said("Sessions, with the seeds of everything that was drawn in them"),
+      .columns = {{said("Session"), true},
+                  {said("Participant")},
+                  {said("Seed"), true},
+                  {said("Began")},
+                  {said("Cell")}}};
   for (const core::SessionRow& session : source.sessions) {
     sessions.rows.push_back(
         {std::to_string(session.session), session.participant, std::to_string(session.seed),

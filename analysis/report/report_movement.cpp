@@ -5,6 +5,7 @@
 #include "analysis/report/report_results.h"
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -37,40 +38,38 @@ void add_cautions(HtmlTable& table, const std::vector<PresentationUse>& uses) {
   }
   if (!where.empty()) {
     table.notes.push_back(
-        "Caution: more than 10 % hold no whole stroke in " + where +
-        ". Only strokes quick enough to be finished count, so slow ones drop out, and means "
-        "and "
-        "comparisons of these rest on a selection. “References and tests weighed equally” "
-        "keeps "
-        "the missing from shifting the weights of the two, not from selecting.");
+        said("Caution: more than 10 % hold no whole stroke in {}. Only strokes quick enough to "
+             "be finished count, so slow ones drop out, and means and comparisons of these "
+             "rest on a selection. “References and tests weighed equally” keeps the missing "
+             "from shifting the weights of the two, not from selecting.",
+             where));
   }
 }
 
 void write_uses(HtmlText& html, const StudyData& data) {
   const std::vector<PresentationUse> uses = presentation_uses(data);
-  HtmlTable table{.caption =
-                      "Presentations with a whole stroke, on which width and speed rest, "
-                      "and those presented",
-                  .columns = {{"Block"},
-                              {"Interval"},
-                              {"Level", true},
-                              {"Used", true},
-                              {"Presented", true},
-                              {"Missing", true},
-                              {"Participants", true},
-                              {"Width [m]", true},
-                              {"Highest speed [m/s]", true}}};
+  HtmlTable table{.caption = said("Presentations with a whole stroke, on which width and speed "
+                                  "rest, and those presented"),
+                  .columns = {{said("Block")},
+                              {said("Interval")},
+                              {said("Level"), true},
+                              {said("Used"), true},
+                              {said("Presented"), true},
+                              {said("Missing"), true},
+                              {said("Participants"), true},
+                              {said("Width [m]"), true},
+                              {said("Highest speed [m/s]"), true}}};
   for (const PresentationUse& use : uses) {
     table.rows.push_back(
         {use.block, in_words(use.interval),
-         use.intensity ? shortest_words(*use.intensity) : "as set",
+         use.intensity ? shortest_words(*use.intensity) : said("as set"),
          std::to_string(use.num_used), std::to_string(use.num_presented),
          percent_words(use.missing_ratio()), std::to_string(use.num_participants),
          number_words(use.stroke_width_m, 3), number_words(use.max_speed_m_per_s, 3)});
   }
   table.notes.emplace_back(
-      "Participants: with at least one that is used. Width and speed: means over the "
-      "presentations that are used.");
+      said("Participants: with at least one that is used. Width and speed: means over the "
+           "presentations that are used."));
   add_cautions(table, uses);
   html.table(table);
 }
@@ -84,13 +83,13 @@ std::string mean_words(const std::vector<double>& values) {
 
 void write_explored(HtmlText& html, const std::vector<ExploredMedium>& media) {
   HtmlTable table{
-      .caption = "Strokes by medium explored outside of trials, from the recordings",
-      .columns = {{"Medium"},
-                  {"Participants", true},
-                  {"Strokes of each", true},
-                  {"Width [m]", true},
-                  {"Highest speed [m/s]", true},
-                  {"Mean speed [m/s]", true}}};
+      .caption = said("Strokes by medium explored outside of trials, from the recordings"),
+      .columns = {{said("Medium")},
+                  {said("Participants"), true},
+                  {said("Strokes of each"), true},
+                  {said("Width [m]"), true},
+                  {said("Highest speed [m/s]"), true},
+                  {said("Mean speed [m/s]"), true}}};
   for (const ExploredMedium& medium : media) {
     std::vector<double> width_m, max_speed_m_per_s, mean_speed_m_per_s;
     std::string strokes;
@@ -109,17 +108,17 @@ void write_explored(HtmlText& html, const std::vector<ExploredMedium>& media) {
           medium.people, {}, [](const auto& person) { return person.strokes.num_strokes; });
       const auto most = std::ranges::max_element(
           medium.people, {}, [](const auto& person) { return person.strokes.num_strokes; });
-      strokes = std::to_string(least->strokes.num_strokes) + " to " +
-                std::to_string(most->strokes.num_strokes);
+      strokes = said("{} to {}", std::to_string(least->strokes.num_strokes),
+                     std::to_string(most->strokes.num_strokes));
     }
     table.rows.push_back({medium.title, std::to_string(medium.people.size()), strokes,
                           mean_words(width_m), mean_words(max_speed_m_per_s),
                           mean_words(mean_speed_m_per_s)});
   }
   table.notes.emplace_back(
-      "Means ± standard deviations over participants, each of all whole strokes in the medium. "
-      "Width: distance between turning points; highest speed: mean over strokes of the highest "
-      "in each.");
+      said("Means ± standard deviations over participants, each of all whole strokes in the "
+           "medium. Width: distance between turning points; highest speed: mean over strokes "
+           "of the highest in each."));
   html.table(table);
 }
 
@@ -129,12 +128,12 @@ void write_movement(HtmlText& html, const ReportSource& source, const StudyTitle
   const std::vector<ExploredMedium> media =
       explored_media({source.data, source.results, titles}, source.movement);
   if (presentation_uses(source.data).empty()) {
-    html.paragraph(
-        source.data.blocks.empty()
-            ? "This study has no trials, so there are no presentations to summarise and to "
-              "compare; how the hand moved is told by the recordings of the media explored."
-            : "No presentation of a stimulus was stored, so nothing is known of how the hand "
-              "moved in trials.");
+    html.paragraph(source.data.blocks.empty()
+                       ? said("This study has no trials, so there are no presentations to "
+                              "summarise and to compare; how the hand moved is told by the "
+                              "recordings of the media explored.")
+                       : said("No presentation of a stimulus was stored, so nothing is known "
+                              "of how the hand moved in trials."));
   }
   write_uses(html, source.data);
   write_explored(html, media);

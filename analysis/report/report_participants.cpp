@@ -7,6 +7,7 @@
 #include "analysis/report/report_methods.h"
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -67,8 +68,8 @@ std::string described(const StudyData& data, const QuestionnaireItem& item) {
   words += " " + number_words(summary.mean, 2);
   if (summary.standard_deviation) words += " ± " + number_words(summary.standard_deviation, 2);
   words += item.unit.empty() ? "" : " " + item.unit;
-  return words + " (" + shortest_words(*least) + " to " + shortest_words(*most) +
-         ", n = " + std::to_string(summary.num_values) + ")";
+  return said("{} ({} to {}, n = {})", words, shortest_words(*least), shortest_words(*most),
+              std::to_string(summary.num_values));
 }
 
 std::vector<QuestionnaireItem> described_items(const StudyData& data) {
@@ -101,22 +102,20 @@ bool any_trials(const ChapterSource& source) {
 }
 
 HtmlTable quality_table(const ChapterSource& source) {
-  HtmlTable table{
-      .caption =
-          "Data of every session: trials as drawn, answers that stand and count, and "
-          "what happened to the others",
-      .columns = {{"Participant"},
-                  {"Ended"},
-                  {"Drawn", true},
-                  {"Answered", true},
-                  {"Missing", true},
-                  {"Set aside", true},
-                  {"Undone", true},
-                  {"Run again", true},
-                  {"Resumed", true},
-                  {"Pauses", true},
-                  {"Faults", true},
-                  {"Duration", true}}};
+  HtmlTable table{.caption = said("Data of every session: trials as drawn, answers that stand "
+                                  "and count, and what happened to the others"),
+                  .columns = {{said("Participant")},
+                              {said("Ended")},
+                              {said("Drawn"), true},
+                              {said("Answered"), true},
+                              {said("Missing"), true},
+                              {said("Set aside"), true},
+                              {said("Undone"), true},
+                              {said("Run again"), true},
+                              {said("Resumed"), true},
+                              {said("Pauses"), true},
+                              {said("Faults"), true},
+                              {said("Duration"), true}}};
   for (const SessionQuality& one : source.quality) {
     const char* const ended = one.completed             ? "completed"
                               : one.ended_early.empty() ? "open"
@@ -130,29 +129,30 @@ HtmlTable quality_table(const ChapterSource& source) {
                           duration_words(one.duration_s)});
   }
   table.notes = {
-      "Undone: answers taken back or corrected. Run again: attempts without an "
-      "answer that were given up, because they were interrupted or invalid."};
+      said("Undone: answers taken back or corrected. Run again: attempts without an answer "
+           "that were given up, because they were interrupted or invalid.")};
   if (!any_trials(source)) {
-    table.caption = "Every session";
-    drop_columns(table, {"Drawn", "Answered", "Missing", "Set aside", "Undone", "Run again"});
+    table.caption = said("Every session");
+    drop_columns(table, {said("Drawn"), said("Answered"), said("Missing"), said("Set aside"),
+                         said("Undone"), said("Run again")});
     table.notes.clear();
   }
   return table;
 }
 
 HtmlTable movement_table(const ChapterSource& source) {
-  HtmlTable table{.caption = "Presentations and recordings of every session",
-                  .columns = {{"Participant"},
-                              {"Presentations", true},
-                              {"Force limited", true},
-                              {"No whole stroke", true},
-                              {"Media explored", true},
-                              {"Recording"},
-                              {"Lost samples", true},
-                              {"Lost contact", true}}};
+  HtmlTable table{.caption = said("Presentations and recordings of every session"),
+                  .columns = {{said("Participant")},
+                              {said("Presentations"), true},
+                              {said("Force limited"), true},
+                              {said("No whole stroke"), true},
+                              {said("Media explored"), true},
+                              {said("Recording")},
+                              {said("Lost samples"), true},
+                              {said("Lost contact"), true}}};
   for (const SessionQuality& one : source.quality) {
-    std::string recording = one.session.recorded ? "missing" : "summaries of strokes";
-    if (one.missing_ticks) recording = *one.missing_ticks == 0 ? "whole" : "with gaps";
+    std::string recording = one.session.recorded ? "missing" : said("summaries of strokes");
+    if (one.missing_ticks) recording = *one.missing_ticks == 0 ? "whole" : said("with gaps");
     std::int64_t lost_contact = 0;
     std::int64_t num_explored = 0;
     bool analysed = false;
@@ -172,37 +172,39 @@ HtmlTable movement_table(const ChapterSource& source) {
                           analysed ? std::to_string(lost_contact) : "–"});
   }
   table.notes = {
-      "Force limited, no whole stroke, lost contact: counts of presentations. Lost "
-      "samples are not filled in anywhere."};
+      said("Force limited, no whole stroke, lost contact: counts of presentations. Lost "
+           "samples are not filled in anywhere.")};
   const bool any_presented = std::ranges::any_of(
       source.quality, [](const SessionQuality& one) { return one.num_presentations > 0; });
   if (!any_presented) {
-    table.caption = "Recordings of every session";
-    drop_columns(table, {"Presentations", "Force limited", "No whole stroke"});
+    table.caption = said("Recordings of every session");
+    drop_columns(table,
+                 {said("Presentations"), said("Force limited"), said("No whole stroke")});
     table.notes = {
-        "This study presents nothing in trials. Lost contact: media during which a point lost "
-        "the hand. Lost samples are not filled in anywhere."};
+        said("This study presents nothing in trials. Lost contact: media during which a point "
+             "lost the hand. Lost samples are not filled in anywhere.")};
   }
   return table;
 }
 
 /// Whether loss depends on what was presented.
 HtmlTable losses_table(const ChapterSource& source) {
-  HtmlTable table{.caption = "Trials that were lost or did not go as meant, by stimulus level",
-                  .columns = {{"Block"},
-                              {"Level", true},
-                              {"Drawn", true},
-                              {"Answered", true},
-                              {"Set aside", true},
-                              {"Repeated", true},
-                              {"Discarded", true},
-                              {"Faulted", true},
-                              {"Force limited", true},
-                              {"No whole stroke", true}}};
+  HtmlTable table{
+      .caption = said("Trials that were lost or did not go as meant, by stimulus level"),
+      .columns = {{said("Block")},
+                  {said("Level"), true},
+                  {said("Drawn"), true},
+                  {said("Answered"), true},
+                  {said("Set aside"), true},
+                  {said("Repeated"), true},
+                  {said("Discarded"), true},
+                  {said("Faulted"), true},
+                  {said("Force limited"), true},
+                  {said("No whole stroke"), true}}};
   for (const LevelLoss& one : source.report.results.losses) {
     if (!one.is_any()) continue;
     table.rows.push_back({one.block,
-                          one.is_catch ? "catch trials"
+                          one.is_catch ? said("catch trials")
                           : one.level  ? shortest_words(*one.level)
                                        : "all",
                           std::to_string(one.num_drawn), std::to_string(one.num_answered),
@@ -211,23 +213,22 @@ HtmlTable losses_table(const ChapterSource& source) {
                           dash_if_none(one.num_limited), dash_if_none(one.num_strokeless)});
   }
   table.notes = {
-      "Levels at which nothing of it happened are left out. Repeated: run again, for an answer "
-      "was taken back or an attempt given up (discarded). Force limited: in any presentation "
-      "of "
-      "a stimulus. No whole stroke: test or reference was never felt over one. Where more than "
-      "2 % of a block’s answers are affected, its primary values stand without them, too, as "
-      "NAME.without_affected_trials."};
+      said("Levels at which nothing of it happened are left out. Repeated: run again, for an "
+           "answer was taken back or an attempt given up (discarded). Force limited: in any "
+           "presentation of a stimulus. No whole stroke: test or reference was never felt over "
+           "one. Where more than 2 % of a block’s answers are affected, its primary values "
+           "stand without them, too, as NAME.without_affected_trials.")};
   return table;
 }
 
 HtmlTable timing_table(const ChapterSource& source) {
-  HtmlTable table{.caption = "Punctuality of the haptic loop",
-                  .columns = {{"Participant"},
-                              {"Ticks", true},
-                              {"Missed", true},
-                              {"Samples dropped", true},
-                              {"Lateness p99 [µs]", true},
-                              {"Largest [µs]", true}}};
+  HtmlTable table{.caption = said("Punctuality of the haptic loop"),
+                  .columns = {{said("Participant")},
+                              {said("Ticks"), true},
+                              {said("Missed"), true},
+                              {said("Samples dropped"), true},
+                              {said("Lateness p99 [µs]"), true},
+                              {said("Largest [µs]"), true}}};
   for (const SessionQuality& one : source.quality) {
     if (!one.timing) continue;
     const SessionTiming& timing = *one.timing;
@@ -247,7 +248,7 @@ std::vector<std::string> remarks_of(const ChapterSource& source) {
   for (const SessionQuality& one : source.quality) {
     for (const std::string& remark : one.remarks) {
       if (remarks.size() == kMost) {
-        remarks.emplace_back("… and more; events.csv of jnd export has them all");
+        remarks.emplace_back(said("… and more; events.csv of jnd export has them all"));
         return remarks;
       }
       remarks.push_back(one.session.participant + ": " + remark);
@@ -259,10 +260,10 @@ std::vector<std::string> remarks_of(const ChapterSource& source) {
 }  // namespace
 
 void write_participants_in_short(HtmlText& html, const ChapterSource& source) {
-  html.heading(2, "Participants");
+  html.heading(2, said("Participants"));
   const StudyData& data = source.report.data;
   std::string text = counted_words(std::ssize(data.participants), "participant");
-  if (data.simulated) text += ", all SIMULATED";
+  if (data.simulated) text += said(", all SIMULATED");
   text += ".";
   for (const QuestionnaireItem& item : described_items(data)) {
     const std::string words = described(data, item);
@@ -270,13 +271,13 @@ void write_participants_in_short(HtmlText& html, const ChapterSource& source) {
   }
   const auto num_withdrawn = std::ssize(source.report.store.withdrawals());
   if (num_withdrawn > 0) {
-    text += " " + counted_words(num_withdrawn, "session") +
-            " of participants who withdrew left no data.";
+    text += said(" {} of participants who withdrew left no data.",
+                 counted_words(num_withdrawn, "session"));
   }
   const auto num_pilots =
       std::ssize(source.report.store.sessions()) - std::ssize(source.sessions);
   if (num_pilots > 0) {
-    text += " " + counted_words(num_pilots, "pilot session") + " left out.";
+    text += said(" {} left out.", counted_words(num_pilots, said("pilot session")));
   }
   html.paragraph(text);
 }
@@ -285,12 +286,12 @@ void write_participants(HtmlText& html, const ChapterSource& source) {
   write_participants_in_short(html, source);
   const StudyData& data = source.report.data;
   const std::vector<QuestionnaireItem> items = described_items(data);
-  HtmlTable table{.caption = "Participants", .columns = {{"Participant"}}};
+  HtmlTable table{.caption = said("Participants"), .columns = {{said("Participant")}}};
   for (const QuestionnaireItem& item : items) {
     const std::string title = in_words(item.name, item.unit);
     table.columns.push_back({item.unit.empty() ? title : title + " [" + item.unit + "]"});
   }
-  table.columns.push_back({"Cell"});
+  table.columns.push_back({said("Cell")});
   for (const ParticipantData& participant : data.participants) {
     std::vector<std::string> row = {participant.participant};
     for (const QuestionnaireItem& item : items) {
@@ -305,7 +306,7 @@ void write_participants(HtmlText& html, const ChapterSource& source) {
 }
 
 void write_data_quality_in_short(HtmlText& html, const ChapterSource& source) {
-  html.heading(2, "Data quality");
+  html.heading(2, said("Data quality"));
   std::int64_t drawn = 0;
   std::int64_t answered = 0;
   std::int64_t excluded = 0;
@@ -317,15 +318,14 @@ void write_data_quality_in_short(HtmlText& html, const ChapterSource& source) {
     open += one.completed ? 0 : 1;
   }
   std::string text =
-      drawn == 0 ? std::string(
-                       "This study has no trials: nothing is asked that could be "
-                       "missing. ")
-                 : std::to_string(answered) + " of " + counted_words(drawn, "drawn trial") +
-                       " were answered and count; " + std::to_string(excluded) +
-                       " were answered and set aside, " +
-                       std::to_string(drawn - answered - excluded) + " have no answer. ";
-  text += open == 0 ? "Every session was completed."
-                    : counted_words(open, "session") + " did not come to its end.";
+      drawn == 0 ? said("This study has no trials: nothing is asked that could be missing. ")
+                 : said(
+                       "{} of {} were answered and count; {} were answered and set aside, {} "
+                       "have no answer. ",
+                       std::to_string(answered), counted_words(drawn, "drawn trial"),
+                       std::to_string(excluded), std::to_string(drawn - answered - excluded));
+  text += open == 0 ? said("Every session was completed.")
+                    : said("{} did not come to its end.", counted_words(open, "session"));
   html.paragraph(text);
 }
 
@@ -336,14 +336,13 @@ void write_data_quality(HtmlText& html, const ChapterSource& source) {
   html.table(losses_table(source));
   const HtmlTable timing = timing_table(source);
   if (timing.rows.empty()) {
-    html.paragraph(
-        "There is no punctuality of the loop to report: the ticks of these sessions had no due "
-        "time.",
-        "note");
+    html.paragraph(said("There is no punctuality of the loop to report: the ticks of these "
+                        "sessions had no due time."),
+                   "note");
   }
   html.table(timing);
   const std::vector<std::string> remarks = remarks_of(source);
-  if (!remarks.empty()) html.paragraph("Remarks in the logs:");
+  if (!remarks.empty()) html.paragraph(said("Remarks in the logs:"));
   html.list(remarks);
 }
 

@@ -5,6 +5,7 @@
 
 #include "analysis/report/estimate_title.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -22,16 +23,15 @@ std::string tail_words(const Estimate& estimate) {
   if (!estimate.predictive) return "–";
   const PredictiveTail& of = *estimate.predictive;
   const std::string error =
-      of.tail > 0.0 ? " (se " + number_words(of.standard_error, 3) + ")" : "";
-  return p_words(of.tail) + (of.is_below ? " below" : " above") + error;
+      of.tail > 0.0 ? said(" (se {})", number_words(of.standard_error, 3)) : "";
+  return p_words(of.tail) + (of.is_below ? said(" below") : said(" above")) + error;
 }
 
 std::string joint_words(const JointTail& joint, const std::string& which) {
-  return which + ", " + counted_words(joint.num_statistics, "value") +
-         " together: " + number_words(joint.p_value, 3) +
-         " of the simulated studies are as far out (standard "
-         "error " +
-         number_words(joint.standard_error, 3) + ").";
+  return said(
+      "{}, {} together: {} of the simulated studies are as far out (standard error {}).", which,
+      counted_words(joint.num_statistics, "value"), number_words(joint.p_value, 3),
+      number_words(joint.standard_error, 3));
 }
 
 std::vector<std::string> predictive_notes(const Predictive& predictive) {
@@ -39,19 +39,19 @@ std::vector<std::string> predictive_notes(const Predictive& predictive) {
     return predictive.reason.empty()
                ? std::vector<std::string>{}
                : std::vector<std::string>{
-                     "Without simulated studies to compare with: " + predictive.reason + "."};
+                     said("Without simulated studies to compare with: {}.", predictive.reason)};
   }
-  std::vector<std::string> notes = {
-      "Simulated studies: " + std::to_string(predictive.num_studies) + " of " +
-      counted_words(predictive.num_participants, "participant") + ", drawn from " +
-      std::to_string(predictive.num_people) +
-      " simulated people, by the statistic that was published: median (middle 95 %). Tail: the "
-      "share of them as far on the published value’s side. The published study is taken for "
-      "one more of these, so its own error is in it; of many values some lie far out by "
-      "chance, which is what those together are for."};
-  if (predictive.joint) notes.push_back(joint_words(*predictive.joint, "All"));
+  std::vector<std::string> notes = {said(
+      "Simulated studies: {} of {}, drawn from {} simulated people, by the statistic that was "
+      "published: median (middle 95 %). Tail: the share of them as far on the published "
+      "value’s side. The published study is taken for one more of these, so its own error is "
+      "in it; of many values some lie far out by chance, which is what those together are for.",
+      std::to_string(predictive.num_studies),
+      counted_words(predictive.num_participants, "participant"),
+      std::to_string(predictive.num_people))};
+  if (predictive.joint) notes.push_back(joint_words(*predictive.joint, said("All")));
   if (predictive.joint_held_out) {
-    notes.push_back(joint_words(*predictive.joint_held_out, "Held out, not implied"));
+    notes.push_back(joint_words(*predictive.joint_held_out, said("Held out, not implied")));
   }
   return notes;
 }
@@ -71,14 +71,14 @@ std::vector<std::string> published_notes(const std::vector<const Estimate*>& est
       estimates, [](const Estimate* estimate) { return estimate->published_sd.has_value(); });
   if (!any_sd) return {};
   return {
-      "Published a ± b: b is the standard deviation between participants; our 95 % interval "
-      "is that of the estimate itself, and narrower."};
+      said("Published a ± b: b is the standard deviation between participants; our 95 % "
+           "interval is that of the estimate itself, and narrower.")};
 }
 
 std::string basis_words(const Estimate& estimate) {
   if (!estimate.is_published()) return "–";
   if (estimate.calibrated) return "calibrated";
-  return estimate.implied ? "implied" : "held out";
+  return estimate.implied ? "implied" : said("held out");
 }
 
 std::string unit_words(const std::string& unit) {
@@ -91,13 +91,14 @@ std::string unit_words(const std::string& unit) {
 
 HtmlTable published_in_short(const StudyResults& results, const StudyTitles& titles) {
   const bool has_simulated = results.predictive.num_studies > 0;
-  HtmlTable table{.caption = "Ours beside the published values",
-                  .columns = {{.title = "Estimate"},
-                              {.title = "Ours (95 % interval)", .is_number = true},
-                              {.title = "Unit"},
-                              {.title = "Published", .is_number = true}}};
+  HtmlTable table{.caption = said("Ours beside the published values"),
+                  .columns = {{.title = said("Estimate")},
+                              {.title = said("Ours (95 % interval)"), .is_number = true},
+                              {.title = said("Unit")},
+                              {.title = said("Published"), .is_number = true}}};
   if (has_simulated) {
-    table.columns.push_back({.title = "As far out, of simulated studies", .is_number = true});
+    table.columns.push_back(
+        {.title = said("As far out, of simulated studies"), .is_number = true});
   }
   for (const Estimate* estimate : estimates_where(results, &Estimate::is_published)) {
     std::vector<std::string> row = {
@@ -110,24 +111,24 @@ HtmlTable published_in_short(const StudyResults& results, const StudyTitles& tit
     table.rows.push_back(std::move(row));
   }
   table.notes.emplace_back(
-      "How each was published, and what was simulated to compare it with, is in the "
-      "supplement.");
+      said("How each was published, and what was simulated to compare it with, is in the "
+           "supplement."));
   return table;
 }
 
 HtmlTable published_table(const StudyResults& results, const StudyTitles& titles) {
   const bool has_simulated = results.predictive.num_studies > 0;
   HtmlTable table{
-      .caption = "Ours beside the published values",
-      .columns = {{.title = "Estimate, and how it was published", .is_titled = true},
-                  {"Ours (95 % interval)", true},
-                  {"Unit"},
-                  {"Published", true}}};
+      .caption = said("Ours beside the published values"),
+      .columns = {{.title = said("Estimate, and how it was published"), .is_titled = true},
+                  {said("Ours (95 % interval)"), true},
+                  {said("Unit")},
+                  {said("Published"), true}}};
   if (has_simulated) {
-    table.columns.push_back({"Simulated studies", true});
-    table.columns.push_back({"Tail", true});
+    table.columns.push_back({said("Simulated studies"), true});
+    table.columns.push_back({said("Tail"), true});
   }
-  if (results.simulated) table.columns.push_back({"Basis"});
+  if (results.simulated) table.columns.push_back({said("Basis")});
   const std::vector<const Estimate*> published =
       estimates_where(results, &Estimate::is_published);
   for (const Estimate* estimate : published) {
@@ -146,9 +147,9 @@ HtmlTable published_table(const StudyResults& results, const StudyTitles& titles
   table.notes = published_notes(published);
   std::ranges::move(predictive_notes(results.predictive), std::back_inserter(table.notes));
   if (results.simulated) {
-    table.notes.emplace_back(
+    table.notes.emplace_back(said(
         "Calibrated: the simulated laboratory was fitted to the published value. Implied: it "
-        "follows from values that were. Held out: the laboratory knows nothing of it.");
+        "follows from values that were. Held out: the laboratory knows nothing of it."));
   }
   return table;
 }

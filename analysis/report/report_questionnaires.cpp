@@ -2,6 +2,7 @@
 
 #include "analysis/report/report_results.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -26,8 +27,8 @@ void add_row(HtmlTable& table, const ResultsSection& section, const Questionnair
   if (mean == nullptr) return;
   std::string interval = number_words(mean->value, 2);
   if (mean->ci95.low && mean->ci95.high) {
-    interval += " (" + number_words(mean->ci95.low, 2) + "\u00a0to\u00a0" +
-                number_words(mean->ci95.high, 2) + ")";
+    interval += said(" ({}\u00a0to\u00a0{})", number_words(mean->ci95.low, 2),
+                     number_words(mean->ci95.high, 2));
   }
   std::vector<std::string> row = {item.name, item.question, std::to_string(mean->n), interval};
   for (const char* const statistic : statistics) {
@@ -37,8 +38,10 @@ void add_row(HtmlTable& table, const ResultsSection& section, const Questionnair
 }
 
 std::vector<HtmlTable::Column> columns_with(const std::vector<const char*>& titles) {
-  std::vector<HtmlTable::Column> columns = {
-      {"Item", false, true}, {"Question"}, {"n", true}, {"Mean (95 % interval)", true}};
+  std::vector<HtmlTable::Column> columns = {{said("Item"), false, true},
+                                            {said("Question")},
+                                            {"n", true},
+                                            {said("Mean (95 % interval)"), true}};
   for (const char* const title : titles) columns.push_back({title, true});
   return columns;
 }
@@ -52,8 +55,10 @@ std::string ends_words(const QuestionnaireItem& item) {
 }
 
 void write_counts(HtmlText& html, const StudyData& data, const ResultsSection& section) {
-  HtmlTable table{.caption = "Choices: how many gave each answer",
-                  .columns = {{"Item", false, true}, {"Question"}, {"n", true}, {"Answers"}}};
+  HtmlTable table{
+      .caption = said("Choices: how many gave each answer"),
+      .columns = {
+          {said("Item"), false, true}, {said("Question")}, {"n", true}, {said("Answers")}}};
   for (const QuestionnaireItem& item : data.items) {
     if (item.kind == "scale" || item.kind == "number") continue;
     const std::string start = "questionnaire." + item.name + ".";
@@ -77,14 +82,14 @@ void write_counts(HtmlText& html, const StudyData& data, const ResultsSection& s
 
 void write_questionnaires(HtmlText& html, const StudyData& data,
                           const ResultsSection& section) {
-  HtmlTable ratings{.caption =
-                        "Ratings from 1, the worst, to the last step, the best; scales "
-                        "asked the other way are turned round",
-                    .columns = columns_with({"sd", "Median"})};
-  HtmlTable steps{.caption = "Steps of scales without a better end, as they were asked, from 1",
-                  .columns = columns_with({"sd", "Median", "Ends"})};
-  HtmlTable numbers{.caption = "Numbers",
-                    .columns = columns_with({"sd", "Smallest", "Largest"})};
+  HtmlTable ratings{.caption = said("Ratings from 1, the worst, to the last step, the best; "
+                                    "scales asked the other way are turned round"),
+                    .columns = columns_with({"sd", said("Median")})};
+  HtmlTable steps{
+      .caption = said("Steps of scales without a better end, as they were asked, from 1"),
+      .columns = columns_with({"sd", said("Median"), said("Ends")})};
+  HtmlTable numbers{.caption = said("Numbers"),
+                    .columns = columns_with({"sd", said("Smallest"), said("Largest")})};
   for (const QuestionnaireItem& item : data.items) {
     if (item.kind == "scale") {
       HtmlTable& table = item.high_is_good ? ratings : steps;

@@ -12,6 +12,7 @@
 #include "analysis/report/report_published.h"
 #include "analysis/results/number_words.h"
 #include "analysis/results/test_families.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -26,7 +27,7 @@ std::string effect_words(const Comparison& c) {
 /// Why numbers may be wrong for these data, after what is said of them.
 std::string caution_words(const std::vector<std::string>& cautions) {
   std::string words;
-  for (const std::string& caution : cautions) words += ". Caution: " + caution;
+  for (const std::string& caution : cautions) words += said(". Caution: {}", caution);
   return words;
 }
 
@@ -66,8 +67,8 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
           ? "Hodges-Lehmann " + with_interval(c.hodges_lehmann, c.hodges_lehmann_ci95)
           : with_interval(c.estimate, c.ci95);
   if (named.ratio()) {
-    effect = named.ratio_of + " " + with_interval(named.ratio(), named.ratio_ci95()) +
-             " times as large; its logarithm differs by " + effect;
+    effect = said("{} {} times as large; its logarithm differs by {}", named.ratio_of,
+                  with_interval(named.ratio(), named.ratio_ci95()), effect);
   }
   return {name,
           std::move(effect),
@@ -81,17 +82,18 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
 
 HtmlTable estimates_table(const std::string& caption) {
   return {.caption = caption,
-          .columns = {{.title = "Estimate, and what it is", .is_titled = true},
-                      {"Value", true},
-                      {"95 % interval", true},
-                      {"Unit"},
+          .columns = {{.title = said("Estimate, and what it is"), .is_titled = true},
+                      {said("Value"), true},
+                      {said("95 % interval"), true},
+                      {said("Unit")},
                       {"n", true}}};
 }
 
 std::vector<std::string> estimate_row(const StudyTitles& titles, const Estimate& estimate) {
-  const std::string words = estimate.meaning +
-                            (estimate.reason.empty() ? "" : ". No value: " + estimate.reason) +
-                            caution_words(estimate.cautions);
+  const std::string words =
+      estimate.meaning +
+      (estimate.reason.empty() ? "" : said(". No value: {}", estimate.reason)) +
+      caution_words(estimate.cautions);
   return {estimate_title(titles, estimate.name, estimate.unit) + "\n" + estimate.name + "\n" +
               words,
           number_words(estimate.value),
@@ -104,8 +106,8 @@ void write_estimates(HtmlText& html, const StudyResults& results, const StudyTit
                      const ResultsSection& section, bool primary, const char* caption) {
   const bool any_published = std::ranges::any_of(section.estimates, &Estimate::is_published);
   HtmlTable table = estimates_table(caption);
-  if (any_published) table.columns.push_back({"Published", true});
-  if (any_published && results.simulated) table.columns.push_back({"Basis"});
+  if (any_published) table.columns.push_back({said("Published"), true});
+  if (any_published && results.simulated) table.columns.push_back({said("Basis")});
   std::vector<const Estimate*> published;
   for (const Estimate& estimate : section.estimates) {
     if (estimate.primary != primary) continue;
@@ -120,14 +122,14 @@ void write_estimates(HtmlText& html, const StudyResults& results, const StudyTit
 }
 
 void write_comparisons(HtmlText& html, const ResultsSection& section) {
-  HtmlTable table{.caption = "Comparisons, with 95 % intervals; p two-sided",
-                  .columns = {{"Comparison"},
-                              {"Difference or correlation"},
-                              {"Statistic", true},
+  HtmlTable table{.caption = said("Comparisons, with 95 % intervals; p two-sided"),
+                  .columns = {{said("Comparison")},
+                              {said("Difference or correlation")},
+                              {said("Statistic"), true},
                               {"df", true},
                               {"p", true},
-                              {"p, Holm", true},
-                              {"Effect size"},
+                              {said("p, Holm"), true},
+                              {said("Effect size")},
                               {"n", true}}};
   std::vector<std::string> methods;
   bool any_adjusted = false;
@@ -150,7 +152,7 @@ void write_comparisons(HtmlText& html, const ResultsSection& section) {
   if (!methods.empty()) {
     std::string note;
     for (const std::string& method : methods)
-      note += (note.empty() ? "Tests: " : "; ") + method;
+      note += (note.empty() ? said("Tests: ") : "; ") + method;
     table.notes.push_back(note + ".");
   }
   html.table(table);
@@ -193,9 +195,9 @@ class OwnValues {
  private:
   [[nodiscard]] HtmlTable table_of(std::size_t first, std::size_t end) const {
     const std::string start = common_start(names_);
-    HtmlTable table{.caption = std::string("Values of every participant") +
-                               (has_intervals_ ? ", with 95 % intervals" : ""),
-                    .columns = {{"Participant"}}};
+    HtmlTable table{.caption = said("Values of every participant{}",
+                                    (has_intervals_ ? said(", with 95 % intervals") : "")),
+                    .columns = {{said("Participant")}}};
     for (std::size_t i = first; i < end; ++i) {
       table.columns.push_back({names_[i].substr(start.size()), true});
     }
@@ -228,7 +230,8 @@ class OwnValues {
 };
 
 void write_excluded(HtmlText& html, const ResultsSection& section) {
-  HtmlTable table{.caption = "Left out, and why", .columns = {{"Who"}, {"Reason"}}};
+  HtmlTable table{.caption = said("Left out, and why"),
+                  .columns = {{said("Who")}, {said("Reason")}}};
   for (const ExcludedParticipant& one : section.excluded) {
     table.rows.push_back({one.participant, one.reason});
   }
@@ -236,8 +239,9 @@ void write_excluded(HtmlText& html, const ResultsSection& section) {
 }
 
 void write_cautions(HtmlText& html, const ResultsSection& section) {
-  HtmlTable table{.caption = "Cautions: in the numbers all the same, and why they may be wrong",
-                  .columns = {{"Who"}, {"What"}}};
+  HtmlTable table{
+      .caption = said("Cautions: in the numbers all the same, and why they may be wrong"),
+      .columns = {{said("Who")}, {said("What")}}};
   for (const Caution& one : section.cautions) {
     table.rows.push_back({one.participant, one.caution});
   }
@@ -252,7 +256,7 @@ void write_free_answers(HtmlText& html, const ResultsSection& section) {
       items.push_back(one.item);
     }
   }
-  if (!items.empty()) html.heading(4, "In participants’ own words");
+  if (!items.empty()) html.heading(4, said("In participants’ own words"));
   for (const std::string& item : items) {
     std::string question = item;
     std::string answers;
@@ -267,7 +271,7 @@ void write_free_answers(HtmlText& html, const ResultsSection& section) {
 
 /// What each block was asked for. A value whose own goodness of fit rejects it is not told.
 HtmlTable primary_table(const StudyResults& results, const StudyTitles& titles) {
-  HtmlTable table = estimates_table("Primary values");
+  HtmlTable table = estimates_table(said("Primary values"));
   bool any_rejected = false;
   for (const Estimate* estimate : estimates_where(results, &Estimate::primary)) {
     std::vector<std::string> row = estimate_row(titles, *estimate);
@@ -280,9 +284,9 @@ HtmlTable primary_table(const StudyResults& results, const StudyTitles& titles) 
   }
   if (any_rejected) {
     table.notes.emplace_back(
-        "† Not told here, for its own goodness of fit rejects the curve that it is of "
-        "(p < 0.01): a single number would promise more than these answers hold. The value "
-        "and its caution are in the supplement.");
+        said("† Not told here, for its own goodness of fit rejects the curve that it is of (p "
+             "< 0.01): a single number would promise more than these answers hold. The value "
+             "and its caution are in the supplement."));
   }
   return table;
 }
@@ -300,18 +304,21 @@ ResultsSection primary_comparisons(const StudyResults& results) {
 
 std::string section_title(const StudyTitles& titles, const std::string& name) {
   constexpr std::pair<std::string_view, const char*> kEndings[] = {
-      {"_staircase", ": staircases"},      {"_limits", ": method of limits"},
-      {"_quest_plus", ": QUEST+"},         {"_intervals", ": order of the intervals"},
-      {"_catch_trials", ": catch trials"}, {"_questions", ": questions after each trial"}};
+      {"_staircase", said_later(": staircases")},
+      {"_limits", said_later(": method of limits")},
+      {"_quest_plus", said_later(": QUEST+")},
+      {"_intervals", said_later(": order of the intervals")},
+      {"_catch_trials", said_later(": catch trials")},
+      {"_questions", said_later(": questions after each trial")}};
   for (const auto& [ending, title] : kEndings) {
     if (titles.stages.contains(name) || !name.ends_with(ending)) continue;
-    return section_title(titles, name.substr(0, name.size() - ending.size())) + title;
+    return section_title(titles, name.substr(0, name.size() - ending.size())) + said(title);
   }
   const std::string between = "_against_";
   const std::size_t at = name.find(between);
   if (at != std::string::npos) {
-    return titles.short_title_of(name.substr(0, at)) + " against " +
-           titles.short_title_of(name.substr(at + between.size()));
+    return said("{} against {}", titles.short_title_of(name.substr(0, at)),
+                titles.short_title_of(name.substr(at + between.size())));
   }
   std::string title = titles.title_of(name);
   if (!title.empty() && title[0] >= 'a' && title[0] <= 'z') {
@@ -325,7 +332,7 @@ void write_at_a_glance(HtmlText& html, const StudyResults& results, const StudyT
   const HtmlTable published = published_in_short(results, titles);
   const ResultsSection comparisons = primary_comparisons(results);
   if (primary.rows.empty() && published.rows.empty()) return;
-  html.heading(2, "At a glance");
+  html.heading(2, said("At a glance"));
   write_contrast_sentences(html, results);
   if (!primary.rows.empty()) html.table(primary);
   if (!comparisons.comparisons.empty()) write_comparisons(html, comparisons);
@@ -338,10 +345,10 @@ void write_section(HtmlText& html, const StudyData& data, const StudyResults& re
     write_questionnaires(html, data, section);
   } else {
     const bool any_primary = std::ranges::any_of(section.estimates, &Estimate::primary);
-    write_estimates(html, results, titles, section, true, "The answer to what was asked");
-    write_estimates(
-        html, results, titles, section, false,
-        any_primary ? "How else it can be estimated, and what else was found" : "Estimates");
+    write_estimates(html, results, titles, section, true, said("The answer to what was asked"));
+    write_estimates(html, results, titles, section, false,
+                    any_primary ? said("How else it can be estimated, and what else was found")
+                                : said("Estimates"));
   }
   write_comparisons(html, section);
   write_excluded(html, section);

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 #include "core/storage/study_store.h"
 #include "experiments/study/sound.h"
 
@@ -15,28 +16,28 @@ using experiments::Sound;
 using experiments::SoundLevel;
 
 std::string level_in_report(const SoundLevel& level) {
-  return level.level_db_spl
-             ? shortest_words(*level.level_db_spl) + " dB SPL"
-             : shortest_words(level.level_dbfs.value_or(0.0)) + " dB re a sine of full scale";
+  return level.level_db_spl ? said("{} dB SPL", shortest_words(*level.level_db_spl))
+                            : said("{} dB re a sine of full scale",
+                                   shortest_words(level.level_dbfs.value_or(0.0)));
 }
 
 std::string noise_in_report(const MaskingNoise& noise) {
   using Kind = MaskingNoise::Kind;
-  const std::string colour = noise.kind == Kind::kWhite ? "white noise"
+  const std::string colour = noise.kind == Kind::kWhite ? said("white noise")
                              : noise.kind == Kind::kPink
-                                 ? "pink noise"
-                                 : "noise from " + shortest_words(noise.low_hz) + " to " +
-                                       shortest_words(noise.high_hz) + " Hz";
-  return colour + " at " + level_in_report(noise.level);
+                                 ? said("pink noise")
+                                 : said("noise from {} to {} Hz", shortest_words(noise.low_hz),
+                                        shortest_words(noise.high_hz));
+  return said("{} at {}", colour, level_in_report(noise.level));
 }
 
 std::string cue_in_report(const Cue& cue) {
   const std::string moment =
-      cue.moment == experiments::CueMoment::kReady   ? "when a trial could begin"
-      : cue.moment == experiments::CueMoment::kBegin ? "when a stimulus began"
-                                                     : "when a stimulus was over";
-  return "a tone of " + shortest_words(cue.frequency_hz) + " Hz and " +
-         shortest_words(cue.duration_s) + " s at " + level_in_report(cue.level) + " " + moment;
+      cue.moment == experiments::CueMoment::kReady   ? said("when a trial could begin")
+      : cue.moment == experiments::CueMoment::kBegin ? said("when a stimulus began")
+                                                     : said("when a stimulus was over");
+  return said("a tone of {} Hz and {} s at {} {}", shortest_words(cue.frequency_hz),
+              shortest_words(cue.duration_s), level_in_report(cue.level), moment);
 }
 
 }  // namespace
@@ -63,8 +64,9 @@ std::string sound_words(const ChapterSource& source) {
       break;
     }
   }
-  return "The study asks for " + heard + "; it was played in " + std::to_string(num_played) +
-         " of " + counted_words(std::ssize(source.sessions), "session") + ".";
+  return said("The study asks for {}; it was played in {} of {}.", heard,
+              std::to_string(num_played),
+              counted_words(std::ssize(source.sessions), "session"));
 }
 
 }  // namespace jnd::analysis

@@ -3,6 +3,7 @@
 #include "analysis/report/figures.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -14,8 +15,9 @@ struct StrokeQuantity {
 };
 
 constexpr StrokeQuantity kStrokeQuantities[] = {
-    {"stroke_width_m", "Stroke width [m]", &core::PresentationMeasures::stroke_width_m},
-    {"max_speed_m_per_s", "Highest speed [m/s]",
+    {"stroke_width_m", said_later("Stroke width [m]"),
+     &core::PresentationMeasures::stroke_width_m},
+    {"max_speed_m_per_s", said_later("Highest speed [m/s]"),
      &core::PresentationMeasures::max_speed_m_per_s},
 };
 
@@ -51,12 +53,12 @@ std::vector<Figure> stroke_figures(const FigureSource& source) {
   const std::vector<std::string> people = source.participants();
   Figure figure{.name = "strokes",
                 .section = "movement",
-                .title = "Stroke width and highest speed of every participant",
-                .caption =
-                    "Means over the presentations of a block that hold a whole stroke. "
-                    "Horizontal lines: means over participants.",
-                .thesis = "Fig. D.17 and D.25"};
-  PanelGrid grid{.num_columns = 1, .x_title = "Participant", .left_in = 0.75, .top_in = 0.42};
+                .title = said("Stroke width and highest speed of every participant"),
+                .caption = said("Means over the presentations of a block that hold a whole "
+                                "stroke. Horizontal lines: means over participants."),
+                .thesis = said("Fig. D.17 and D.25")};
+  PanelGrid grid{
+      .num_columns = 1, .x_title = said("Participant"), .left_in = 0.75, .top_in = 0.42};
   std::vector<Panel> panels;
   for (const StrokeQuantity& quantity : kStrokeQuantities) {
     Panel panel;
@@ -65,7 +67,7 @@ std::vector<Figure> stroke_figures(const FigureSource& source) {
         named_tics("x", people, people.size() > 16) +
         "  set yrange [0:*]\n  set offsets 0,0,graph 0.06,0\n" +
         small_tics("y", {0.0, largest_in(table, quantity.name)}) + "  set ylabel " +
-        gnuplot_quoted(quantity.axis) + "\n" +
+        gnuplot_quoted(said(quantity.axis)) + "\n" +
         (panels.empty()
              ? "  set key at screen 0.5,0.99 center top horizontal reverse Left samplen 1\n"
              : "");

@@ -3,19 +3,21 @@
 #include <algorithm>
 
 #include "analysis/report/plot_parts.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
 
 std::string subtitle(const PowerFigureWords& words) {
-  return words.study + ", " + std::to_string(words.num_runs) +
-         " simulated studies of each size, laboratory " + words.laboratory;
+  return said("{}, {} simulated studies of each size, laboratory {}", words.study,
+              std::to_string(words.num_runs), words.laboratory);
 }
 
 std::string x_axis(const std::vector<PlannedSummary>& summaries) {
   std::vector<double> sizes;
   for (const PlannedSummary& one : summaries) sizes.push_back(one.num_participants);
-  return "  set xlabel 'Participants'\n  set xrange " + range_words(axis_range(sizes)) + "\n";
+  return "  set xlabel " + gnuplot_quoted(said("Participants")) + "\n  set xrange " +
+         range_words(axis_range(sizes)) + "\n";
 }
 
 /// Series of a table, numbered from 1, as lines with marks and bars.
@@ -51,13 +53,13 @@ Figure power_figure(const PlannedAnalysis& analysis,
   }
   Figure figure{.name = "power",
                 .section = "power",
-                .title = words.null_hypothesis ? "False positives" : "Power",
-                .caption =
-                    "Share of simulated studies with p < 0.05; bars: 95 % (Wilson), how "
-                    "well so many studies tell it."};
+                .title = words.null_hypothesis ? said("False positives") : said("Power"),
+                .caption = said("Share of simulated studies with p < 0.05; bars: 95 % "
+                                "(Wilson), how well so many studies tell it.")};
   const std::string level = words.null_hypothesis ? "0.05" : "0.8";
   figure.plot = "  set title " + gnuplot_quoted(subtitle(words)) + " font small\n" +
-                x_axis(summaries) + "  set ylabel 'Share with p < 0.05'\n" +
+                x_axis(summaries) + "  set ylabel " +
+                gnuplot_quoted(said("Share with p < 0.05")) + "\n" +
                 (words.null_hypothesis ? "  set yrange [0:0.2]\n" : "  set yrange [0:1]\n") +
                 "  set key outside below left vertical reverse Left font small\n"
                 "  set arrow 1 from graph 0,first " +
@@ -86,14 +88,15 @@ Figure precision_figure(const PlannedAnalysis& analysis,
                           precision.half_width_90.value_or(0.0)});
     }
   }
-  Figure figure{.name = "power_precision",
-                .section = "power",
-                .title = "Precision",
-                .caption =
-                    "Half width of the 95 % interval over participants: in the median "
-                    "study, and up to what nine studies in ten stay below."};
+  Figure figure{
+      .name = "power_precision",
+      .section = "power",
+      .title = said("Precision"),
+      .caption = said("Half width of the 95 % interval over participants: in the median study, "
+                      "and up to what nine studies in ten stay below.")};
   figure.plot = "  set title " + gnuplot_quoted(subtitle(words)) + " font small\n" +
-                x_axis(summaries) + "  set ylabel 'Half width of the 95 % interval'\n" +
+                x_axis(summaries) + "  set ylabel " +
+                gnuplot_quoted(said("Half width of the 95 % interval")) + "\n" +
                 "  set yrange [0:" + plot_number(largest > 0.0 ? 1.05 * largest : 1.0) +
                 "]\n  set key outside below left vertical reverse Left font small\n"
                 "  set bars 0.6\n" +

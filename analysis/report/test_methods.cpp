@@ -1,4 +1,5 @@
 #include "analysis/report/test_methods.h"
+#include "analysis/words/said.h"
 
 #include <algorithm>
 
@@ -23,44 +24,44 @@ class Tests {
       return one.comparison.method.starts_with("paired t");
     });
     if (any_paired) also("paired");
-    if (has(Kind::kOneSample)) also("of one sample against 0");
-    if (has(Kind::kWelch)) also("Welch’s for unequal variances (" + cite_("Welch 1947") + ")");
-    if (has(Kind::kPooled)) also("with pooled variance, as Schmidt (2018) has them");
-    return names.empty() ? "" : " t tests: " + names + "; the statistic is t.";
+    if (has(Kind::kOneSample)) also(said("of one sample against 0"));
+    if (has(Kind::kWelch))
+      also(said("Welch’s for unequal variances ({})", cite_("Welch 1947")));
+    if (has(Kind::kPooled)) also(said("with pooled variance, as Schmidt (2018) has them"));
+    return names.empty() ? "" : said(" t tests: {}; the statistic is t.", names);
   }
 
   [[nodiscard]] std::string rank_tests() const {
     std::string text;
     if (has(Kind::kWilcoxon)) {
-      text += " Wilcoxon’s signed ranks (" + cite_("Wilcoxon 1945") +
-              "): V is the sum of the ranks of differences above 0, T the smaller sum of "
-              "ranks; differences of 0 are left out before ranking.";
+      text += said(
+          " Wilcoxon’s signed ranks ({}): V is the sum of the ranks of differences above 0, T "
+          "the smaller sum of ranks; differences of 0 are left out before ranking.",
+          cite_("Wilcoxon 1945"));
     }
     if (has(Kind::kRankSum)) {
-      text += " Rank sums (" + cite_("Mann and Whitney 1947") +
-              "): U is that of the group named first.";
+      text += said(" Rank sums ({}): U is that of the group named first.",
+                   cite_("Mann and Whitney 1947"));
     }
     if (!text.empty()) {
-      text +=
-          " Both are exact up to 50 ranks, with ties, too, by counting all arrangements of "
-          "the midranks (" +
-          cite_("Streitberg and Röhmel 1986") +
-          "); beyond, normal with the variance corrected for ties and with continuity "
-          "correction. As difference they give the estimate of Hodges and Lehmann (" +
-          cite_("Hodges and Lehmann 1963") +
-          ") with its distribution-free interval, which with ties holds at least as often "
-          "as it says (" +
-          cite_("Noether 1967") + ").";
+      text += said(
+          " Both are exact up to 50 ranks, with ties, too, by counting all arrangements of the "
+          "midranks ({}); beyond, normal with the variance corrected for ties and with "
+          "continuity correction. As difference they give the estimate of Hodges and Lehmann "
+          "({}) with its distribution-free interval, which with ties holds at least as often "
+          "as it says ({}).",
+          cite_("Streitberg and Röhmel 1986"), cite_("Hodges and Lehmann 1963"),
+          cite_("Noether 1967"));
     }
     if (has(Kind::kSpearman)) {
-      text +=
-          " Spearman’s correlation: p is exact over all pairings of the ranks up to 14 "
-          "pairs, beyond by t; S = (n³ − n)(1 − r) / 6, for ranks without ties the sum of "
-          "their squared differences; the interval is that of " +
-          cite_("Bonett and Wright 2000") + ".";
+      text += said(
+          " Spearman’s correlation: p is exact over all pairings of the ranks up to 14 pairs, "
+          "beyond by t; S = (n³ − n)(1 − r) / 6, for ranks without ties the sum of their "
+          "squared differences; the interval is that of {}.",
+          cite_("Bonett and Wright 2000"));
     }
     if (!text.empty()) {
-      text += " A two-sided p value of ranks is twice the smaller tail, at most 1.";
+      text += said(" A two-sided p value of ranks is twice the smaller tail, at most 1.");
     }
     return text;
   }
@@ -68,8 +69,8 @@ class Tests {
   [[nodiscard]] std::string others() const {
     std::string text;
     if (has(Kind::kPearson)) {
-      text += " Pearson’s correlation has Fisher’s z interval (" + cite_("Fisher 1921") +
-              ") and a t test.";
+      text += said(" Pearson’s correlation has Fisher’s z interval ({}) and a t test.",
+                   cite_("Fisher 1921"));
     }
     return text;
   }
@@ -77,10 +78,11 @@ class Tests {
   [[nodiscard]] std::string adjustment() const {
     const bool adjusted =
         any([](const NamedComparison& one) { return one.p_value_holm.has_value(); });
-    return adjusted ? " p values adjusted by Holm (" + cite_("Holm 1979") +
-                          ") have a column of their own, each for the family named in "
-                          "brackets; all others are not adjusted."
-                    : " No p value is adjusted for their number.";
+    return adjusted ? said(
+                          " p values adjusted by Holm ({}) have a column of their own, each "
+                          "for the family named in brackets; all others are not adjusted.",
+                          cite_("Holm 1979"))
+                    : said(" No p value is adjusted for their number.");
   }
 
   [[nodiscard]] std::string effects() const {
@@ -94,21 +96,24 @@ class Tests {
     const bool r_rb = any(
         [](const NamedComparison& one) { return one.comparison.rank_biserial.has_value(); });
     if (d_z) {
-      text += " d_z is the mean difference over the standard deviation of the differences.";
+      text +=
+          said(" d_z is the mean difference over the standard deviation of the differences.");
     }
     if (g) {
-      text +=
+      text += said(
           " g is the difference of two means over the root of the mean of their variances, "
-          "without its bias (" +
-          cite_("Hedges 1981") + "; " + cite_("Delacre et al. 2021") + ").";
+          "without its bias ({}; {}).",
+          cite_("Hedges 1981"), cite_("Delacre et al. 2021"));
     }
     if (d_z || g) {
-      text += " Their intervals are by the noncentral t (" + cite_("Steiger and Fouladi 1997") +
-              ").";
+      text += said(" Their intervals are by the noncentral t ({}).",
+                   cite_("Steiger and Fouladi 1997"));
     }
     if (r_rb) {
-      text += " r_rb is the rank-biserial correlation (" + cite_("Kerby 2014") +
-              "): the share of ranks or pairs for a > b minus that for a < b.";
+      text += said(
+          " r_rb is the rank-biserial correlation ({}): the share of ranks or pairs for a > b "
+          "minus that for a < b.",
+          cite_("Kerby 2014"));
     }
     return text.empty() ? "" : text.substr(1);
   }
@@ -134,20 +139,20 @@ void add_test_methods(const std::vector<const NamedComparison*>& comparisons, bo
                       const std::function<void(const std::string&, const std::string&)>& add) {
   if (comparisons.empty()) return;
   const Tests tests(comparisons, cite);
-  std::string text = "All p values are two-sided." + tests.t_tests() + tests.rank_tests() +
-                     tests.others() + tests.adjustment();
+  std::string text = said("All p values are two-sided.{}{}{}{}", tests.t_tests(),
+                          tests.rank_tests(), tests.others(), tests.adjustment());
   if (compares) {
-    text +=
+    text += said(
         " “Becomes more frequent over the trials”: of each participant the covariance of "
-        "answer and running number, summed over levels, over its standard deviation were "
-        "every order within a level equally likely; exploratory. The mean of these z tells "
-        "what people share; “each in their own way”: their sum of squares, which is about the "
+        "answer and running number, summed over levels, over its standard deviation were every "
+        "order within a level equally likely; exploratory. The mean of these z tells what "
+        "people share; “each in their own way”: their sum of squares, which is about the "
         "number of participants if nobody changes, beside that of answers drawn anew at the "
         "same levels from everybody’s own curve, p = (1 + redraws with at least this sum) / "
-        "(redraws + 1). Neither is made where the answers led to the levels.";
+        "(redraws + 1). Neither is made where the answers led to the levels.");
   }
-  add("Tests", text);
-  add("Effect sizes", tests.effects());
+  add(said("Tests"), text);
+  add(said("Effect sizes"), tests.effects());
 }
 
 }  // namespace jnd::analysis

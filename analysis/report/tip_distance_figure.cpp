@@ -4,6 +4,7 @@
 
 #include "analysis/report/plot_parts.h"
 #include "analysis/report/recording_conditions.h"
+#include "analysis/words/said.h"
 #include "core/hand.h"
 
 namespace jnd::analysis {
@@ -130,12 +131,12 @@ std::optional<Figure> tip_distances_figure(const FigureSource& source,
   if (shown.people.empty()) return std::nullopt;
   Figure figure{.name = "tip_distances",
                 .section = "movement",
-                .title = "Distance of the tips to the end effector over a stroke",
-                .thesis = "Fig. D.28"};
+                .title = said("Distance of the tips to the end effector over a stroke"),
+                .thesis = said("Fig. D.28")};
   const auto num_key_rows = static_cast<double>(std::min<std::size_t>(3, shown.titles.size()));
   PanelGrid grid{.num_columns = core::kNumContactPoints,
-                 .x_title = "Stroke [%]",
-                 .y_title = "Distance of the tip to the end effector [mm]",
+                 .x_title = said("Stroke [%]"),
+                 .y_title = said("Distance of the tip to the end effector [mm]"),
                  .top_in = 0.45 + 0.14 * num_key_rows};
   std::vector<Panel> panels;
   for (std::size_t person = 0; person < shown.people.size(); ++person) {
@@ -146,13 +147,14 @@ std::optional<Figure> tip_distances_figure(const FigureSource& source,
   figure.height_in = grid_height_in(grid, panels.size(), 1.05);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
   const std::size_t num_shown = shown.people.size();
-  figure.caption =
-      "Mean over strokes in each condition, one row a participant (" +
-      (movement.participants.size() > num_shown ? "the first " + std::to_string(num_shown)
-                                                : std::string("all")) +
-      " with recordings). 0 % is the middle of the motion back; dashed lines: the "
-      "turning points in the first condition." +
-      selection_words(shown.titles.size(), shown.all_titles.size(), "conditions");
+  figure.caption = said(
+      "Mean over strokes in each condition, one row a participant ({} with recordings). 0 % is "
+      "the middle of the motion back; dashed lines: the turning points in the first "
+      "condition.{}",
+      (movement.participants.size() > num_shown
+           ? said("the first {}", std::to_string(num_shown))
+           : std::string("all")),
+      selection_words(shown.titles.size(), shown.all_titles.size(), "conditions"));
   figure.tables = {std::move(shown.table)};
   return figure;
 }

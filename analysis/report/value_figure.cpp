@@ -8,6 +8,7 @@
 #include "analysis/charts/axis_range.h"
 #include "analysis/report/plot_parts.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -146,8 +147,8 @@ Figure value_figure(const std::vector<ComparedValues>& groups, const std::string
   Figure figure{
       .name = "comparison",
       .section = "comparison",
-      .title = "Values by condition",
-      .caption = "Each value, and the mean of each condition with its 95 % interval."};
+      .title = said("Values by condition"),
+      .caption = said("Each value, and the mean of each condition with its 95 % interval.")};
   figure.tables = {values_table(shown), means_table(shown), pairs_table(shown)};
   std::vector<double> drawn = all_values(shown);
   for (const std::vector<FigureCell>& row : figure.tables[1].rows) {
@@ -184,9 +185,9 @@ Figure scatter_figure(const std::vector<ComparedValues>& groups, bool has_line) 
   const std::vector<ComparedValues> shown = shown_of(groups);
   Figure figure{.name = "comparison",
                 .section = "comparison",
-                .title = "Pairs of values",
-                .caption = std::string("Each pair of values") +
-                           (has_line ? ", and the line of least squares." : ".")};
+                .title = said("Pairs of values"),
+                .caption = said("Each pair of values{}",
+                                (has_line ? said(", and the line of least squares.") : "."))};
   FigureTable pairs{.name = "pairs", .columns = {"series", "group", "first", "second"}};
   FigureTable lines{.name = "lines", .columns = {"series", "first", "second"}};
   const AxisRange x = axis_range(all_values(shown, 0, 1)), y = axis_range(all_values(shown, 1));

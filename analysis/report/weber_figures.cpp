@@ -7,6 +7,7 @@
 #include "analysis/report/plot_parts.h"
 #include "analysis/results/discrimination_own_values.h"
 #include "analysis/results/number_words.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -36,8 +37,8 @@ std::string pse_words(const FigureSource& source, const std::vector<BlockDesign>
     if (!source.section(block.block)->own_fractions_free_pse) continue;
     free_titles += (num_free++ > 0 ? ", " : "") + source.titles.short_title_of(block.block);
   }
-  if (num_free == 0) return "at the reference";
-  return num_free == blocks.size() ? "free" : "at the reference, free in " + free_titles;
+  if (num_free == 0) return said("at the reference");
+  return num_free == blocks.size() ? "free" : said("at the reference, free in {}", free_titles);
 }
 
 std::optional<double> reference_of(const StudyData& data, const std::string& block) {
@@ -103,15 +104,17 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
   const std::vector<std::string> people = source.participants();
   Figure figure{.name = "weber_fractions",
                 .section = section_of(source.results, blocks),
-                .title = "Weber fraction of every participant",
-                .thesis = "Fig. D.21",
+                .title = said("Weber fraction of every participant"),
+                .thesis = said("Fig. D.21"),
                 .height_in = 3.1};
   figure.plot = "  set logscale y\n  set yrange " + range_words(range) +
                 "\n  set xrange [0.3:" + plot_number(static_cast<double>(people.size()) + 0.7) +
-                "]\n" + named_tics("x", people, people.size() > 16) +
-                "  set xlabel 'Participant'\n" +
+                "]\n" + named_tics("x", people, people.size() > 16) + "  set xlabel " +
+                gnuplot_quoted(said("Participant")) + "\n" +
                 "  set ytics (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)\n"
-                "  set ylabel 'Weber fraction'\n"
+                "  set ylabel " +
+                gnuplot_quoted(said("Weber fraction")) +
+                "\n"
                 "  set key outside top center horizontal reverse Left samplen 1.5\n";
   std::string plot = "  plot ";
   for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -130,7 +133,7 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
             " with points lt " + type + " pt " + (b == 0 ? "6" : "4") + " ps 0.6 title " +
             gnuplot_quoted(source.titles.short_title_of(blocks[b].block) +
                            (source.section(blocks[b].block)->own_fractions_free_pse
-                                ? ", PSE at the reference"
+                                ? said(", PSE at the reference")
                                 : ", PSE free"));
     const Estimate* const median =
         source.results.find(blocks[b].block + ".individual_weber_fraction_median");
@@ -139,23 +142,24 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
     }
   }
   figure.plot += plot + "\n";
-  figure.caption =
-      "Maximum likelihood. Full marks: point of subjective equality (PSE) " +
-      pse_words(source, blocks) +
-      ", with 95 % likelihood-ratio intervals, which go to the edge where the data do "
-      "not bound them, and medians as horizontal lines. Open marks beside them: the other PSE, "
-      "free or at the reference. ";
+  figure.caption = said(
+      "Maximum likelihood. Full marks: point of subjective equality (PSE) {}, with 95 % "
+      "likelihood-ratio intervals, which go to the edge where the data do not bound them, and "
+      "medians as horizontal lines. Open marks beside them: the other PSE, free or at the "
+      "reference. ",
+      pse_words(source, blocks));
   for (const BlockDesign& block : blocks) {
     const FitsBorne borne = fits_borne(*source.section(block.block), block.block);
-    figure.caption += source.titles.short_title_of(block.block) + ": " +
-                      std::to_string(borne.num_rejected) + " of " +
-                      counted_words(borne.num_fits, "fit") +
-                      " with the PSE at the reference rejected by the answers. ";
+    figure.caption +=
+        said("{}: {} of {} with the PSE at the reference rejected by the answers. ",
+             source.titles.short_title_of(block.block), std::to_string(borne.num_rejected),
+             counted_words(borne.num_fits, "fit"));
   }
   figure.caption.pop_back();
   if (num_without > 0) {
-    figure.caption += " " + counted_words(num_without, "fraction") +
-                      " of their own that do not exist are left out; the tables say why.";
+    figure.caption +=
+        said(" {} of their own that do not exist are left out; the tables say why.",
+             counted_words(num_without, "fraction"));
   }
   figure.tables.push_back(std::move(table));
   return figure;
@@ -187,15 +191,16 @@ std::optional<Figure> thresholds_figure(const FigureSource& source,
   Figure figure{
       .name = of_thesis ? "absolute_thresholds" : "difference_thresholds",
       .section = section_of(source.results, blocks),
-      .title = "Difference thresholds",
+      .title = said("Difference thresholds"),
       .caption =
-          "The difference from the reference that is told in 84.13 % of trials: "
-          "Weber fraction, with the point of subjective equality " +
-          pse_words(source, blocks) + ", times the reference" +
-          std::string(of_thesis ? " (Schmidt 2018 calls it the absolute threshold)" : "") +
-          ". One circle a participant; boxes: quartiles and median, whiskers to the "
-          "last value within 1.5 interquartile ranges. Logarithmic axis.",
-      .thesis = "Fig. D.22",
+          said("The difference from the reference that is told in 84.13 % of trials: Weber "
+               "fraction, with the point of subjective equality {}, times the reference{}. One "
+               "circle a participant; boxes: quartiles and median, whiskers to the last value "
+               "within 1.5 interquartile ranges. Logarithmic axis.",
+               pse_words(source, blocks),
+               std::string(of_thesis ? said(" (Schmidt 2018 calls it the absolute threshold)")
+                                     : "")),
+      .thesis = said("Fig. D.22"),
       .width_in = std::min(6.6, 2.0 + 1.6 * static_cast<double>(blocks.size())),
       .height_in = 3.0};
   FigureTable boxes = box_table(figure.name + "_boxes", groups);
@@ -206,7 +211,7 @@ std::optional<Figure> thresholds_figure(const FigureSource& source,
       "\n  set xrange [0.4:" + plot_number(static_cast<double>(blocks.size()) + 0.6) + "]\n" +
       named_tics("x", titles, false) + log_tics("y", axis_range(values, /*logarithmic=*/true)) +
       "  set ylabel " +
-      gnuplot_quoted("Difference threshold" + (unit.empty() ? "" : " [" + unit + "]")) +
+      gnuplot_quoted(said("Difference threshold{}", (unit.empty() ? "" : " [" + unit + "]"))) +
       "\n  plot " + box_plot_commands(boxes, points, 0.45) + "\n";
   figure.tables = {std::move(boxes), std::move(points)};
   return figure;

@@ -4,6 +4,7 @@
 #include "analysis/results/number_words.h"
 #include "analysis/results/threshold_group.h"
 #include "analysis/results/threshold_results.h"
+#include "analysis/words/said.h"
 #include "core/psychometric_function.h"
 #include "experiments/study/media.h"
 
@@ -22,13 +23,13 @@ FractionAtTarget fraction_at_target(double threshold, double reference, double p
   const double z = core::standard_normal_quantile(probability);
   constexpr double kFlattest = 0.05;
   if (std::fabs(z) < kFlattest) {
-    return {.reason = "the staircase converges to 50 %, which is the pse, not a difference"};
+    return {.reason =
+                said("the staircase converges to 50 %, which is the pse, not a difference")};
   }
   const double ratio = std::log(threshold / reference) / z;
   if (!(ratio > 0.0)) {
-    return {.reason =
-                "the threshold lies on the other side of the reference than where the "
-                "pse at the reference has it"};
+    return {.reason = said("the threshold lies on the other side of the reference than where "
+                           "the pse at the reference has it")};
   }
   return {.value = std::expm1(ratio)};
 }
@@ -36,10 +37,13 @@ FractionAtTarget fraction_at_target(double threshold, double reference, double p
 /// Why what a posterior says may be wrong; "" if it keeps away from the ends of its grids.
 std::string edge_words(const AdaptiveRun& run) {
   std::string words;
-  for (const std::string& end : run.reached_ends) words += (words.empty() ? "" : " and ") + end;
+  for (const std::string& end : run.reached_ends)
+    words += (words.empty() ? "" : said(" and ")) + end;
   return words.empty() ? ""
-                       : "the posterior reaches " + words +
-                             ", which decides about the value; it has no interval";
+                       : said(
+                             "the posterior reaches {}, which decides about the value; it has "
+                             "no interval",
+                             words);
 }
 
 std::string percent_words(double probability) {
@@ -76,9 +80,9 @@ class AdaptiveWriter {
   }
   void tell_set_aside(const AdaptiveRun& run) {
     section_.excluded.push_back(
-        {run.participant, block_.block + ": nothing; " +
-                              counted_words(run.num_set_aside, "trial") +
-                              " set aside had decided which came next, and stay in it"});
+        {run.participant,
+         said("{}: nothing; {} set aside had decided which came next, and stay in it",
+              block_.block, counted_words(run.num_set_aside, "trial"))});
   }
   void tell(const AdaptiveRun& run, const std::string& name, const std::optional<double>& value,
             const std::string& reason, const Interval& ci95 = {},
@@ -106,8 +110,9 @@ class AdaptiveWriter {
   void caution_group(std::size_t first, int num_at_edge, int num_runs);
   /// What the rules of staircases and of QUEST+ know nothing of.
   [[nodiscard]] std::string of_both_orders() const {
-    return has_intervals(data_, block_) ? "; too large where people favour an interval, for "
-                                          "both orders are taken for one"
+    return has_intervals(data_, block_) ? said(
+                                              "; too large where people favour an interval, "
+                                              "for both orders are taken for one")
                                         : "";
   }
 
@@ -120,7 +125,7 @@ void AdaptiveWriter::tell_tracks(const AdaptiveRun& run) {
   if (run.tracks.size() < 2) return;
   for (const AdaptiveTrack& track : run.tracks) {
     tell(run, "staircase_threshold_" + std::to_string(track.series), track.threshold,
-         track.threshold ? "" : "fewer than two reversals");
+         track.threshold ? "" : said("fewer than two reversals"));
   }
 }
 
@@ -132,7 +137,7 @@ void AdaptiveWriter::write_staircase() {
     rule = run->rule;
     target = run->target_probability.value_or(target);
     tell(*run, "staircase_threshold", run->threshold,
-         run->threshold ? "" : "fewer than two reversals in every staircase");
+         run->threshold ? "" : said("fewer than two reversals in every staircase"));
     tell_tracks(*run);
     int at_bound = 0;
     for (const AdaptiveTrack& track : run->tracks) at_bound += track.num_at_bound;
@@ -151,34 +156,34 @@ void AdaptiveWriter::write_staircase() {
     if (w.value) fractions[run->participant] = *w.value;
   }
   if (rule.empty()) return;
-  const std::string more = block_.compares()     ? "\"more\""
+  const std::string more = block_.compares()     ? said("\"more\"")
                            : block_.identifies() ? "right"
-                                                 : "\"yes\"";
+                                                 : said("\"yes\"");
   section_.estimates.push_back(
       {.name = full("staircase_target_probability"),
        .value = target,
        .unit = "1",
-       .meaning = "share of " + more + " at the level that the staircase converges to: " + rule,
+       .meaning =
+           said("share of {} at the level that the staircase converges to: {}", more, rule),
        .n = static_cast<int>(thresholds.size())});
   add_level("staircase_threshold",
-            "level answered " + more + " in " + percent_words(target) + " (" + rule +
-                "): mean of the last reversals, then of interleaved staircases; geometric mean "
-                "over participants",
+            said("level answered {} in {} ({}): mean of the last reversals, then of "
+                 "interleaved staircases; geometric mean over participants",
+                 more, percent_words(target), rule),
             thresholds);
   if (block_.identifies()) {
     add_fraction("staircase_weber_fraction",
-                 "w = threshold / reference - 1, at which so many answers are right; no d' "
-                 "model; median person",
+                 said("w = threshold / reference - 1, at which so many answers are right; no "
+                      "d' model; median person"),
                  fractions);
     return;
   }
-  add_fraction("staircase_weber_fraction",
-               "w = (threshold / reference)^(1 / z) - 1 with z = " +
-                   number_words(core::standard_normal_quantile(target), 4) +
-                   " of that share, the pse at the reference: so that (1 + w) is where the "
-                   "curve is 84.13 %; median person" +
-                   of_both_orders(),
-               fractions);
+  add_fraction(
+      "staircase_weber_fraction",
+      said("w = (threshold / reference)^(1 / z) - 1 with z = {} of that share, the pse at the "
+           "reference: so that (1 + w) is where the curve is 84.13 %; median person{}",
+           number_words(core::standard_normal_quantile(target), 4), of_both_orders()),
+      fractions);
 }
 
 void AdaptiveWriter::write_limits() {
@@ -187,38 +192,41 @@ void AdaptiveWriter::write_limits() {
   for (const AdaptiveRun* run : runs()) {
     is_logarithmic = run->is_logarithmic;
     const LimitsEstimate& limits = run->limits;
-    const std::string none = "no series in which the answer changed";
+    const std::string none = said("no series in which the answer changed");
     tell(*run, "limits_threshold", run->threshold, run->threshold ? "" : none);
     tell(*run, "limits_ascending", limits.ascending, limits.ascending ? "" : none);
     tell(*run, "limits_descending", limits.descending, limits.descending ? "" : none);
     tell(*run, "limits_constant_error", limits.constant_error,
-         limits.constant_error ? "" : "no transition in one of the directions");
+         limits.constant_error ? "" : said("no transition in one of the directions"));
     if (run->threshold) levels[run->participant] = *run->threshold;
     if (limits.ascending) ascending[run->participant] = *limits.ascending;
     if (limits.descending) descending[run->participant] = *limits.descending;
     if (limits.constant_error) errors[run->participant] = *limits.constant_error;
   }
-  const std::string what =
-      block_.compares() ? "a pse, for \"more\" begins at 50 %" : "the absolute threshold";
+  const std::string what = block_.compares() ? said("a pse, for \"more\" begins at 50 %")
+                                             : said("the absolute threshold");
   add_level("limits_threshold",
-            "mean of all transitions, " + what + "; geometric mean over participants", levels);
-  add_level("limits_ascending", "mean transition of rising series; geometric mean", ascending);
-  add_level("limits_descending", "mean transition of falling series; geometric mean",
+            said("mean of all transitions, {}; geometric mean over participants", what),
+            levels);
+  add_level("limits_ascending", said("mean transition of rising series; geometric mean"),
+            ascending);
+  add_level("limits_descending", said("mean transition of falling series; geometric mean"),
             descending);
   if (errors.empty()) return;
   add_mean(section_,
            {.name = full("limits_constant_error"),
-            .meaning = std::string("rising less falling series") +
-                       (is_logarithmic ? ", in ln" : "") +
-                       ": above 0 habituation, below 0 expectation; mean over participants",
+            .meaning = said("rising less falling series{}: above 0 habituation, below 0 "
+                            "expectation; mean over participants",
+                            (is_logarithmic ? said(", in ln") : "")),
             .unit = is_logarithmic ? "1" : unit()},
            errors);
   std::vector<double> values;
   for (const auto& [participant, error] : errors) values.push_back(error);
-  section_.comparisons.push_back({.name = block_.block + ": rising - falling series" +
-                                          (is_logarithmic ? ", ln of the transition" : ""),
-                                  .comparison = one_sample_t_test(values),
-                                  .ratio_of = is_logarithmic ? "transition" : ""});
+  section_.comparisons.push_back(
+      {.name = said("{}: rising - falling series{}", block_.block,
+                    (is_logarithmic ? said(", ln of the transition") : "")),
+       .comparison = one_sample_t_test(values),
+       .ratio_of = is_logarithmic ? "transition" : ""});
 }
 
 void AdaptiveWriter::write_quest_plus() {
@@ -235,33 +243,35 @@ void AdaptiveWriter::write_quest_plus() {
   }
   for (const auto& [name, own] : values) {
     const std::size_t first = section_.estimates.size();
-    const std::string end =
-        ": mean of the posterior at the end, with its central 95 % for "
-        "each participant; ";
+    const std::string end = said(
+        ": mean of the posterior at the end, with its central 95 % for each participant; ");
     if (name == "quest_plus_weber_fraction") {
       if (block_.identifies()) {
         add_fraction(name,
-                     "w at which the share of right answers is half way from a guess to 1" +
-                         end + "median person",
+                     said("w at which the share of right answers is half way from a guess to "
+                          "1{}median person",
+                          end),
                      own);
         continue;
       }
       add_fraction(name,
-                   "w of the curve that is 84.13 % at pse (1 + w)" + end + "median person" +
-                       of_both_orders(),
+                   said("w of the curve that is 84.13 % at pse (1 + w){}median person{}", end,
+                        of_both_orders()),
                    own);
     } else if (name == "quest_plus_slope") {
-      add_geometric_mean(section_,
-                         {.name = full(name),
-                          .meaning = "slope 1 / s per ln of intensity" + end +
-                                     "geometric mean over participants"},
-                         own);
+      add_geometric_mean(
+          section_,
+          {.name = full(name),
+           .meaning =
+               said("slope 1 / s per ln of intensity{}geometric mean over participants", end)},
+          own);
     } else {
       add_level(name,
-                (name == "quest_plus_pse" ? "pse"
-                                          : "threshold, half way between guesses and "
-                                            "lapses") +
-                    end + "geometric mean over participants",
+                said("{}{}geometric mean over participants",
+                     (name == "quest_plus_pse"
+                          ? "pse"
+                          : said("threshold, half way between guesses and lapses")),
+                     end),
                 own);
     }
     // Of fewer, their own values say so, and the mean of all hardly moves.
@@ -275,9 +285,9 @@ void AdaptiveWriter::caution_group(std::size_t first, int num_at_edge, int num_r
     Estimate& estimate = section_.estimates[i];
     estimate.ci95 = {};
     estimate.cautions = {
-        "of " + std::to_string(num_at_edge) + " of " + counted_words(num_runs, "participant") +
-        " the posterior reaches an end of its grid, which decides about their values; " +
-        full(other) + " rests on the answers alone"};
+        said("of {} of {} the posterior reaches an end of its grid, which decides about their "
+             "values; {} rests on the answers alone",
+             std::to_string(num_at_edge), counted_words(num_runs, "participant"), full(other))};
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "analysis/results/threshold_group.h"
 #include "analysis/statistics/wilson_interval.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -55,29 +56,30 @@ class CatchWriter {
 
   [[nodiscard]] ResultsSection finish() && {
     total("num_catch_trials", num_trials_,
-          "trials of everybody in which the test equals the "
-          "reference; they are in no curve");
+          said("trials of everybody in which the test equals the reference; they are in no "
+               "curve"));
     if (has_intervals_) {
-      add_mean_rate(section_,
-                    {.name = block_ + ".catch_test_chosen_rate",
-                     .meaning = "interval drawn for the test chosen though both are equal: one "
-                                "half by chance, unless something else tells them apart; mean "
-                                "over participants"},
-                    tests_);
       add_mean_rate(
           section_,
-          {.name = block_ + ".catch_second_chosen_rate",
-           .meaning = "second interval chosen though both are equal: one half without "
-                      "a bias; mean over participants"},
-          seconds_);
+          {.name = block_ + ".catch_test_chosen_rate",
+           .meaning =
+               said("interval drawn for the test chosen though both are equal: one half by "
+                    "chance, unless something else tells them apart; mean over participants")},
+          tests_);
+      add_mean_rate(section_,
+                    {.name = block_ + ".catch_second_chosen_rate",
+                     .meaning = said("second interval chosen though both are equal: one half "
+                                     "without a bias; mean over participants")},
+                    seconds_);
       return std::move(section_);
     }
-    total("num_false_alarms", num_test_, "of these, the test was called more");
-    add_mean_rate(section_,
-                  {.name = block_ + ".false_alarm_rate",
-                   .meaning = "test called more though it equals the reference: about one half "
-                              "of those whose pse is at the reference; mean over participants"},
-                  tests_);
+    total("num_false_alarms", num_test_, said("of these, the test was called more"));
+    add_mean_rate(
+        section_,
+        {.name = block_ + ".false_alarm_rate",
+         .meaning = said("test called more though it equals the reference: about one half of "
+                         "those whose pse is at the reference; mean over participants")},
+        tests_);
     return std::move(section_);
   }
 

@@ -1,4 +1,5 @@
 #include "analysis/results/contrast_words.h"
+#include "analysis/words/said.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ using experiments::PlannedContrast;
 std::string joined(const std::vector<std::string>& words) {
   std::string all;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) all += i + 1 == words.size() ? " and " : ", ";
+    if (i > 0) all += i + 1 == words.size() ? said(" and ") : ", ";
     all += words[i];
   }
   return all;
@@ -50,19 +51,20 @@ std::string restriction_words(const PlannedContrast& plan) {
 }
 
 std::string decimals(double value, int num_decimals) {
-  return fmt::format("{:.{}f}", value, num_decimals);
+  return with_decimal_sign(fmt::format("{:.{}f}", value, num_decimals));
 }
 
 /// Two decimals of what is about 1, three significant digits of anything else.
 std::string effect_words(const std::optional<double>& value) {
-  if (!value) return "open";
+  if (!value) return said("open");
   const double size = std::abs(*value);
   const int num_decimals = size >= 100.0 ? 0 : size >= 10.0 ? 1 : size >= 0.1 ? 2 : 3;
   return decimals(*value, num_decimals);
 }
 
 std::string interval_text(const Interval& interval) {
-  return "[" + effect_words(interval.low) + ", " + effect_words(interval.high) + "]";
+  return "[" + effect_words(interval.low) + between_numbers() + effect_words(interval.high) +
+         "]";
 }
 
 std::string test_words(const ContrastTest& test, const PlannedContrast& plan) {
@@ -75,7 +77,7 @@ std::string test_words(const ContrastTest& test, const PlannedContrast& plan) {
   }
   if (test.p_value) {
     words += ", " + journal_p_words(*test.p_value);
-    if (plan.direction != ContrastDirection::kEither) words += " (one-sided)";
+    if (plan.direction != ContrastDirection::kEither) words += said(" (one-sided)");
   }
   return words;
 }
@@ -84,15 +86,17 @@ std::string test_words(const ContrastTest& test, const PlannedContrast& plan) {
 std::string main_words(const PlannedContrast& plan, double effect, const Weights& weights) {
   const std::string above = joined(levels_with(weights, true));
   const std::string below = joined(levels_with(weights, false));
-  const std::string large = plan.measure == ContrastMeasure::kResponseTime ? "long" : "large";
+  const std::string large =
+      plan.measure == ContrastMeasure::kResponseTime ? said("long") : said("large");
   if (is_ratio(plan.measure)) {
-    const std::string what =
-        plan.measure == ContrastMeasure::kPse ? ", relative to its reference, was " : " was ";
-    return what + effect_words(effect) + " times as " + large + " in " + above + " as in " +
-           below;
+    const std::string what = plan.measure == ContrastMeasure::kPse
+                                 ? said(", relative to its reference, was ")
+                                 : said(" was ");
+    return said("{}{} times as {} in {} as in {}", what, effect_words(effect), large, above,
+                below);
   }
-  return " was " + effect_words(std::abs(effect)) + (effect < 0.0 ? " smaller" : " larger") +
-         " in " + above + " than in " + below;
+  return said(" was {}{} in {} than in {}", effect_words(std::abs(effect)),
+              (effect < 0.0 ? said(" smaller") : said(" larger")), above, below);
 }
 
 /// What several factors compare: "The ratio of the Weber fraction in thin to that in thick was
@@ -100,23 +104,26 @@ std::string main_words(const PlannedContrast& plan, double effect, const Weights
 std::string interaction_words(const PlannedContrast& plan, double effect,
                               const std::vector<const Weights*>& factors) {
   const bool of_ratios = is_ratio(plan.measure);
-  std::string subject = "the " + measure_words(plan.measure);
+  std::string subject = said("the {}", measure_words(plan.measure));
   for (std::size_t i = 0; i + 1 < factors.size(); ++i) {
     const std::string above = joined(levels_with(*factors[i], true));
     const std::string below = joined(levels_with(*factors[i], false));
     subject = of_ratios
-                  ? "the ratio of " + subject + " in " + above + " to that in " + below
-                  : "the difference of " + subject + " in " + above + " less that in " + below;
+                  ? said("the ratio of {} in {} to that in {}", subject, above, below)
+                  : said("the difference of {} in {} less that in {}", subject, above, below);
   }
-  subject.front() = 'T';
+  // A sentence begins.
+  if (subject.front() >= 'a' && subject.front() <= 'z') {
+    subject.front() = static_cast<char>(subject.front() - 'a' + 'A');
+  }
   const std::string above = joined(levels_with(*factors.back(), true));
   const std::string below = joined(levels_with(*factors.back(), false));
   if (of_ratios) {
-    return subject + " was " + effect_words(effect) + " times as large in " + above +
-           " as in " + below;
+    return said("{} was {} times as large in {} as in {}", subject, effect_words(effect), above,
+                below);
   }
-  return subject + " was " + effect_words(std::abs(effect)) +
-         (effect < 0.0 ? " smaller" : " larger") + " in " + above + " than in " + below;
+  return said("{} was {}{} in {} than in {}", subject, effect_words(std::abs(effect)),
+              (effect < 0.0 ? said(" smaller") : said(" larger")), above, below);
 }
 
 std::string equivalence_words(const ContrastResult& result) {
@@ -124,22 +131,24 @@ std::string equivalence_words(const ContrastResult& result) {
   const Equivalence& found = *result.equivalence;
   const bool of_ratios = is_ratio(result.plan.measure);
   const std::string range =
-      of_ratios ? effect_words(1.0 / found.margin) + " to " + effect_words(found.margin)
-                : effect_words(-found.margin) + " to " + effect_words(found.margin);
-  const std::string confidence = fmt::format("{:.4g}", 100.0 * (1.0 - 2.0 * result.plan.alpha));
-  return (found.is_shown ? " It is equivalent to no effect within the margin of "
-                         : " Equivalence to no effect was not shown within the margin of ") +
-         range + ", " + confidence + " % CI " + interval_text(found.interval) + ", " +
-         journal_p_words(found.p_value) + " (two one-sided tests).";
+      of_ratios ? said("{} to {}", effect_words(1.0 / found.margin), effect_words(found.margin))
+                : said("{} to {}", effect_words(-found.margin), effect_words(found.margin));
+  const std::string confidence =
+      with_decimal_sign(fmt::format("{:.4g}", 100.0 * (1.0 - 2.0 * result.plan.alpha)));
+  return said(
+      "{}{}, {} % CI {}, {} (two one-sided tests).",
+      (found.is_shown ? said(" It is equivalent to no effect within the margin of ")
+                      : said(" Equivalence to no effect was not shown within the margin of ")),
+      range, confidence, interval_text(found.interval), journal_p_words(found.p_value));
 }
 
 }  // namespace
 
 std::string journal_p_words(double p_value) {
-  if (p_value < 0.001) return "p < .001";
-  if (p_value > 0.999) return "p > .999";
+  if (p_value < 0.001) return said("p < .001");
+  if (p_value > 0.999) return said("p > .999");
   const std::string digits = fmt::format("{:.{}f}", p_value, p_value < 0.01 ? 4 : 3);
-  return "p = " + digits.substr(1);
+  return said("p = .{}", digits.substr(2));
 }
 
 std::vector<std::string> condition_words(const experiments::ContrastConditions& conditions) {
@@ -150,7 +159,7 @@ std::vector<std::string> condition_words(const experiments::ContrastConditions& 
       const std::string& of_group = conditions.groups[group].name;
       std::string name = conditions.conditions[at].name;
       if (!of_group.empty()) name += ", " + of_group;
-      all.emplace_back(-weight, fmt::format("{} ({:+.3g})", name, weight));
+      all.emplace_back(-weight, with_decimal_sign(fmt::format("{} ({:+.3g})", name, weight)));
     }
   }
   std::ranges::stable_sort(all, {}, &std::pair<double, std::string>::first);
@@ -167,16 +176,17 @@ std::string contrast_sentence(const ContrastResult& result) {
     if (compares(weights)) factors.push_back(&weights);
   }
   std::string sentence = factors.size() == 1
-                             ? "The " + measure_words(plan.measure) +
-                                   main_words(plan, *result.test.effect, *factors.front())
+                             ? said("The {}{}", measure_words(plan.measure),
+                                    main_words(plan, *result.test.effect, *factors.front()))
                              : interaction_words(plan, *result.test.effect, factors);
-  sentence += restriction_words(plan) + ", 95 % CI " + interval_text(result.test.ci95) +
-              test_words(result.test, plan);
+  sentence += said("{}, 95 % CI {}{}", restriction_words(plan), interval_text(result.test.ci95),
+                   test_words(result.test, plan));
   if (result.p_value_adjusted && result.test.p_value &&
       *result.p_value_adjusted != *result.test.p_value) {
-    sentence += ", " + journal_p_words(*result.p_value_adjusted) + " adjusted for the family";
+    sentence += said(", {} adjusted for the family", journal_p_words(*result.p_value_adjusted));
   }
-  if (result.sequential && result.sequential->ended) sentence += ", adjusted for the looks";
+  if (result.sequential && result.sequential->ended)
+    sentence += said(", adjusted for the looks");
   return sentence + "." + equivalence_words(result);
 }
 
@@ -186,15 +196,17 @@ std::string looks_sentence(const ContrastResult& result) {
   std::vector<std::string> looks;
   for (std::size_t look = 0; look < sequential.looks.size(); ++look) {
     looks.push_back(std::to_string(sequential.looks[look]) + " (p < " +
-                    fmt::format("{:.2g}", sequential.nominal_levels[look]) + ")");
+                    with_decimal_sign(fmt::format("{:.2g}", sequential.nominal_levels[look])) +
+                    ")");
   }
-  return "The study was to be looked at by the contrast " + shown(result.plan.name) +
-         " after so many complete sessions, and to end where p is below the level beside: " +
-         joined(looks) + ". " +
-         (sequential.ended
-              ? "Its rule ended it at look " + std::to_string(sequential.num_looks_taken) +
-                    ", with " + std::to_string(sequential.num_participants) + " participants."
-              : "Its rule had not ended it when these results were computed.");
+  return said(
+      "The study was to be looked at by the contrast {} after so many complete sessions, and "
+      "to end where p is below the level beside: {}. {}",
+      shown(result.plan.name), joined(looks),
+      (sequential.ended ? said("Its rule ended it at look {}, with {} participants.",
+                               std::to_string(sequential.num_looks_taken),
+                               std::to_string(sequential.num_participants))
+                        : said("Its rule had not ended it when these results were computed.")));
 }
 
 }  // namespace jnd::analysis

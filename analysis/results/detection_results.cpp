@@ -5,14 +5,16 @@
 #include "analysis/results/threshold_group.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/wilson_interval.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
 
 constexpr int kRedraws = 1000;
-constexpr char kModel[] =
-    "P = g + (1 - g) Phi(ln(x / threshold) / s), g the rate of false alarms, estimated with it";
+constexpr const char* kModel = said_later(
+    "P = g + (1 - g) Phi(ln(x / threshold) / s), g the rate of false alarms, estimated with "
+    "it");
 
 /// Everybody's own numbers in one block, and who has none.
 class Detection {
@@ -44,8 +46,8 @@ class Detection {
     add_geometric_mean(
         section,
         {.name = name("threshold"),
-         .meaning = "intensity felt in 50 %: geometric mean of participants' own, "
-                    "by maximum likelihood of Phi(ln(x / threshold) / s)",
+         .meaning = said("intensity felt in 50 %: geometric mean of participants' own, by "
+                         "maximum likelihood of Phi(ln(x / threshold) / s)"),
          .unit = unit},
         thresholds_);
     if (!mended_.empty()) {
@@ -54,38 +56,38 @@ class Detection {
       add_geometric_mean(
           section,
           {.name = name("threshold"),
-           .meaning = "intensity felt in 50 %: geometric mean",
+           .meaning = said("intensity felt in 50 %: geometric mean"),
            .unit = unit,
            .suffix = ".with_degenerate",
-           .words = "; with those who have no threshold of their own, half a yes and half a no "
-                    "added to theirs alone, spread evenly over the levels"},
+           .words = said("; with those who have no threshold of their own, half a yes and half "
+                         "a no added to theirs alone, spread evenly over the levels")},
           all);
     }
-    add_geometric_mean(section,
-                       {.name = name("spread_ln"),
-                        .meaning = "s, standard deviation of the curve in ln intensity: "
-                                   "geometric mean"},
-                       spreads_);
+    add_geometric_mean(
+        section,
+        {.name = name("spread_ln"),
+         .meaning = said("s, standard deviation of the curve in ln intensity: geometric mean")},
+        spreads_);
     add_geometric_mean(
         section,
         {.name = name("threshold_corrected"),
          .meaning =
-             std::string("threshold corrected for false alarms: geometric mean; ") + kModel,
+             said("threshold corrected for false alarms: geometric mean; {}", said(kModel)),
          .unit = unit},
         corrected_);
     add_mean_rate(section,
                   {.name = name("false_alarm_rate"),
-                   .meaning = "\"yes\" to catch trials: mean over participants"},
+                   .meaning = said("\"yes\" to catch trials: mean over participants")},
                   false_alarms_);
     add_mean(section,
              {.name = name("d_prime"),
-              .meaning = "d' = z(H) - z(F), all stimuli of the block against catch trials, "
-                         "log-linear correction: mean over participants"},
+              .meaning = said("d' = z(H) - z(F), all stimuli of the block against catch "
+                              "trials, log-linear correction: mean over participants")},
              sensitivities_);
     add_mean(section,
              {.name = name("criterion"),
-              .meaning = "c = -(z(H) + z(F)) / 2, above 0 reluctant to say \"yes\": mean over "
-                         "participants"},
+              .meaning = said("c = -(z(H) + z(F)) / 2, above 0 reluctant to say \"yes\": mean "
+                              "over participants")},
              criteria_);
   }
 
@@ -106,8 +108,9 @@ class Detection {
     const PsychometricFit mended = own_detection_fit(answers, true, 0, options_.seed);
     if (mended.pse) mended_[answers.participant] = *mended.pse;
     section.excluded.push_back(
-        {answers.participant, block_.block + ": no threshold of their own, " + reason +
-                                  (mended.pse ? "" : "; nor with half an answer added")});
+        {answers.participant,
+         said("{}: no threshold of their own, {}{}", block_.block, reason,
+              (mended.pse ? "" : said("; nor with half an answer added")))});
   }
 
   void add_catches(ResultsSection& section, const ThresholdAnswers& answers) {
@@ -146,10 +149,10 @@ void add_with_excluded_trials(ResultsSection& section, const StudyData& data,
   }
   add_geometric_mean(section,
                      {.name = block.block + ".threshold",
-                      .meaning = "intensity felt in 50 %: geometric mean",
+                      .meaning = said("intensity felt in 50 %: geometric mean"),
                       .unit = experiments::unit_of_quantity(block.quantity),
                       .suffix = ".with_excluded_trials",
-                      .words = "; with the trials that were set aside"},
+                      .words = said("; with the trials that were set aside")},
                      thresholds);
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "analysis/data/running_numbers.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -92,7 +93,7 @@ PsychometricFit own_fit(const DiscriminationAnswers& answers, const OwnFitOption
 std::string why_no_pse(const PsychometricFit& fit) {
   if (fit.pse || fit.status != FitStatus::kOk) return fit.reason;
   // The last doubt of such a fit names the order.
-  return fit.warnings.empty() ? "the answers do not bound it" : fit.warnings.back();
+  return fit.warnings.empty() ? said("the answers do not bound it") : fit.warnings.back();
 }
 
 std::vector<ParticipantAnswers> participant_answers(

@@ -8,6 +8,7 @@
 #include "analysis/fits/psychometric_warnings.h"
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -75,7 +76,8 @@ std::string unit_of(const BlockDesign& block) {
 
 void no_value(const Target& target, const std::string& name, const std::string& reason) {
   target.section.excluded.push_back(
-      {"everyone", target.block.block + "." + name + target.suffix + ": no value, " + reason});
+      {"everyone",
+       said("{}.{}{}: no value, {}", target.block.block, name, target.suffix, reason)});
 }
 
 bool have_orders(const Everybody& all) {
@@ -99,7 +101,7 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
   Estimate fraction{.value = fit.weber_fraction, .unit = "1"};
   Estimate pse{.value = fit.pse};
   if (!fit.weber_fraction) {
-    fraction.reason = "the pooled answers are " + fit.reason;
+    fraction.reason = said("the pooled answers are {}", fit.reason);
     no_value(target, name, fraction.reason);
   }
   if (fit.weber_fraction && !free_pse && are_all_alike(all)) {
@@ -121,22 +123,23 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
     fraction.ci95 = resampled(false, *fit.weber_fraction);
     if (free_pse && fit.pse) pse.ci95 = resampled(true, *fit.pse);
   }
-  add(target, fraction, name, "pooled-curve w: " + meaning, all.size());
+  add(target, fraction, name, said("pooled-curve w: {}", meaning), all.size());
   if (fit.order_effect_ln && !free_pse) {
     add(target, {.value = fit.order_effect_ln, .unit = "1"}, name + "_order_effect_ln",
-        "ln pse with the test second less with the test first, of that curve", all.size());
+        said("ln pse with the test second less with the test first, of that curve"),
+        all.size());
   }
   if (!free_pse) return;
   pse.unit = unit_of(target.block);
-  add(target, pse, "pse", "pse of the pooled curve: " + meaning, all.size());
+  add(target, pse, "pse", said("pse of the pooled curve: {}", meaning), all.size());
 }
 
 /// Of which lapse rates the interval of a fraction holds.
 std::string interval_basis(const HierarchicalFit& fit) {
   const Interval& left = fit.lapse_rate_with_prior_ci95;
   if (!left.low || !left.high) return "";
-  return "; interval over lapse rates of " + number_words(left.low) + " to " +
-         number_words(left.high) + ", which answers and prior leave";
+  return said("; interval over lapse rates of {} to {}, which answers and prior leave",
+              number_words(left.low), number_words(left.high));
 }
 
 /// How far the prior of the lapse rate moves the fraction.
@@ -146,10 +149,12 @@ std::string prior_effect(const HierarchicalFit& fit) {
   if (!one.weber_fraction || !one.weber_fraction_without_prior) return "";
   const double change = *one.weber_fraction_without_prior / *one.weber_fraction - 1.0;
   const long percent = std::lround(100.0 * change);
-  return "; interval by the answers alone; without its prior " +
-         number_words(fit.lapse_rate_without_prior) + ", and the median person's w " +
-         number_words(one.weber_fraction_without_prior) + " (" + (percent > 0 ? "+" : "") +
-         std::to_string(percent) + " %)";
+  return said(
+      "; interval by the answers alone; without its prior {}, and the median person's w {} "
+      "({}{} %)",
+      number_words(fit.lapse_rate_without_prior),
+      number_words(one.weber_fraction_without_prior), (percent > 0 ? "+" : ""),
+      std::to_string(percent));
 }
 
 void add_median_person(const Target& target, const Everybody& all, HierarchicalPse pse) {
@@ -182,21 +187,22 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
     }
   }
   const std::string method =
-      "hierarchical " + (fit.method.empty() ? std::string("probit") : fit.method);
+      said("hierarchical {}", (fit.method.empty() ? std::string("probit") : fit.method));
   add(target, fraction, name,
-      "median person's w: " + method + (is_primary ? " (primary)" : " (secondary)") +
-          interval_basis(fit),
+      said("median person's w: {}{}{}", method,
+           (is_primary ? said(" (primary)") : said(" (secondary)")), interval_basis(fit)),
       all.size());
   if (free_pse) {
-    add(target, place, "pse_median_person", "median person's pse: " + method, all.size());
+    add(target, place, "pse_median_person", said("median person's pse: {}", method),
+        all.size());
   }
   if (!is_primary) return;
   add(target, spread, "slope_sd_between_people",
-      "sd of ln ln(1 + w) between people: " + method +
-          (fit.note.empty() ? "" : "; " + fit.note),
+      said("sd of ln ln(1 + w) between people: {}{}", method,
+           (fit.note.empty() ? "" : "; " + fit.note)),
       all.size());
   add(target, lapses, "lapse_rate",
-      "half the share of random answers, of everybody: " + method + prior_effect(fit),
+      said("half the share of random answers, of everybody: {}{}", method, prior_effect(fit)),
       all.size());
 }
 
@@ -205,11 +211,12 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
 void add_pooled_at_reference(const Target& target, const Everybody& all,
                              const std::string& words) {
   if (have_orders(all)) {
-    add_pooled(target, all, "weber_fraction", PsychometricMethod::kMaximumLikelihood, false,
-               "maximum likelihood, pse at the reference but for the order of the intervals");
+    add_pooled(
+        target, all, "weber_fraction", PsychometricMethod::kMaximumLikelihood, false,
+        said("maximum likelihood, pse at the reference but for the order of the intervals"));
   } else {
     add_pooled(target, all, "weber_fraction", PsychometricMethod::kLeastSquares, false,
-               "least squares on proportions, pse at the reference" + words);
+               said("least squares on proportions, pse at the reference{}", words));
   }
 }
 
@@ -235,13 +242,13 @@ void add_group_estimates(ResultsSection& section, const StudyData& data,
   std::vector<ExcludedParticipant> named_before;
   const Everybody all = discrimination_answers(data, block, false, named_before);
   const Target target{section, block, options, "", ""};
-  add_pooled_at_reference(target, all, ", as Schmidt (2018)");
+  add_pooled_at_reference(target, all, said(", as Schmidt (2018)"));
   if (!have_orders(all)) {
     add_pooled(target, all, "weber_fraction_ml", PsychometricMethod::kMaximumLikelihood, false,
-               "maximum likelihood, pse at the reference");
+               said("maximum likelihood, pse at the reference"));
   }
   add_pooled(target, all, "weber_fraction_free_pse", PsychometricMethod::kMaximumLikelihood,
-             true, "maximum likelihood, pse free");
+             true, said("maximum likelihood, pse free"));
   const bool first_at_reference = primary_pse(all) == HierarchicalPse::kReference;
   for (const bool at_reference : {first_at_reference, !first_at_reference}) {
     add_median_person(target, all,
@@ -254,7 +261,7 @@ void add_group_estimates(ResultsSection& section, const StudyData& data,
   }
   if (with_own_fit.size() < all.size() && !with_own_fit.empty()) {
     add_main({section, block, options, ".without_degenerate",
-              "; without those who have no fraction of their own"},
+              said("; without those who have no fraction of their own")},
              with_own_fit);
   }
   const bool some_set_aside = std::any_of(
@@ -265,7 +272,7 @@ void add_group_estimates(ResultsSection& section, const StudyData& data,
       });
   if (some_set_aside) {
     add_main({section, block, options, ".with_excluded_trials",
-              "; with the trials that were set aside"},
+              said("; with the trials that were set aside")},
              discrimination_answers(data, block, true, named_before));
   }
 }
@@ -296,7 +303,7 @@ Comparison median_person_difference(const Everybody& first_answers, const BlockD
   if (fit.status != FitStatus::kOk || fit.differences.empty()) {
     if (comparison.status == FitStatus::kOk) comparison.status = FitStatus::kDegenerate;
     if (comparison.reason.empty())
-      comparison.reason = "fewer than two participants in one of the conditions";
+      comparison.reason = said("fewer than two participants in one of the conditions");
     return comparison;
   }
   const HierarchicalDifference& difference = fit.differences.front();

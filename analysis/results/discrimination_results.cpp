@@ -9,6 +9,7 @@
 #include "analysis/results/study_results.h"
 #include "analysis/results/trial_trends.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -47,7 +48,7 @@ void name_those_without(ResultsSection& section, const OwnFractions& fractions,
     if (one.weber_fraction) continue;
     section.excluded.push_back(
         {one.participant, without_words(block, free_pse) + one.reason +
-                              (one.mended ? "" : "; nor with half an answer added")});
+                              (one.mended ? "" : said("; nor with half an answer added"))});
   }
 }
 
@@ -65,7 +66,8 @@ Comparison pooled(const std::vector<double>& a, const std::vector<double>& b) {
   const Summary first = summary_of(a);
   const Summary second = summary_of(b);
   if (!first.standard_deviation || !second.standard_deviation) {
-    return {.status = FitStatus::kDegenerate, .reason = "fewer than two values on one side"};
+    return {.status = FitStatus::kDegenerate,
+            .reason = said("fewer than two values on one side")};
   }
   return pooled_t_test({*first.mean, *first.standard_deviation, first.num_values},
                        {*second.mean, *second.standard_deviation, second.num_values});
@@ -87,17 +89,18 @@ void add_own_fraction_tests(ResultsSection& section, const FractionsByName& a,
     section.comparisons.push_back({pair + name + words, comparison});
   };
   const auto add_of_logarithms = [&](const std::string& name, const Comparison& comparison) {
-    add("ln ln(1 + w), " + name, comparison);
+    add(said("ln ln(1 + w), {}", name), comparison);
     section.comparisons.back().ratio_of = "ln(1 + w)";
   };
   if (!paired_a.empty()) {
     add_of_logarithms("paired", paired_t_test(paired_a, paired_b));
-    add_of_logarithms("Wilcoxon, sensitivity", wilcoxon_test(paired_a, paired_b));
+    add_of_logarithms(said("Wilcoxon, sensitivity"), wilcoxon_test(paired_a, paired_b));
   }
   if (free_pse) return;
-  add_of_logarithms("unpaired, Welch", welch_t_test(log_log_of(a), log_log_of(b)));
-  add("w, unpaired, Welch", welch_t_test(values_of(a), values_of(b)));
-  add("w, unpaired, pooled variance, as Schmidt (2018)", pooled(values_of(a), values_of(b)));
+  add_of_logarithms(said("unpaired, Welch"), welch_t_test(log_log_of(a), log_log_of(b)));
+  add(said("w, unpaired, Welch"), welch_t_test(values_of(a), values_of(b)));
+  add(said("w, unpaired, pooled variance, as Schmidt (2018)"),
+      pooled(values_of(a), values_of(b)));
 }
 
 /// With a free pse or with that at the reference; where somebody has no fraction, both without
@@ -110,19 +113,19 @@ void add_own_fractions(ResultsSection& section, const Everybody& first_answers,
   name_those_without(section, a, first.block, free_pse);
   name_those_without(section, b, second.block, free_pse);
   const std::string pair = first.block + " - " + second.block + ": ";
-  const std::string words = free_pse ? ", pse free" : "";
+  const std::string words = free_pse ? said(", pse free") : "";
   const bool all_have_one =
       with_fit(a).size() == a.people.size() && with_fit(b).size() == b.people.size();
-  add_own_fraction_tests(section, with_fit(a), with_fit(b), pair,
-                         words + (all_have_one ? "" : ", without degenerate participants"),
-                         free_pse);
+  add_own_fraction_tests(
+      section, with_fit(a), with_fit(b), pair,
+      words + (all_have_one ? "" : said(", without degenerate participants")), free_pse);
   const bool any_mended =
       with_mended(a).size() > with_fit(a).size() || with_mended(b).size() > with_fit(b).size();
   if (!any_mended) return;
   add_own_fraction_tests(section, with_mended(a), with_mended(b), pair,
-                         words +
-                             ", with degenerate participants (half a yes and half a no "
-                             "added to theirs alone, spread evenly over the levels)",
+                         said("{}, with degenerate participants (half a yes and half a no "
+                              "added to theirs alone, spread evenly over the levels)",
+                              words),
                          free_pse);
 }
 
@@ -154,9 +157,9 @@ ResultsSection discrimination_comparison(const StudyData& data, const ComparedBl
   for (const bool free_pse : {frees, !frees}) {
     const bool is_primary = free_pse == frees && has_primary;
     section.comparisons.push_back(
-        {.name = pair + "ln ln(1 + w) of the median person, hierarchical, " +
-                 (free_pse ? "pse free" : "pse at the reference") +
-                 (is_primary ? " (primary)" : " (secondary)"),
+        {.name = said("{}ln ln(1 + w) of the median person, hierarchical, {}{}", pair,
+                      (free_pse ? "pse free" : said("pse at the reference")),
+                      (is_primary ? said(" (primary)") : said(" (secondary)"))),
          .comparison = median_person_difference(
              first_answers, first, second_answers, second,
              free_pse ? HierarchicalPse::kPersonal : HierarchicalPse::kReference),

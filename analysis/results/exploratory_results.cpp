@@ -14,6 +14,7 @@
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/test_families.h"
 #include "analysis/statistics/within_slope.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -90,26 +91,28 @@ std::optional<double> previous_stimulus_slope(const Trials& trials) {
 std::vector<Effect> effects_of(const BlockDesign& block) {
   const std::string unit = experiments::unit_of_quantity(block.quantity);
   if (block.produces()) {
-    return {{"starting_value_slope",
-             "how far the set value follows the starting value of the adjustment, within a "
-             "target: 0 not at all, 1 wholly",
-             "1", starting_value_slope},
-            {"drift_per_ten_trials",
-             "change of the set value over ten trials, relative to its mean for the target",
-             "1", [](const Trials& trials) {
-               return drift_per_ten_trials(trials, &core::TrialRow::target_percent);
-             }}};
+    return {
+        {"starting_value_slope",
+         said("how far the set value follows the starting value of the adjustment, within a "
+              "target: 0 not at all, 1 wholly"),
+         "1", starting_value_slope},
+        {"drift_per_ten_trials",
+         said("change of the set value over ten trials, relative to its mean for the target"),
+         "1", [](const Trials& trials) {
+           return drift_per_ten_trials(trials, &core::TrialRow::target_percent);
+         }}};
   }
   if (block.estimates()) {
     return {
         {"drift_per_ten_trials",
-         "change of the answer over ten trials, relative to its mean for the stimulus", "1",
+         said("change of the answer over ten trials, relative to its mean for the stimulus"),
+         "1",
          [](const Trials& trials) {
            return drift_per_ten_trials(trials, &core::TrialRow::intensity);
          }},
         {"previous_stimulus_slope",
-         "change of the answer, relative to its mean for the stimulus, with the intensity of "
-         "the stimulus before: above 0 they are drawn together, below 0 set apart",
+         said("change of the answer, relative to its mean for the stimulus, with the intensity "
+              "of the stimulus before: above 0 they are drawn together, below 0 set apart"),
          unit == "1" ? "1" : "1/(" + unit + ")", previous_stimulus_slope}};
   }
   return {};
@@ -121,7 +124,7 @@ void add_tests(ResultsSection& section, const std::string& name, Comparison t, C
                                  .comparison = std::move(t),
                                  .family = kEffectsFamily,
                                  .ratio_of = ratio_of});
-  section.comparisons.push_back({.name = name + ", ranks, sensitivity",
+  section.comparisons.push_back({.name = said("{}, ranks, sensitivity", name),
                                  .comparison = std::move(ranks),
                                  .ratio_of = ratio_of});
 }
@@ -139,17 +142,18 @@ void add_effect(ResultsSection& section, const StudyData& data, const BlockDesig
       return std::pair(trial.session, trial.trial);
     });
     const std::optional<double> own = effect.of_one(trials);
-    section.participants.push_back({participant.participant,
-                                    name,
-                                    own,
-                                    {},
-                                    own ? "" : "too few answers that tell the two apart"});
+    section.participants.push_back(
+        {participant.participant,
+         name,
+         own,
+         {},
+         own ? "" : said("too few answers that tell the two apart")});
     if (own) values.push_back(*own);
   }
   if (values.empty()) return;
-  add_mean(section, name, "exploratory: " + effect.meaning + "; mean of the participants",
+  add_mean(section, name, said("exploratory: {}; mean of the participants", effect.meaning),
            values, effect.unit);
-  add_tests(section, name + " against 0", one_sample_t_test(values),
+  add_tests(section, said("{} against 0", name), one_sample_t_test(values),
             wilcoxon_test(values, std::vector<double>(values.size(), 0.0)));
 }
 
@@ -178,7 +182,8 @@ std::vector<Outcome> outcomes_of(const StudyData& data,
           {"weber_fraction", "ln ln(1 + w)", "ln(1 + w)"}}) {
       // Numbers of everybody's own choice: k is as they chose them.
       if (parameter == std::string("k") && block.counts_in_own_numbers()) continue;
-      Outcome outcome{.name = std::string(words) + " of " + block.block, .ratio_of = ratio_of};
+      Outcome outcome{.name = said("{} of {}", std::string(words), block.block),
+                      .ratio_of = ratio_of};
       for (const ResultsSection& section : sections) {
         for (const ParticipantEstimate& own : section.participants) {
           if (own.name != block.block + "." + parameter || !own.value) continue;
@@ -242,8 +247,8 @@ void name_small_arms(ResultsSection& section, const Arms& people,
   for (const auto& [arm, participants] : people) {
     if (participants.size() > 1) continue;
     section.excluded.push_back(
-        {participants.front(),
-         counterbalance + ": not compared, the only one in " + counterbalance + " = " + arm});
+        {participants.front(), said("{}: not compared, the only one in {} = {}", counterbalance,
+                                    counterbalance, arm)});
   }
 }
 

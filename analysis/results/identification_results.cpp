@@ -5,6 +5,7 @@
 #include "analysis/results/threshold_answers.h"
 #include "analysis/results/threshold_group.h"
 #include "analysis/results/threshold_results.h"
+#include "analysis/words/said.h"
 #include "experiments/procedures/task.h"
 
 namespace jnd::analysis {
@@ -50,7 +51,7 @@ class IdentificationWriter {
     } else {
       section_.excluded.push_back(
           {answers.participant,
-           block_.block + ": no Weber fraction of their own, " + fit.reason});
+           said("{}: no Weber fraction of their own, {}", block_.block, fit.reason)});
     }
     std::int64_t num_right = 0, num_trials = 0;
     for (const AnswerCount& row : answers.rows()) {
@@ -86,35 +87,35 @@ class IdentificationWriter {
     add_median_fraction(
         section_, block_.block,
         {.name = block_.block + ".weber_fraction",
-         .meaning = "w so that of the interval of reference (1 + w) " + half_way +
-                    " of the answers are right, half way from " + guess +
-                    ", by guessing, to 1; no d' model: mean of participants' own ln ln(1 + w), "
-                    "Student's t"},
+         .meaning = said("w so that of the interval of reference (1 + w) {} of the answers are "
+                         "right, half way from {}, by guessing, to 1; no d' model: mean of "
+                         "participants' own ln ln(1 + w), Student's t",
+                         half_way, guess)},
         fractions_);
     add_geometric_mean(section_,
                        {.name = block_.block + ".spread_ln",
-                        .meaning = "s of P(right) = " + guess + " + (1 - " + guess +
-                                   ") Phi(ln(d / ln(1 + w)) / s), d = |ln(x / reference)|: "
-                                   "geometric mean"},
+                        .meaning = said("s of P(right) = {} + (1 - {}) Phi(ln(d / ln(1 + w)) / "
+                                        "s), d = |ln(x / reference)|: geometric mean",
+                                        guess, guess)},
                        spreads_);
     add_mean_rate(section_,
                   {.name = block_.block + ".right_ratio",
-                   .meaning = "share of right answers, all stimuli together, " + guess +
-                              " by guessing: mean over participants"},
+                   .meaning = said("share of right answers, all stimuli together, {} by "
+                                   "guessing: mean over participants",
+                                   guess)},
                   right_);
     std::vector<double> above_guess;
     for (const auto& [participant, ratio] : right_) above_guess.push_back(ratio - guess_rate());
-    section_.comparisons.push_back({.name = block_.block + ": right answers - " + guess,
+    section_.comparisons.push_back({.name = said("{}: right answers - {}", block_.block, guess),
                                     .comparison = one_sample_t_test(above_guess)});
     constexpr const char* kNames[] = {"first", "second", "third"};
     for (const auto& [interval, own] : choices_) {
-      add_mean_rate(
-          section_,
-          {.name = block_.block + ".chosen_" + kNames[interval - 1] + "_ratio",
-           .meaning = std::string("share of answers that name the ") + kNames[interval - 1] +
-                      " interval, which is right as often as any other: mean over "
-                      "participants"},
-          own);
+      add_mean_rate(section_,
+                    {.name = block_.block + ".chosen_" + kNames[interval - 1] + "_ratio",
+                     .meaning = said("share of answers that name the {} interval, which is "
+                                     "right as often as any other: mean over participants",
+                                     kNames[interval - 1])},
+                    own);
     }
     return std::move(section_);
   }

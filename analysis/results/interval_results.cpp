@@ -6,11 +6,12 @@
 #include "analysis/results/discrimination_answers.h"
 #include "analysis/results/threshold_group.h"
 #include "analysis/results/threshold_results.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
 
-constexpr char kOneIntervalAlone[] = "the test came in one interval alone";
+constexpr const char* kOneIntervalAlone = said_later("the test came in one interval alone");
 
 struct OrderedTrial {
   double ratio = 0.0;  ///< Test over reference.
@@ -82,25 +83,25 @@ ResultsSection interval_results(const StudyData& data, const BlockDesign& block)
       section.participants.push_back(
           {participant.participant, block.block + "." + name, value, {}, reason});
     };
-    tell("interval_bias", bias, bias ? "" : kOneIntervalAlone);
+    tell("interval_bias", bias, bias ? "" : said(kOneIntervalAlone));
     tell("order_effect_ln", fit.order_effect_ln,
-         fit.status == FitStatus::kOk && !bias ? kOneIntervalAlone : why_no_pse(fit));
+         fit.status == FitStatus::kOk && !bias ? said(kOneIntervalAlone) : why_no_pse(fit));
     if (bias) biases[participant.participant] = *bias;
     if (fit.order_effect_ln) effects[participant.participant] = *fit.order_effect_ln;
   }
   add_mean(section,
            {.name = block.block + ".interval_bias",
-            .meaning = "share of answers that choose the second interval, both orders weighed "
-                       "equally, less one half: mean over participants"},
+            .meaning = said("share of answers that choose the second interval, both orders "
+                            "weighed equally, less one half: mean over participants")},
            biases);
   add_mean(section,
            {.name = block.block + ".order_effect_ln",
-            .meaning = "ln pse with the test second less ln pse with the test first, one slope "
-                       "for both: mean over participants"},
+            .meaning = said("ln pse with the test second less ln pse with the test first, one "
+                            "slope for both: mean over participants")},
            effects);
   for (const auto& [name, own, ratio_of] :
-       {std::tuple{"second interval chosen - half of the answers", biases, ""},
-        std::tuple{"ln pse, test second - test first", effects, "pse"}}) {
+       {std::tuple{said("second interval chosen - half of the answers"), biases, ""},
+        std::tuple{said("ln pse, test second - test first"), effects, "pse"}}) {
     std::vector<double> values;
     for (const auto& [participant, value] : own) values.push_back(value);
     section.comparisons.push_back({.name = block.block + ": " + name,

@@ -7,6 +7,7 @@
 #include "analysis/results/discrimination_answers.h"
 #include "analysis/results/threshold_answers.h"
 #include "analysis/statistics/falling_ranks.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -61,14 +62,15 @@ bool has_magnitudes(const BlockDesign& block) { return block.estimates() || bloc
 
 std::string test_words(const InvertedAnswers& one) {
   if (!one.is_estimation && !one.is_production) return falling_words(one.p_value);
-  return std::string(one.is_production ? "the intensities set fall as the target grows"
-                                       : "the answers fall as the intensity grows") +
-         " (one-sided rank correlation, " + falling_p_words(one.p_value) +
-         "), as of somebody who answers the wrong way round";
+  return said(
+      "{} (one-sided rank correlation, {}), as of somebody who answers the wrong way round",
+      std::string(one.is_production ? said("the intensities set fall as the target grows")
+                                    : said("the answers fall as the intensity grows")),
+      falling_p_words(one.p_value));
 }
 
 std::string left_out_words(const InvertedAnswers& one) {
-  return "left out as --inverted out asks, for " + test_words(one);
+  return said("left out as --inverted out asks, for {}", test_words(one));
 }
 
 /// Numbers of a block that rest on everybody's answers.
@@ -85,12 +87,12 @@ bool has_everybody(const Estimate& estimate, const std::string& block) {
 std::string in_it_words(const std::vector<std::string>& people) {
   std::string names;
   for (std::size_t i = 0; i < people.size(); ++i) {
-    names += (i == 0 ? "" : i + 1 == people.size() ? " and " : ", ") + people[i];
+    names += (i == 0 ? "" : i + 1 == people.size() ? said(" and ") : ", ") + people[i];
   }
   const bool one = people.size() == 1;
-  return names + (one ? ", who answers" : ", who answer") + " the wrong way round, " +
-         (one ? "is" : "are") + " in it: --inverted out leaves " +
-         (one ? "this person" : "them") + " out";
+  return said("{}{} the wrong way round, {} in it: --inverted out leaves {} out", names,
+              (one ? said(", who answers") : said(", who answer")),
+              (one ? said("is") : said("are")), (one ? said("this person") : said("them")));
 }
 
 std::string people_of(const std::vector<InvertedAnswers>& all, const std::string& block,

@@ -7,6 +7,7 @@
 #include "analysis/results/magnitude_fits.h"
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/study_results.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -25,8 +26,8 @@ struct BothCurves {
   [[nodiscard]] core::PowerFunction second() const { return {*production.k, *production.a}; }
   [[nodiscard]] PowerFit missing() const {
     return {.status = FitStatus::kDegenerate,
-            .reason = !estimation.k ? "the estimation has none: " + estimation.reason
-                                    : "the production has none: " + production.reason};
+            .reason = !estimation.k ? said("the estimation has none: {}", estimation.reason)
+                                    : said("the production has none: {}", production.reason)};
   }
 };
 
@@ -111,14 +112,16 @@ void add_extrapolation(ResultsSection& section, const BothParts& parts, DrawnCur
                                  .n = num});
   };
   add("shared_range_low", range ? std::optional(range->low) : std::nullopt,
-      "lowest intensity that estimation and, on average, production reached: below it one of "
-      "the curves is extrapolated",
+      said("lowest intensity that estimation and, on average, production reached: below it one "
+           "of the curves is extrapolated"),
       unit);
   add("shared_range_high", range ? std::optional(range->high) : std::nullopt,
-      "highest intensity that both reached: above it one of the curves is extrapolated", unit);
+      said("highest intensity that both reached: above it one of the curves is extrapolated"),
+      unit);
   if (!range) {
     section.excluded.push_back(
-        {"everyone", "combined: no intensity that both estimation and production reached"});
+        {"everyone",
+         said("combined: no intensity that both estimation and production reached")});
     return;
   }
   const std::vector<double> inside = within(intensities, *range);
@@ -126,10 +129,11 @@ void add_extrapolation(ResultsSection& section, const BothParts& parts, DrawnCur
       std::ranges::count_if(intensities, [](double intensity) { return intensity > 0.0; });
   add("num_extrapolated",
       static_cast<double>(num_positive) - static_cast<double>(inside.size()),
-      "intensities above 0 that the combined curve rests on outside the shared range", "1");
+      said("intensities above 0 that the combined curve rests on outside the shared range"),
+      "1");
   (void)add_power_law(
       section, "combined.within_shared_range",
-      "power law between estimation and production, at intensities that both reached",
+      said("power law between estimation and production, at intensities that both reached"),
       parts.estimated.size(),
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
         return between(curves.of(drawn, solver), inside, solver);
@@ -150,15 +154,15 @@ struct OwnExponents {
 
 void compare_exponents(ResultsSection& section, const OwnExponents& own,
                        const std::string& regression, bool is_primary) {
-  const std::string words =
-      "production as " + regression + (is_primary ? " (primary)" : " (secondary)");
-  const std::string pair = "own exponents, estimation - production, " + words + ": ";
+  const std::string words = said("production as {}{}", regression,
+                                 (is_primary ? said(" (primary)") : said(" (secondary)")));
+  const std::string pair = said("own exponents, estimation - production, {}: ", words);
   section.comparisons.push_back(
-      {pair + "paired t", paired_t_test(own.estimation, own.production)});
+      {said("{}paired t", pair), paired_t_test(own.estimation, own.production)});
   section.comparisons.push_back(
-      {pair + "Wilcoxon, sensitivity", wilcoxon_test(own.estimation, own.production)});
+      {said("{}Wilcoxon, sensitivity", pair), wilcoxon_test(own.estimation, own.production)});
   section.comparisons.push_back(
-      {"own exponents, estimation and production, " + words + ": Spearman's r",
+      {said("own exponents, estimation and production, {}: Spearman's r", words),
        spearman_correlation(own.estimation, own.production)});
 }
 
@@ -175,11 +179,12 @@ void compare_exponents(ResultsSection& section, const BothParts& parts) {
     if (own.estimation.a && turned.a) continue;
     section.excluded.push_back(
         {parts.estimated.names[i],
-         own.estimation.a ? "own exponents: none of the production, " + turned.reason
-                          : "own exponents: none of the estimation, " + own.estimation.reason});
+         own.estimation.a
+             ? said("own exponents: none of the production, {}", turned.reason)
+             : said("own exponents: none of the estimation, {}", own.estimation.reason)});
   }
-  compare_exponents(section, primary, "I on S", /*is_primary=*/true);
-  compare_exponents(section, secondary, "S on I", /*is_primary=*/false);
+  compare_exponents(section, primary, said("I on S"), /*is_primary=*/true);
+  compare_exponents(section, secondary, said("S on I"), /*is_primary=*/false);
 }
 
 void name_missing(ResultsSection& section, const StudyData& data, const MagnitudeBlock& has,
@@ -211,14 +216,14 @@ ResultsSection combined_results(const StudyData& data, const BlockDesign& estima
     intensities.push_back(intensity);
   }
   (void)add_power_law(
-      section, "combined", "power law between estimation and production", num,
+      section, "combined", said("power law between estimation and production"), num,
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
         return between(curves.of(drawn, solver), intensities, solver);
       },
       options);
   (void)add_power_law(
       section, "combined.geometric_mean",
-      "geometric mean of the magnitudes of both curves at each intensity", num,
+      said("geometric mean of the magnitudes of both curves at each intensity"), num,
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
         return geometric_mean(curves.of(drawn, solver));
       },

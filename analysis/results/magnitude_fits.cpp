@@ -1,4 +1,5 @@
 #include "analysis/results/magnitude_fits.h"
+#include "analysis/words/said.h"
 
 #include <cmath>
 
@@ -61,12 +62,12 @@ PowerFit fit_intensity_on_magnitude(const std::vector<Produced>& rows) {
   if (line.status != FitStatus::kOk) return turned;
   const std::optional<double> a = reciprocal(line.a);
   if (!a) {
-    turned.reason = "the intensities set do not rise with the target";
+    turned.reason = said("the intensities set do not rise with the target");
     return turned;
   }
   const double log_k = -std::log(*line.k) * *a;
   if (!(std::fabs(log_k) < 700.0)) {
-    turned.reason = "k or a exceeds the range of numbers";
+    turned.reason = said("k or a exceeds the range of numbers");
     return turned;
   }
   turned.status = FitStatus::kOk;

@@ -7,12 +7,14 @@
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/study_results.h"
 #include "analysis/results/trial_correlations.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
 
-constexpr char kZeroRule[] = "answers of 0 as half the person's smallest above 0";
+constexpr const char* kZeroRule =
+    said_later("answers of 0 as half the person's smallest above 0");
 
 /// How the two kinds of block differ, for what both have.
 struct Kind {
@@ -28,7 +30,8 @@ void name_without_logarithms(ResultsSection& section, const std::string& name,
   for (std::size_t i = 0; i < block.size(); ++i) {
     if (with_mean_above_zero({block.means[i]}).empty() || !block.log_means[i].empty()) continue;
     section.excluded.push_back(
-        {block.names[i], name + ".geometric: every answer is 0, which has no logarithm"});
+        {block.names[i],
+         said("{}.geometric: every answer is 0, which has no logarithm", name)});
   }
 }
 
@@ -38,7 +41,7 @@ void name_without_intensities(ResultsSection& section, const std::string& name,
   for (std::size_t i = 0; i < block.size(); ++i) {
     if (!with_mean_above_zero({block.means[i]}).empty()) continue;
     section.excluded.push_back(
-        {block.names[i], name + ": no power law, no answer at an intensity above 0"});
+        {block.names[i], said("{}: no power law, no answer at an intensity above 0", name)});
   }
 }
 
@@ -48,12 +51,12 @@ void add_geometric(ResultsSection& section, const BlockDesign& design,
                    const MagnitudeBlock& block, const Kind& kind,
                    const ResultsOptions& options) {
   const std::string& name = design.block;
-  const std::string zeros = block.num_zeros > 0 ? std::string(", ") + kZeroRule : "";
+  const std::string zeros = block.num_zeros > 0 ? std::string(", ") + said(kZeroRule) : "";
   const std::vector<Means> log_means = with_mean_above_zero(block.log_means);
   const std::vector<Means> without_zeros = with_mean_above_zero(block.log_means_without_zeros);
   (void)add_power_law(
       section, name + ".geometric",
-      "line through the logarithms of the geometric means" + zeros, log_means.size(),
+      said("line through the logarithms of the geometric means{}", zeros), log_means.size(),
       [&](const std::vector<std::size_t>& drawn, Solver) {
         return kind.fit_logs(group_means(log_means, drawn));
       },
@@ -61,7 +64,7 @@ void add_geometric(ResultsSection& section, const BlockDesign& design,
   if (block.num_zeros > 0) {
     (void)add_power_law(
         section, name + ".geometric_without_zeros",
-        "line through the logarithms of the geometric means, answers of 0 left out",
+        said("line through the logarithms of the geometric means, answers of 0 left out"),
         without_zeros.size(),
         [&](const std::vector<std::size_t>& drawn, Solver) {
           return kind.fit_logs(group_means(without_zeros, drawn));
@@ -72,22 +75,23 @@ void add_geometric(ResultsSection& section, const BlockDesign& design,
       {.name = name + ".num_zeros",
        .value = block.num_zeros,
        .unit = "1",
-       .meaning = std::string("answers of 0 where one above 0 was expected; for logarithms: ") +
-                  kZeroRule +
-                  (log_means.size() < with_mean_above_zero(block.means).size()
-                       ? ", and nothing of who has none above 0"
-                       : ""),
+       .meaning = said("answers of 0 where one above 0 was expected; for logarithms: {}{}",
+                       said(kZeroRule),
+                       (log_means.size() < with_mean_above_zero(block.means).size()
+                            ? said(", and nothing of who has none above 0")
+                            : "")),
        .n = static_cast<int>(block.size())});
   name_without_logarithms(section, name, block);
   if (!design.own_log_moduli.empty()) return;  // Every fit is of equalised moduli.
   const auto moduli = log_moduli(block);
   if (!moduli) {
     section.excluded.push_back(
-        {"everyone", name + ".equalised: no stimulus that all participants answered above 0"});
+        {"everyone",
+         said("{}.equalised: no stimulus that all participants answered above 0", name)});
     return;
   }
   (void)add_power_law(
-      section, name + ".equalised", "power law through the group means, moduli equalised",
+      section, name + ".equalised", said("power law through the group means, moduli equalised"),
       block.size(),
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
         return kind.fit(equalised_means(block.means, *moduli, drawn), PowerMethod::kNonlinear,
@@ -95,8 +99,8 @@ void add_geometric(ResultsSection& section, const BlockDesign& design,
       },
       options);
   add_spread(section, name + ".modulus_sd_ln",
-             "standard deviation between participants of the logarithm of their modulus, the "
-             "geometric mean of their answers",
+             said("standard deviation between participants of the logarithm of their modulus, "
+                  "the geometric mean of their answers"),
              *moduli, options);
 }
 
@@ -107,18 +111,18 @@ void add_own_exponents(ResultsSection& section, const std::string& name,
   for (const ParticipantEstimate& own : section.participants) {
     if (own.name == name + ".a" && own.value) exponents.push_back(*own.value);
   }
-  add_mean(section, name + ".individual_a_mean", "mean of the participants' own exponents",
-           exponents);
+  add_mean(section, name + ".individual_a_mean",
+           said("mean of the participants' own exponents"), exponents);
   section.estimates.push_back(
       {.name = name + ".individual_a_median",
        .value = summary_of(exponents).median,
        .ci95 =
            resampled(exponents, options, [](const Summary& sample) { return sample.median; }),
        .unit = "1",
-       .meaning = "median of the participants' own exponents",
+       .meaning = said("median of the participants' own exponents"),
        .n = static_cast<int>(exponents.size())});
   add_spread(section, name + ".individual_a_sd",
-             "standard deviation between participants of their own exponents", exponents,
+             said("standard deviation between participants of their own exponents"), exponents,
              options);
 }
 
@@ -133,9 +137,9 @@ std::map<double, std::vector<double>> by_x(const std::vector<Means>& participant
 
 /// What a magnitude of 1 is.
 std::string unit_words(const BlockDesign& design) {
-  if (design.counts_in_water()) return "water being 1";
-  return design.counts_in_standard() ? "the standard being 1"
-                                     : "everybody's own modulus being 1";
+  if (design.counts_in_water()) return said("water being 1");
+  return design.counts_in_standard() ? said("the standard being 1")
+                                     : said("everybody's own modulus being 1");
 }
 
 /// Who chose their own numbers says nothing by their size; how they relate is all there is.
@@ -143,22 +147,23 @@ void add_moduli(ResultsSection& section, const BlockDesign& design, const Magnit
                 const ResultsOptions& options) {
   if (design.counts_in_water()) return;
   if (design.counts_in_standard()) {
-    section.excluded.push_back({"everyone", design.block +
-                                                ": comparisons in percent of water, for "
-                                                "magnitudes are ratios to the standard"});
+    section.excluded.push_back(
+        {"everyone",
+         said("{}: comparisons in percent of water, for magnitudes are ratios to the standard",
+              design.block)});
     return;
   }
   if (design.own_log_moduli.empty()) {
     section.excluded.push_back(
-        {"everyone", design.block +
-                         ": equalised moduli, no stimulus that all participants answered; the "
-                         "numbers stand as they were said"});
+        {"everyone", said("{}: equalised moduli, no stimulus that all participants answered; "
+                          "the numbers stand as they were said",
+                          design.block)});
     return;
   }
   section.excluded.push_back(
-      {"everyone", design.block +
-                       ": k as a size and comparisons in percent of water, for everybody chose "
-                       "their own numbers; moduli were equalised before every fit"});
+      {"everyone", said("{}: k as a size and comparisons in percent of water, for everybody "
+                        "chose their own numbers; moduli were equalised before every fit",
+                        design.block)});
   std::vector<double> moduli;
   for (const auto& [participant, log_modulus] : design.own_log_moduli) {
     if (std::ranges::find(block.names, participant) == block.names.end())
@@ -168,8 +173,8 @@ void add_moduli(ResultsSection& section, const BlockDesign& design, const Magnit
         {participant, design.block + ".modulus", std::exp(log_modulus), {}, ""});
   }
   add_spread(section, design.block + ".modulus_sd_ln",
-             "standard deviation between participants of the logarithm of their modulus, the "
-             "geometric mean of their numbers",
+             said("standard deviation between participants of the logarithm of their modulus, "
+                  "the geometric mean of their numbers"),
              moduli, options);
 }
 
@@ -178,11 +183,12 @@ void add_estimation_means(ResultsSection& section, const BlockDesign& design,
   const std::string& name = design.block;
   for (const auto& [intensity, values] : by_x(block.means)) {
     add_mean(section, name + ".mean_at_" + number_text(intensity),
-             "arithmetic mean of the participants' means, " + unit_words(design), values);
+             said("arithmetic mean of the participants' means, {}", unit_words(design)),
+             values);
   }
   for (const auto& [intensity, logs] : by_x(block.log_means)) {
     add_geometric_mean(section, name + ".geometric_mean_at_" + number_text(intensity),
-                       "geometric mean of the participants' geometric means", logs);
+                       said("geometric mean of the participants' geometric means"), logs);
   }
 }
 
@@ -192,13 +198,13 @@ void add_set_intensities(ResultsSection& section, const BlockDesign& design,
                          const MagnitudeBlock& block) {
   for (const auto& [target, values] : by_x(block.means)) {
     add_mean(section, "set_intensity." + percent_name(target) + "_percent",
-             "mean set value for this target", values,
+             said("mean set value for this target"), values,
              experiments::unit_of_quantity(design.quantity));
   }
   for (const auto& [target, logs] : by_x(block.log_means)) {
     add_geometric_mean(section,
                        "set_intensity." + percent_name(target) + "_percent.geometric_mean",
-                       "geometric mean of the set values for this target", logs,
+                       said("geometric mean of the set values for this target"), logs,
                        experiments::unit_of_quantity(design.quantity));
   }
 }
@@ -218,20 +224,20 @@ void add_production_ratios(ResultsSection& section, const MagnitudeBlock& block,
       const auto b = block.means[i].find(high->first);
       const bool has_both = a != block.means[i].end() && b != block.means[i].end();
       if (!has_both || !(a->second > 0.0)) {
-        section.participants.push_back(
-            {block.names[i],
-             name,
-             std::nullopt,
-             {},
-             has_both ? "0 was set for the lower target" : "one of the targets has no answer"});
+        section.participants.push_back({block.names[i],
+                                        name,
+                                        std::nullopt,
+                                        {},
+                                        has_both ? said("0 was set for the lower target")
+                                                 : said("one of the targets has no answer")});
         continue;
       }
       ratios.push_back(b->second / a->second);
       section.participants.push_back({block.names[i], name, ratios.back(), {}, ""});
     }
-    add_mean(section, name, "ratio of the set values of two targets, mean of the participants",
-             ratios);
-    add_spread(section, name + ".sd", "standard deviation between participants", ratios,
+    add_mean(section, name,
+             said("ratio of the set values of two targets, mean of the participants"), ratios);
+    add_spread(section, name + ".sd", said("standard deviation between participants"), ratios,
                options);
   }
 }
@@ -250,7 +256,8 @@ void add_intensity_on_magnitude(ResultsSection& section, const std::string& name
   const std::vector<Means> log_means = with_mean_above_zero(block.log_means);
   (void)add_power_law(
       section, name + ".intensity_on_magnitude",
-      "regression of I on S, in logarithms: what was answered is fitted, not what was asked",
+      said("regression of I on S, in logarithms: what was answered is fitted, not what was "
+           "asked"),
       log_means.size(),
       [&](const std::vector<std::size_t>& drawn, Solver) {
         return fit_intensity_on_magnitude(produced(group_means(log_means, drawn)));
@@ -272,7 +279,7 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& desi
   name_without_intensities(section, name, block);
   const std::vector<Means> means = with_mean_above_zero(block.means);
   const PowerFit whole = add_power_law(
-      section, name, "power law through the group means", means.size(),
+      section, name, said("power law through the group means"), means.size(),
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
         return fit_estimation(group_means(means, drawn), PowerMethod::kNonlinear, solver);
       },
@@ -280,8 +287,8 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& desi
   add_r_squared(section, name, whole, static_cast<int>(means.size()));
   (void)add_power_law(
       section, name + ".data_points",
-      "power law through the participants' means (where everybody answered every stimulus the "
-      "same as through the group means, by construction)",
+      said("power law through the participants' means (where everybody answered every stimulus "
+           "the same as through the group means, by construction)"),
       means.size(),
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
         std::vector<Magnitude> rows;
@@ -294,7 +301,7 @@ ResultsSection estimation_results(const StudyData& data, const BlockDesign& desi
       },
       options);
   (void)add_power_law(
-      section, name + ".log_log", "line through the logarithms of the group means",
+      section, name + ".log_log", said("line through the logarithms of the group means"),
       means.size(),
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
         return fit_estimation(group_means(means, drawn), PowerMethod::kLogLog, solver);
@@ -322,10 +329,9 @@ ResultsSection production_results(const StudyData& data, const BlockDesign& desi
   const std::size_t num_means = by_x(block.means).size();
   const PowerFit whole = add_power_law(
       section, name,
-      "power law through the mean set values (" + std::to_string(num_means) +
-          " means, two parameters: the interval is over resampled participants and says "
-          "nothing "
-          "of the curve's shape)",
+      said("power law through the mean set values ({} means, two parameters: the interval is "
+           "over resampled participants and says nothing of the curve's shape)",
+           std::to_string(num_means)),
       block.size(),
       [&](const std::vector<std::size_t>& drawn, Solver solver) {
         return fit_production(group_means(block.means, drawn), PowerMethod::kNonlinear, solver);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/data/magnitude_means.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -40,13 +41,13 @@ void add_reason(ResultsSection& section, const std::string& prefix, const std::s
     return one.participant == "everyone" && one.reason.ends_with(reason);
   });
   if (known || reason.empty()) return;
-  section.excluded.push_back({"everyone", prefix + ": no power law, " + reason});
+  section.excluded.push_back({"everyone", said("{}: no power law, {}", prefix, reason)});
 }
 
 /// ", 1 at intensity 0 left out": of the means or points that a fit had.
 std::string at_zero_words(const PowerFit& fit) {
   if (fit.num_at_zero == 0) return "";
-  return ", " + std::to_string(fit.num_at_zero) + " at intensity 0 left out";
+  return said(", {} at intensity 0 left out", std::to_string(fit.num_at_zero));
 }
 
 /// Both ends are the value, but for rounding.
@@ -70,13 +71,13 @@ PowerFit add_power_law(ResultsSection& section, const std::string& prefix,
                       .value = whole.*value,
                       .unit = "1",
                       .meaning = meaning + at_zero_words(whole) +
-                                 (*letter == 'k' ? ": factor" : ": exponent"),
+                                 (*letter == 'k' ? said(": factor") : said(": exponent")),
                       .n = static_cast<int>(num_participants),
                       .reason = whole.reason};
     if (estimate.value && num_participants > 1) estimate.ci95 = resamples.of(value);
     if (has_no_width(estimate.ci95)) {
       estimate.ci95 = {};
-      estimate.cautions.emplace_back("no interval: it is the same whoever is drawn");
+      estimate.cautions.emplace_back(said("no interval: it is the same whoever is drawn"));
     }
     section.estimates.push_back(std::move(estimate));
   }
@@ -90,8 +91,8 @@ void add_r_squared(ResultsSection& section, const std::string& prefix, const Pow
       {.name = prefix + ".r_squared",
        .value = fit.r_squared,
        .unit = "1",
-       .meaning = "share of the spread of the " + std::to_string(fit.num_rows) +
-                  " means that the power law explains" + at_zero_words(fit),
+       .meaning = said("share of the spread of the {} means that the power law explains{}",
+                       std::to_string(fit.num_rows), at_zero_words(fit)),
        .n = num_participants});
 }
 
@@ -154,7 +155,7 @@ void add_own_power_laws(ResultsSection& section, const std::string& prefix,
   for (std::size_t i = 0; i < names.size(); ++i) {
     const PowerFit own = fit(i);
     const std::vector<std::string> cautions =
-        own.is_exact ? std::vector{"no interval: " + own.no_interval}
+        own.is_exact ? std::vector{said("no interval: {}", own.no_interval)}
                      : std::vector<std::string>{};
     section.participants.push_back(
         {names[i], prefix + ".k", own.k, own.k_ci95, own.reason, cautions});

@@ -5,6 +5,7 @@
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/study_results.h"
 #include "analysis/statistics/within_slope.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -62,7 +63,7 @@ class MatchingSection {
           name_without_answers(section_.excluded, participant, design.block);
         } else {
           section_.excluded.push_back(
-              {participant.participant, "no match above 0 in " + design.block});
+              {participant.participant, said("no match above 0 in {}", design.block)});
         }
         continue;
       }
@@ -79,31 +80,32 @@ class MatchingSection {
     if (design_.standard_is_of_its_quantity()) add_ratio();
     add_matching_function();
     add_own("match_sd_ln",
-            "standard deviation of ln(match) about its mean at each standard, within a "
-            "participant: like ln(1 + Weber fraction), with the noise of standard and "
-            "comparison in it",
+            said("standard deviation of ln(match) about its mean at each standard, within a "
+                 "participant: like ln(1 + Weber fraction), with the noise of standard and "
+                 "comparison in it"),
             [](const Matches& own, const Means& means) {
               return pooled_sd(own.at_standard, means);
             });
     const std::vector<double> slopes =
         add_own("starting_value_slope",
-                "how far ln(match) follows the logarithm of the starting value, within a "
-                "standard: 0 not at all, 1 wholly",
+                said("how far ln(match) follows the logarithm of the starting value, within a "
+                     "standard: 0 not at all, 1 wholly"),
                 [](const Matches& own, const Means&) { return within_slope(own.starts); });
     add_test("starting_value_slope", slopes);
-    section_.estimates.push_back({.name = design_.block + ".num_zeros",
-                                  .value = num_zeros_,
-                                  .unit = "1",
-                                  .meaning = "matches of 0, which have no logarithm: left out",
-                                  .n = static_cast<int>(matches_.size())});
+    section_.estimates.push_back(
+        {.name = design_.block + ".num_zeros",
+         .value = num_zeros_,
+         .unit = "1",
+         .meaning = said("matches of 0, which have no logarithm: left out"),
+         .n = static_cast<int>(matches_.size())});
     return std::move(section_);
   }
 
  private:
   [[nodiscard]] std::string standard_words(double standard) const {
     const std::string unit = experiments::unit_of_quantity(design_.standard_quantity());
-    return number_text(standard) + (unit == "1" ? "" : " " + unit) + " of " +
-           design_.written.standard_medium;
+    return said("{}{} of {}", number_text(standard), (unit == "1" ? "" : " " + unit),
+                design_.written.standard_medium);
   }
 
   void add_matches() {
@@ -117,9 +119,9 @@ class MatchingSection {
     }
     for (const auto& [standard, logs] : by_standard) {
       add_geometric_mean(section_, name_at(standard),
-                         "geometric mean of the participants' geometric means of what they "
-                         "matched to the standard " +
-                             standard_words(standard),
+                         said("geometric mean of the participants' geometric means of what "
+                              "they matched to the standard {}",
+                              standard_words(standard)),
                          logs, experiments::unit_of_quantity(design_.quantity));
     }
   }
@@ -139,8 +141,8 @@ class MatchingSection {
           {names_[i], design_.block + ".match", std::exp(logs.back()), {}, ""});
     }
     add_geometric_mean(section_, design_.block + ".match",
-                       "geometric mean of the participants' matches over all standards", logs,
-                       experiments::unit_of_quantity(design_.quantity));
+                       said("geometric mean of the participants' matches over all standards"),
+                       logs, experiments::unit_of_quantity(design_.quantity));
   }
 
   /// The constant error, as a ratio: of each participant the mean over standards in ln.
@@ -154,8 +156,8 @@ class MatchingSection {
           {names_[i], design_.block + ".ratio_to_standard", std::exp(logs.back()), {}, ""});
     }
     add_geometric_mean(section_, design_.block + ".ratio_to_standard",
-                       "match over standard, geometric mean over standards and participants: "
-                       "1 is without constant error",
+                       said("match over standard, geometric mean over standards and "
+                            "participants: 1 is without constant error"),
                        logs);
     add_test("ln ratio_to_standard", logs, "match");
   }
@@ -168,8 +170,8 @@ class MatchingSection {
     };
     if (group_means(log_means_, everyone(matches_.size())).size() < 2) return;
     (void)add_power_law(section_, design_.block,
-                        "matching function, match = k standard^a: line through the logarithms "
-                        "of the geometric means",
+                        said("matching function, match = k standard^a: line through the "
+                             "logarithms of the geometric means"),
                         matches_.size(), fit, options_);
     add_own_power_laws(section_, design_.block, names_,
                        [&](std::size_t i) { return fit_log_estimation(log_means_[i]); });
@@ -187,11 +189,11 @@ class MatchingSection {
                                        design_.block + "." + name,
                                        own,
                                        {},
-                                       own ? "" : "too few matches that tell it"});
+                                       own ? "" : said("too few matches that tell it")});
     }
     if (!values.empty()) {
-      add_mean(section_, design_.block + "." + name, meaning + "; mean of the participants",
-               values);
+      add_mean(section_, design_.block + "." + name,
+               said("{}; mean of the participants", meaning), values);
     }
     return values;
   }
@@ -199,11 +201,11 @@ class MatchingSection {
   void add_test(const std::string& name, const std::vector<double>& values,
                 const std::string& ratio_of = "") {
     if (values.empty()) return;
-    const std::string test = design_.block + ": " + name + " against 0";
+    const std::string test = said("{}: {} against 0", design_.block, name);
     section_.comparisons.push_back(
         {.name = test + ", t", .comparison = one_sample_t_test(values), .ratio_of = ratio_of});
     section_.comparisons.push_back(
-        {.name = test + ", ranks, sensitivity",
+        {.name = said("{}, ranks, sensitivity", test),
          .comparison = wilcoxon_test(values, std::vector<double>(values.size(), 0.0)),
          .ratio_of = ratio_of});
   }

@@ -1,4 +1,5 @@
 #include "analysis/results/missing_values.h"
+#include "analysis/words/said.h"
 
 #include <cmath>
 
@@ -14,8 +15,8 @@ void explain_missing(StudyResults& results) {
       }
       if (!estimate.reason.empty()) continue;
       const bool is_spread = estimate.name.find("sd") != std::string::npos;
-      if (estimate.n == 0) estimate.reason = "nobody has a value";
-      if (estimate.n == 1 && is_spread) estimate.reason = "one value has no spread";
+      if (estimate.n == 0) estimate.reason = said("nobody has a value");
+      if (estimate.n == 1 && is_spread) estimate.reason = said("one value has no spread");
     }
   }
 }

@@ -4,6 +4,7 @@
 #include "analysis/data/presentation_use.h"
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/study_results.h"
+#include "analysis/words/said.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -17,11 +18,11 @@ struct Quantity {
 };
 
 constexpr Quantity kQuantities[] = {
-    {"stroke_width_m", "m", "mean distance between turning points",
+    {"stroke_width_m", "m", said_later("mean distance between turning points"),
      &core::PresentationMeasures::stroke_width_m},
-    {"max_speed_m_per_s", "m/s", "mean of the highest speed in each stroke",
+    {"max_speed_m_per_s", "m/s", said_later("mean of the highest speed in each stroke"),
      &core::PresentationMeasures::max_speed_m_per_s},
-    {"finger_lag_s", "s", "by which thumb, index and middle trail behind the palm",
+    {"finger_lag_s", "s", said_later("by which thumb, index and middle trail behind the palm"),
      &core::PresentationMeasures::finger_lag_s},
 };
 
@@ -55,9 +56,9 @@ bool anyone_has(const StudyData& data,
 std::string why_missing(const Quantity& quantity, const Rows& rows) {
   const std::int64_t num_presented = num_stimuli(rows);
   const std::string name = std::string(quantity.name) + ": ";
-  if (num_presented == 0) return name + "no presentation of a stimulus";
-  return name + "none of " + std::to_string(num_presented) +
-         (num_presented == 1 ? " presentation" : " presentations") + " holds a whole stroke";
+  if (num_presented == 0) return said("{}no presentation of a stimulus", name);
+  return said("{}none of {}{} holds a whole stroke", name, std::to_string(num_presented),
+              (num_presented == 1 ? said(" presentation") : said(" presentations")));
 }
 
 /// Everybody over all blocks.
@@ -71,7 +72,7 @@ void add_whole(ResultsSection& section, const StudyData& data, const Quantity& q
       section.excluded.push_back({participant.participant, why_missing(quantity, rows)});
     }
   }
-  add_mean(section, quantity.name, quantity.meaning, whole, quantity.unit);
+  add_mean(section, quantity.name, said(quantity.meaning), whole, quantity.unit);
 }
 
 /// Mean of a participant's mean over references and mean over tests: with a mean over all
@@ -108,9 +109,9 @@ struct Weighing {
 const Weighing kAsPublished = {"", "", "", [](const Rows& rows, const Quantity& quantity) {
                                  return movement_mean(rows, quantity.value);
                                }};
-const Weighing kEqualIntervals = {".equal_intervals", ", references and tests weighed equally",
-                                  ", references and tests weighed equally",
-                                  equal_intervals_mean};
+const Weighing kEqualIntervals = {
+    ".equal_intervals", said_later(", references and tests weighed equally"),
+    said_later(", references and tests weighed equally"), equal_intervals_mean};
 
 ByParticipant means_of(const StudyData& data, const std::string& block,
                        const Quantity& quantity, const Weighing& weighing) {
@@ -145,10 +146,11 @@ void compare(ResultsSection& section, const Quantity& quantity, const Weighing& 
   if (differences.empty()) return;  // Blocks of different arms, or that nobody came to.
   add_mean(section,
            std::string(quantity.name) + "." + first + "_minus_" + second + weighing.suffix,
-           std::string(quantity.meaning) + ", difference of the two blocks" + weighing.meaning,
+           said("{}, difference of the two blocks{}", std::string(said(quantity.meaning)),
+                said_of(weighing.meaning)),
            differences, quantity.unit);
   const std::string name =
-      first + " - " + second + ": " + quantity.name + weighing.words + ", ";
+      first + " - " + second + ": " + quantity.name + said_of(weighing.words) + ", ";
   section.comparisons.push_back({name + "paired", paired_t_test(a, b)});
   if (weighing.suffix.empty()) {
     section.comparisons.push_back({name + "unpaired", welch_t_test(a, b)});
@@ -162,8 +164,8 @@ void add_blocks(ResultsSection& section, const StudyData& data, const Quantity& 
   for (const std::string& block : blocks) {
     by_block[block] = means_of(data, block, quantity, weighing);
     add_mean(section, std::string(quantity.name) + "." + block + weighing.suffix,
-             quantity.meaning + weighing.meaning, numbers_of_people(by_block[block]),
-             quantity.unit);
+             said(quantity.meaning) + said_of(weighing.meaning),
+             numbers_of_people(by_block[block]), quantity.unit);
   }
   for (std::size_t i = 0; i + 1 < blocks.size(); ++i) {
     compare(section, quantity, weighing, blocks[i], by_block[blocks[i]], blocks[i + 1],
@@ -194,7 +196,8 @@ ResultsSection movement_results(const StudyData& data) {
   for (const BlockDesign& block : data.blocks) {
     if (experiments::is_pressed(block.medium)) {
       section.excluded.push_back(
-          {"everyone", block.block + ": strokes, for a solid is pressed, not stroked through"});
+          {"everyone",
+           said("{}: strokes, for a solid is pressed, not stroked through", block.block)});
       continue;
     }
     blocks.push_back(block.block);

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "analysis/fits/bounded_interval.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -16,6 +17,7 @@ constexpr char kNothing[] = "\u2013";
 
 /// With a minus sign that is as wide as a plus.
 std::string typeset(std::string digits) {
+  digits = with_decimal_sign(std::move(digits));
   if (!digits.starts_with('-')) return digits;
   // Minus nothing is nothing.
   if (digits.find_first_of("123456789") == std::string::npos) return digits.substr(1);
@@ -69,10 +71,10 @@ std::string words_of(const Interval& ci95, const std::optional<double>& value) {
     if (value && *value != 0.0) num_decimals = std::min(num_decimals, decimals_of(*value));
     return number_words(number, num_decimals);
   };
-  const std::string gap = "\u00a0";  // An interval stays on its line.
-  if (!ci95.low) return "up" + gap + "to" + gap + end(ci95.high);
-  if (!ci95.high) return "from" + gap + end(ci95.low);
-  return end(ci95.low) + gap + "to" + gap + end(ci95.high);
+  // An interval stays on its line.
+  if (!ci95.low) return said("up\u00a0to\u00a0{}", end(ci95.high));
+  if (!ci95.high) return said("from\u00a0{}", end(ci95.low));
+  return said("{}\u00a0to\u00a0{}", end(ci95.low), end(ci95.high));
 }
 
 std::string value_with(const std::optional<double>& value, const Interval& ci95,
@@ -104,11 +106,11 @@ std::string with_interval(const std::string& name, const std::optional<double>& 
 
 std::string p_words(const std::optional<double>& p_value) {
   if (!p_value) return kNothing;
-  return *p_value < 0.001 ? "< 0.001" : number_words(p_value, 3);
+  return *p_value < 0.001 ? with_decimal_sign("< 0.001") : number_words(p_value, 3);
 }
 
 std::string counted_words(std::int64_t count, const std::string& one) {
-  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+  return std::to_string(count) + " " + said_of(one + (count == 1 ? "" : "s"));
 }
 
 std::string duration_words(double duration_s) {

@@ -7,6 +7,7 @@
 
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 #include "core/require.h"
 
 namespace jnd::analysis {
@@ -45,16 +46,17 @@ std::string untold_words(const OwnFractions& fractions, const CensoredValue& med
         std::ranges::count_if(fractions.people, [](const OwnFraction& one) {
           return one.at_least < one.at_most && std::isfinite(one.at_most);
         });
-    return "< " + number_words(median.at_most) + ": the answers of " +
-           std::to_string(num_separated) + " of " + std::to_string(num) +
-           " are separated without an error, so that the stimuli only bound their fraction";
+    return said(
+        "< {}: the answers of {} of {} are separated without an error, so that the stimuli "
+        "only bound their fraction",
+        number_words(median.at_most), std::to_string(num_separated), std::to_string(num));
   }
-  std::string beyond = std::to_string(num_beyond) + " of " + std::to_string(num) +
-                       " lie beyond the largest stimulus";
+  std::string beyond = said("{} of {} lie beyond the largest stimulus",
+                            std::to_string(num_beyond), std::to_string(num));
   // Of an even number, the half: the median is the mean of a known one and one beyond.
   if (2 * num_beyond == num) return beyond;
-  return "> " + number_words(fractions.largest) + ": " + beyond +
-         ", or have flat or inverted answers";
+  return said("> {}: {}, or have flat or inverted answers", number_words(fractions.largest),
+              beyond);
 }
 
 /// Where the estimates go, and with which pse.
@@ -80,7 +82,7 @@ class OwnFractionWriter {
 
  private:
   [[nodiscard]] std::string pse_words() const {
-    return free_pse_ ? ", pse free" : ", pse at the reference";
+    return free_pse_ ? said(", pse free") : said(", pse at the reference");
   }
 
   Estimate& add(const std::string& name, const std::string& meaning) {
@@ -102,7 +104,8 @@ class OwnFractionWriter {
   }
 
   void write_median() {
-    Estimate& median = add("median", "median of the participants' own fractions" + pse_words());
+    Estimate& median =
+        add("median", said("median of the participants' own fractions{}", pse_words()));
     const Statistic statistic = [&](const Places& places) {
       return own_fraction_quantile(fractions_, places, 0.5);
     };
@@ -113,15 +116,16 @@ class OwnFractionWriter {
     if (median.ci95.low && *median.ci95.low <= 0.0) median.ci95.low.reset();
     if (median.value) return;
     median.reason = untold_words(fractions_, found);
-    section_.excluded.push_back({"everyone", median.name + ": no value, " + median.reason});
+    section_.excluded.push_back(
+        {"everyone", said("{}: no value, {}", median.name, median.reason)});
   }
 
   void write_spread() {
-    Estimate& spread =
-        add("robust_sd",
-            "interquartile range / 1.349 of the participants' own fractions" + pse_words());
+    Estimate& spread = add(
+        "robust_sd",
+        said("interquartile range / 1.349 of the participants' own fractions{}", pse_words()));
     if (everyone_.size() < 2) {
-      spread.reason = "one participant has no spread";
+      spread.reason = said("one participant has no spread");
       return;
     }
     const Statistic statistic = [&](const Places& places) {
@@ -130,15 +134,15 @@ class OwnFractionWriter {
     spread.value = statistic(everyone_).value();
     spread.ci95 = interval_of(statistic, everyone_.size(), options_);
     if (!spread.value) {
-      spread.reason = "a quartile lies among the fractions that the stimuli do not tell";
+      spread.reason = said("a quartile lies among the fractions that the stimuli do not tell");
     }
   }
 
   void write_plain() {
     const int num_beyond = fractions_.num_beyond();
-    add("beyond_stimuli", "participants whose own fraction" + pse_words() +
-                              ", lies beyond the largest stimulus of the block, or is not "
-                              "finite")
+    add("beyond_stimuli", said("participants whose own fraction{}, lies beyond the largest "
+                               "stimulus of the block, or is not finite",
+                               pse_words()))
         .value = num_beyond;
     std::vector<double> values;
     for (const OwnFraction& one : fractions_.people) {
@@ -154,14 +158,16 @@ class OwnFractionWriter {
       estimate.n = summary.num_values;
       if (are_all_told) estimate.value = value;
       if (estimate.value) return;
-      estimate.reason = are_all_told ? "one participant has no spread"
-                                     : "somebody has no fraction within the stimuli";
+      estimate.reason = are_all_told ? said("one participant has no spread")
+                                     : said("somebody has no fraction within the stimuli");
     };
-    add_plain("mean", summary.mean,
-              "plain mean" + pse_words() +
-                  ", where all lie within the stimuli (biased upwards at few answers)");
-    add_plain("sd", summary.standard_deviation,
-              "plain standard deviation" + pse_words() + ", where all lie within the stimuli");
+    add_plain(
+        "mean", summary.mean,
+        said("plain mean{}, where all lie within the stimuli (biased upwards at few answers)",
+             pse_words()));
+    add_plain(
+        "sd", summary.standard_deviation,
+        said("plain standard deviation{}, where all lie within the stimuli", pse_words()));
   }
 
   ResultsSection& section_;
@@ -219,8 +225,8 @@ std::optional<double> CensoredValue::value() const {
 }
 
 std::string without_words(const std::string& block, bool free_pse) {
-  return block + ": no Weber fraction of their own with " +
-         (free_pse ? "a free pse, " : "the pse at the reference, ");
+  return said("{}: no Weber fraction of their own with {}", block,
+              (free_pse ? said("a free pse, ") : said("the pse at the reference, ")));
 }
 
 CensoredValue own_fraction_quantile(const OwnFractions& fractions, const Places& places,

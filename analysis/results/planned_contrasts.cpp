@@ -11,6 +11,7 @@
 #include "analysis/results/sequential_results.h"
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/multiplicity.h"
+#include "analysis/words/said.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -70,14 +71,14 @@ Scores scores_of(const OwnContrasts& own, std::size_t num_groups, ContrastMeasur
     }
     scores.excluded.push_back(
         {own.participants[person],
-         "no " + measure_words(measure) + " of their own in " + own.lacking[person]});
+         said("no {} of their own in {}", measure_words(measure), own.lacking[person])});
   }
   return scores;
 }
 
 std::string people_words(const ContrastConditions& conditions) {
-  return conditions.groups.size() == 1 ? "Student's t of people's own contrasts"
-                                       : "Welch's t of people's own contrasts";
+  return conditions.groups.size() == 1 ? said("Student's t of people's own contrasts")
+                                       : said("Welch's t of people's own contrasts");
 }
 
 constexpr char kTooFew[] =
@@ -89,7 +90,7 @@ std::optional<ContrastTest> by_ranks(const PlannedContrast& plan, const Scores& 
   if (scores.by_group.size() != 1 || scores.by_group.front().empty()) return std::nullopt;
   const std::vector<double>& values = scores.by_group.front();
   const Comparison ranks = wilcoxon_test(values, std::vector<double>(values.size(), 0.0));
-  ContrastTest test{.method = ranks.method + " of people's own " + numbers + ", two-sided",
+  ContrastTest test{.method = said("{} of people's own {}, two-sided", ranks.method, numbers),
                     .num_participants = scores.num_participants,
                     .reason = ranks.reason};
   test.effect = told_effect(plan, ranks.hodges_lehmann);
@@ -156,13 +157,13 @@ class HierarchicalTest {
                             : HierarchicalNumber::kLogWeberFraction;
     estimate = hierarchical_contrast(fit, HierarchicalLink::kLogSlope, number, weights_,
                                      groups_, num_people_);
-    std::string method = fit.method.empty() ? "hierarchical fit" : fit.method;
+    std::string method = fit.method.empty() ? said("hierarchical fit") : fit.method;
     for (const HierarchicalCondition& one : fit.conditions) {
       for (const std::string& caution : one.cautions) {
         cautions.push_back(one.condition + ": " + caution);
       }
     }
-    return test_of(plan_, estimate, "median person, " + method, fit.num_participants,
+    return test_of(plan_, estimate, said("median person, {}", method), fit.num_participants,
                    fit.reason.empty() ? kTooFew : fit.reason);
   }
 
@@ -194,10 +195,11 @@ ContrastResult result_of(const StudyData& data, const PlannedContrast& plan) {
                 conditions.groups.size(), plan.measure);
   const std::string numbers = own_number_words(plan.measure);
   const std::optional<EffectEstimate> of_people = contrast_estimate(scores.by_group);
-  ContrastTest own = test_of(plan, of_people, people_words(conditions) + " in " + numbers,
-                             scores.num_participants, kTooFew);
+  ContrastTest own =
+      test_of(plan, of_people, said("{} in {}", people_words(conditions), numbers),
+              scores.num_participants, kTooFew);
   if (plan.measure == ContrastMeasure::kWeberFraction) {
-    own.method += "; its effect is a ratio of ln(1 + w)";
+    own.method += said("; its effect is a ratio of ln(1 + w)");
   }
   std::optional<EffectEstimate> answer = of_people;
   const bool is_fitted =
@@ -212,8 +214,8 @@ ContrastResult result_of(const StudyData& data, const PlannedContrast& plan) {
     } else {
       result.test = std::move(own);
       result.cautions.emplace_back(
-          "the hierarchical fit does not take so many conditions; the answer is by people's "
-          "own fits");
+          said("the hierarchical fit does not take so many conditions; the answer is by "
+               "people's own fits"));
     }
   } else {
     result.test = std::move(own);
@@ -273,15 +275,15 @@ std::string own_number_words(ContrastMeasure measure) {
     case ContrastMeasure::kWeberFraction:
       return "ln ln(1 + w)";
     case ContrastMeasure::kPse:
-      return "ln(pse / reference)";
+      return said("ln(pse / reference)");
     case ContrastMeasure::kExponent:
       return "exponents";
     case ContrastMeasure::kMagnitude:
-      return "mean ln magnitudes";
+      return said("mean ln magnitudes");
     case ContrastMeasure::kMatch:
-      return "mean ln matches";
+      return said("mean ln matches");
     case ContrastMeasure::kResponseTime:
-      return "mean ln response times";
+      return said("mean ln response times");
   }
   return "";
 }

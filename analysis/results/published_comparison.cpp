@@ -7,6 +7,7 @@
 #include "analysis/results/predictive_comparison.h"
 #include "analysis/results/published_statistics.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -30,8 +31,8 @@ void add_own_statistics(StudyResults& results, const StudyData& data,
                       .n = static_cast<int>(people.size())};
     if (!std::isfinite(*found)) {
       estimate.value.reset();
-      estimate.reason = "somebody's own is not bounded by their answers";
-      section.excluded.push_back({"everyone", name + ": no value, " + estimate.reason});
+      estimate.reason = said("somebody's own is not bounded by their answers");
+      section.excluded.push_back({"everyone", said("{}: no value, {}", name, estimate.reason)});
     } else if (people.size() > 1) {
       estimate.ci95 = resample_participants(people.size(), options.num_resamples, options.seed,
                                             [&](const std::vector<std::size_t>& drawn) {

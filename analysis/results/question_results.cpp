@@ -7,6 +7,7 @@
 #include "analysis/results/magnitude_section.h"
 #include "analysis/results/rated_answers.h"
 #include "analysis/results/study_results.h"
+#include "analysis/words/said.h"
 #include "experiments/study/question_answer.h"
 
 namespace jnd::analysis {
@@ -46,12 +47,11 @@ RatedAnswer rated(const BlockDesign& block, const core::TrialRow& trial, double 
 
 /// What a step means: "step from 1, “I guessed”, to 5, “wholly sure”: How sure are you?"
 std::string words_of(const Item& item) {
-  std::string question = in_english(item.question);
-  if (item.kind == "yes_no") return "1 being yes and 0 no: " + question;
+  std::string question = in_spoken_language(item.question);
+  if (item.kind == "yes_no") return said("1 being yes and 0 no: {}", question);
   if (item.kind != "scale") return question;
-  return "step from 1, “" + in_english(item.low_label) + "”, to " +
-         std::to_string(item.num_steps) + ", “" + in_english(item.high_label) +
-         "”: " + question;
+  return said("step from 1, “{}”, to {}, “{}”: {}", in_spoken_language(item.low_label),
+              std::to_string(item.num_steps), in_spoken_language(item.high_label), question);
 }
 
 class QuestionSection {
@@ -89,9 +89,9 @@ class QuestionSection {
           });
       if (given >= asked) continue;
       section_.excluded.push_back(
-          {participant.participant, block_.block + ": " + std::to_string(asked - given) +
-                                        " of " + std::to_string(asked) +
-                                        " questions after trials were not answered"});
+          {participant.participant,
+           said("{}: {} of {} questions after trials were not answered", block_.block,
+                std::to_string(asked - given), std::to_string(asked))});
     }
     return std::move(section_);
   }
@@ -138,8 +138,8 @@ class QuestionSection {
         shares.push_back(static_cast<double>(own[option]) / all);
       }
       add_mean(section_, prefix_of(item) + "." + option,
-               "share of trials answered \"" + option +
-                   "\", mean of the participants' own: " + in_english(item.question),
+               said("share of trials answered \"{}\", mean of the participants' own: {}",
+                    option, in_spoken_language(item.question)),
                shares);
     }
   }
@@ -149,9 +149,10 @@ class QuestionSection {
                               const std::string& given) {
       const bool which = item.kind == "yes_no_which";
       if (given == experiments::kNoAnswer || (which && !given.starts_with("yes: "))) return;
-      section_.free_answers.push_back(
-          {participant.participant, block_.block + "." + item.name, in_english(item.question),
-           "trial " + std::to_string(trial.trial) + ": " + (which ? given.substr(5) : given)});
+      section_.free_answers.push_back({participant.participant, block_.block + "." + item.name,
+                                       in_spoken_language(item.question),
+                                       said("trial {}: {}", std::to_string(trial.trial),
+                                            (which ? given.substr(5) : given))});
     });
   }
 
@@ -183,12 +184,13 @@ ResultsSection rating_results(const StudyData& data, const BlockDesign& block) {
     }
   }
   if (answers.empty()) return section;
-  const RatedName name{.prefix = block.block + ".rating",
-                       .words = "step from 1, “" + in_english(block.written.low_label) +
-                                "”, to " +
-                                number_text(block.written.settings.number("num_steps", 10.0)) +
-                                ", “" + in_english(block.written.high_label) + "”",
-                       .has_fixed_levels = true};
+  const RatedName name{
+      .prefix = block.block + ".rating",
+      .words =
+          said("step from 1, “{}”, to {}, “{}”", in_spoken_language(block.written.low_label),
+               number_text(block.written.settings.number("num_steps", 10.0)),
+               in_spoken_language(block.written.high_label)),
+      .has_fixed_levels = true};
   add_rated(section, name, answers);
   add_trend_per_doubling(section, name, answers);
   return section;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "analysis/results/magnitude_section.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -42,13 +43,15 @@ std::string prefix_of(const QuestionnaireItem& item) { return "questionnaire." +
 std::string steps_words(const QuestionnaireItem& item) {
   const std::string last = std::to_string(item.num_steps);
   if (item.high_is_good) {
-    return "rating from 1, the worst, to " + last + ", the best" +
-           (*item.high_is_good ? ": " : " (turned round: it was asked with 1 as the best): ");
+    return said(
+        "rating from 1, the worst, to {}, the best{}", last,
+        (*item.high_is_good ? ": "
+                            : said(" (turned round: it was asked with 1 as the best): ")));
   }
   const auto end = [](const std::string& step, const std::string& label) {
     return label.empty() ? step : step + ", “" + label + "”";
   };
-  return "step from " + end("1", item.low_label) + ", to " + end(last, item.high_label) + ": ";
+  return said("step from {}, to {}: ", end("1", item.low_label), end(last, item.high_label));
 }
 
 /// Everybody's own number; a scale's with 1 as the worst step, where one is.
@@ -83,11 +86,11 @@ void add_scale(ResultsSection& section, const QuestionnaireItem& item,
   const std::vector<double> values = add_own_numbers(section, item, answers);
   const Summary summary = summary_of(values);
   const std::string steps = steps_words(item);
-  add_mean(section, prefix_of(item), "mean " + steps + item.question, values);
+  add_mean(section, prefix_of(item), said("mean {}{}", steps, item.question), values);
   add(section, prefix_of(item) + ".sd", summary.standard_deviation, "1",
-      "standard deviation between participants", values.size());
+      said("standard deviation between participants"), values.size());
   add(section, prefix_of(item) + ".median", summary.median, "1",
-      "median " + steps + item.question, values.size());
+      said("median {}{}", steps, item.question), values.size());
 }
 
 void add_number(ResultsSection& section, const QuestionnaireItem& item,
@@ -95,9 +98,9 @@ void add_number(ResultsSection& section, const QuestionnaireItem& item,
   const std::vector<double> values = add_own_numbers(section, item, answers);
   const std::string unit = item.unit.empty() ? "1" : item.unit;
   const Summary summary = summary_of(values);
-  add_mean(section, prefix_of(item), "mean: " + item.question, values, unit);
+  add_mean(section, prefix_of(item), said("mean: {}", item.question), values, unit);
   add(section, prefix_of(item) + ".sd", summary.standard_deviation, unit,
-      "standard deviation between participants", values.size());
+      said("standard deviation between participants"), values.size());
   if (values.empty()) return;
   add(section, prefix_of(item) + ".minimum", *std::ranges::min_element(values), unit,
       "smallest", values.size());
@@ -123,7 +126,7 @@ void add_counts(ResultsSection& section, const QuestionnaireItem& item,
     const auto num = std::ranges::count_if(
         answers, [&](const auto& one) { return counted_answer(item, one.second) == option; });
     add(section, prefix_of(item) + "." + option, static_cast<double>(num), "1",
-        "participants who answered \"" + option + "\": " + item.question, answers.size());
+        said("participants who answered \"{}\": {}", option, item.question), answers.size());
   }
 }
 
@@ -165,7 +168,7 @@ void name_missing(ResultsSection& section, const StudyData& data) {
       name_without_answers(missing, participant, stage);
     }
     if (!any_answers && missing.size() > 1) {
-      missing = {{"everyone", "no answers in " + stage}};
+      missing = {{"everyone", said("no answers in {}", stage)}};
     }
     section.excluded.insert(section.excluded.end(), missing.begin(), missing.end());
   }

@@ -9,6 +9,7 @@
 #include "analysis/results/test_families.h"
 #include "analysis/statistics/ranks.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -73,12 +74,12 @@ class RatedWriter {
       medians.push_back(*summary.median);
       tell(participant, "", summary.mean, "");
     }
-    add_mean(section_, name_.prefix, "mean of the participants' means, " + name_.words, means,
-             name_.unit);
+    add_mean(section_, name_.prefix, said("mean of the participants' means, {}", name_.words),
+             means, name_.unit);
     const Summary summary = summary_of(means);
     add(".sd", summary.standard_deviation,
-        "standard deviation between participants of their means", means.size());
-    add(".median", summary_of(medians).median, "median of the participants' medians",
+        said("standard deviation between participants of their means"), means.size());
+    add(".median", summary_of(medians).median, said("median of the participants' medians"),
         medians.size());
   }
 
@@ -99,9 +100,9 @@ class RatedWriter {
     }
     for (const auto& [level, values] : means) {
       add_mean(section_, name_.prefix + ".mean_at_" + number_text(level),
-               "mean of the participants' means at this stimulus", values, name_.unit);
+               said("mean of the participants' means at this stimulus"), values, name_.unit);
       add(".median_at_" + number_text(level), summary_of(medians.at(level)).median,
-          "median of the participants' medians at this stimulus", values.size());
+          said("median of the participants' medians at this stimulus"), values.size());
     }
   }
 
@@ -126,27 +127,27 @@ class RatedWriter {
   }
 
   void add_relations() {
-    constexpr char kEqual[] =
-        "all answers or all stimuli are equal, or there are fewer than three";
+    constexpr const char* kEqual =
+        said_later("all answers or all stimuli are equal, or there are fewer than three");
     add_relation(
         ".rank_correlation",
-        "rank correlation of the answer with the stimulus, mean of the participants' own", "1",
+        said("rank correlation of the answer with the stimulus, mean of the participants' own"),
+        "1",
         [](const auto& own) {
           return correlation_with(own, [](const RatedAnswer& one) { return one.level; });
         },
-        0.0, kEqual);
+        0.0, said(kEqual));
     if (any([](const RatedAnswer& one) { return one.distance_ln.has_value(); })) {
       add_relation(
           ".rank_correlation_with_difference",
-          "rank correlation of the answer with |ln(test / reference)|, mean of the "
-          "participants' "
-          "own",
+          said("rank correlation of the answer with |ln(test / reference)|, mean of the "
+               "participants' own"),
           "1",
           [](const auto& own) {
             return correlation_with(own,
                                     [](const RatedAnswer& one) { return one.distance_ln; });
           },
-          0.0, kEqual);
+          0.0, said(kEqual));
     }
     if (!any([](const RatedAnswer& one) { return one.was_right.has_value(); })) return;
     add_right_and_wrong();
@@ -154,35 +155,35 @@ class RatedWriter {
 
  private:
   void add_right_and_wrong() {
-    constexpr char kOneKind[] =
-        "there are none of them that were right, or none that were wrong";
+    constexpr const char* kOneKind =
+        said_later("there are none of them that were right, or none that were wrong");
     for (const bool right : {true, false}) {
       std::vector<double> means;
       for (const auto& [participant, own] : answers_) {
         if (const std::optional<double> mean = mean_where(own, right)) means.push_back(*mean);
       }
-      add_mean(
-          section_, name_.prefix + (right ? ".when_right" : ".when_wrong"),
-          std::string("mean of the participants' means where the answer to the trial was ") +
-              (right ? "right" : "wrong"),
-          means, name_.unit);
+      add_mean(section_, name_.prefix + (right ? ".when_right" : ".when_wrong"),
+               said("mean of the participants' means where the answer to the trial was {}",
+                    (right ? "right" : "wrong")),
+               means, name_.unit);
     }
     add_relation(
         ".right_minus_wrong",
-        "how much higher where the answer to the trial was right, mean of the participants' "
-        "own",
+        said("how much higher where the answer to the trial was right, mean of the "
+             "participants' own"),
         name_.unit,
         [](const auto& own) {
           const std::optional<double> right = mean_where(own, true);
           const std::optional<double> wrong = mean_where(own, false);
           return right && wrong ? std::optional(*right - *wrong) : std::nullopt;
         },
-        0.0, kOneKind);
+        0.0, said(kOneKind));
     add_relation(
         ".type_2_auroc",
-        "area under the type 2 ROC: probability that a right answer has more than a wrong one, "
-        "0.5 where it says nothing of right and wrong; mean of the participants' own",
-        "1", type_2_auroc, 0.5, kOneKind);
+        said(
+            "area under the type 2 ROC: probability that a right answer has more than a wrong "
+            "one, 0.5 where it says nothing of right and wrong; mean of the participants' own"),
+        "1", type_2_auroc, 0.5, said(kOneKind));
   }
 
   [[nodiscard]] bool any(const std::function<bool(const RatedAnswer&)>& has) const {
@@ -255,9 +256,9 @@ void add_trend_per_doubling(ResultsSection& section, const RatedName& name,
   RatedWriter(section, name, answers)
       .add_relation(
           ".per_doubling",
-          "how many steps a stimulus of twice as much is rated higher: slope over log2 "
-          "of the stimulus, least squares, mean of the participants' own",
-          "1", slope_per_doubling, 0.0, "fewer than two stimuli above 0");
+          said("how many steps a stimulus of twice as much is rated higher: slope over log2 of "
+               "the stimulus, least squares, mean of the participants' own"),
+          "1", slope_per_doubling, 0.0, said("fewer than two stimuli above 0"));
 }
 
 }  // namespace jnd::analysis

@@ -4,6 +4,7 @@
 
 #include "analysis/results/study_sections.h"
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -43,8 +44,8 @@ std::optional<ResultsSection> response_time_results(const StudyData& data) {
          .value = back(summary.mean),
          .ci95 = {back(summary.mean_ci95.low), back(summary.mean_ci95.high)},
          .unit = "s",
-         .meaning = "response time: geometric mean over the participants of each one's median, "
-                    "from the start of the last stimulus to the answer",
+         .meaning = said("response time: geometric mean over the participants of each one's "
+                         "median, from the start of the last stimulus to the answer"),
          .n = summary.num_values});
   }
   if (section.estimates.empty()) return std::nullopt;

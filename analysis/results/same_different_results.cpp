@@ -4,6 +4,7 @@
 #include "analysis/results/threshold_group.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/statistics/wilson_interval.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -20,9 +21,9 @@ struct Fractions {
 };
 
 void add_fractions(ResultsSection& section, const std::string& block, const Fractions& all) {
-  const std::string meaning =
+  const std::string meaning = said(
       "median person's w, ln(1 + w) = s of the differencing model: mean of participants' own "
-      "ln ln(1 + w), Student's t";
+      "ln ln(1 + w), Student's t");
   const std::string name = block + ".weber_fraction";
   add_median_fraction(section, block, {.name = name, .meaning = meaning}, all.plain);
   if (all.mended.empty()) return;
@@ -32,8 +33,8 @@ void add_fractions(ResultsSection& section, const std::string& block, const Frac
                       {.name = name,
                        .meaning = meaning,
                        .suffix = ".with_degenerate",
-                       .words = "; with those who have no fraction of their own, half an "
-                                "answer of either kind added to theirs alone"},
+                       .words = said("; with those who have no fraction of their own, half an "
+                                     "answer of either kind added to theirs alone")},
                       everybody);
 }
 
@@ -70,7 +71,8 @@ ResultsSection same_different_results(const StudyData& data, const BlockDesign& 
       criteria[one.participant] = *fit.criterion_ln;
     } else {
       section.excluded.push_back(
-          {one.participant, block.block + ": no Weber fraction of their own, " + fit.reason});
+          {one.participant,
+           said("{}: no Weber fraction of their own, {}", block.block, fit.reason)});
     }
     if (one.catches.num_trials == 0) continue;
     const auto [low, high] = wilson_interval(one.catches.num_yes, one.catches.num_trials);
@@ -82,21 +84,21 @@ ResultsSection same_different_results(const StudyData& data, const BlockDesign& 
   add_fractions(section, block.block, fractions_of(all));
   add_geometric_mean(section,
                      {.name = block.block + ".criterion_ln",
-                      .meaning = "criterion k: \"different\" is said where the two are felt "
-                                 "further apart in ln intensity; geometric mean"},
+                      .meaning = said("criterion k: \"different\" is said where the two are "
+                                      "felt further apart in ln intensity; geometric mean")},
                      criteria);
   add_mean_rate(
       section,
       {.name = block.block + ".false_alarm_rate",
-       .meaning = "\"different\" of pairs that were the same: mean over participants"},
+       .meaning = said("\"different\" of pairs that were the same: mean over participants")},
       false_alarms);
   if (has_trials_set_aside(data, block)) {
     std::vector<ExcludedParticipant> named_before;
     add_median_fraction(section, block.block,
                         {.name = block.block + ".weber_fraction",
-                         .meaning = "median person's w by the differencing model",
+                         .meaning = said("median person's w by the differencing model"),
                          .suffix = ".with_excluded_trials",
-                         .words = "; with the trials that were set aside"},
+                         .words = said("; with the trials that were set aside")},
                         fractions_of(threshold_answers(data, block, true, named_before)).plain);
   }
   return section;

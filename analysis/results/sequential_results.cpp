@@ -7,6 +7,7 @@
 
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/sequential_estimate.h"
+#include "analysis/words/said.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -70,17 +71,19 @@ Equivalence adjusted_equivalence(const PlannedContrast& plan,
 void put_adjusted(ContrastResult& result, const StudyData& data,
                   const SequentialBoundaries& boundaries, const SequentialOutcome& outcome) {
   result.otherwise.insert(result.otherwise.begin(), std::move(result.test));
-  for (ContrastTest& other : result.otherwise) other.method += ", not adjusted for the looks";
+  for (ContrastTest& other : result.otherwise)
+    other.method += said(", not adjusted for the looks");
   result.equivalence.reset();
   const bool is_one_group = contrast_conditions(data.written, result.plan).groups.size() == 1;
-  result.test = {.method = std::string(is_one_group ? "Student's" : "Welch's") +
-                           " t of people's own contrasts in " +
-                           own_number_words(result.plan.measure) +
-                           ", adjusted for the looks (median unbiased, stage-wise order)" +
-                           (result.plan.measure == experiments::ContrastMeasure::kWeberFraction
-                                ? "; its effect is a ratio of ln(1 + w)"
-                                : ""),
-                 .num_participants = result.sequential->num_participants};
+  result.test = {
+      .method = said("{} t of people's own contrasts in {}, adjusted for the looks (median "
+                     "unbiased, stage-wise order){}",
+                     std::string(is_one_group ? said("Student's") : said("Welch's")),
+                     own_number_words(result.plan.measure),
+                     (result.plan.measure == experiments::ContrastMeasure::kWeberFraction
+                          ? said("; its effect is a ratio of ln(1 + w)")
+                          : "")),
+      .num_participants = result.sequential->num_participants};
   const auto estimate = SequentialEstimate::of(boundaries, outcome);
   if (!estimate) {
     result.test.reason =
@@ -100,10 +103,10 @@ void put_adjusted(ContrastResult& result, const StudyData& data,
 }
 
 std::string ended_words(const SequentialResult& result) {
-  return "the study ended by its rule at look " + std::to_string(result.num_looks_taken) +
-         " of " + std::to_string(result.looks.size()) + ", with " +
-         counted_words(result.num_participants, "participant") + " of at most " +
-         std::to_string(result.looks.back());
+  return said("the study ended by its rule at look {} of {}, with {} of at most {}",
+              std::to_string(result.num_looks_taken), std::to_string(result.looks.size()),
+              counted_words(result.num_participants, "participant"),
+              std::to_string(result.looks.back()));
 }
 
 /// People of the data that no look rests on.
@@ -119,12 +122,12 @@ void caution_of_ended(ContrastResult& result, const StudyData& data) {
   const bool is_last = std::ssize(sequential.looks) == sequential.num_looks_taken;
   if (!sequential.significant && !is_last) {
     result.cautions.emplace_back(
-        "the look that ended the study was told to stop, but as the data are now they do not "
-        "cross its boundary: trials were set aside or somebody withdrew since");
+        said("the look that ended the study was told to stop, but as the data are now they do "
+             "not cross its boundary: trials were set aside or somebody withdrew since"));
   }
   if (const std::int64_t num = num_beyond(data); num > 0) {
-    result.cautions.push_back("of " + counted_words(num, "participant") +
-                              " beyond those looks nothing is in this value");
+    result.cautions.push_back(said("of {} beyond those looks nothing is in this value",
+                                   counted_words(num, "participant")));
   }
 }
 
@@ -173,7 +176,7 @@ void adjust_for_looks(std::vector<ContrastResult>& results, const StudyData& dat
   for (ContrastResult& result : results) {
     if (result.plan.name != data.written.sequential->contrast) {
       result.cautions.emplace_back(
-          "the study is one that looks may end; this contrast is not adjusted for them");
+          said("the study is one that looks may end; this contrast is not adjusted for them"));
       continue;
     }
     result.sequential = result_of(data, boundaries, outcome);
@@ -183,9 +186,9 @@ void adjust_for_looks(std::vector<ContrastResult>& results, const StudyData& dat
       continue;
     }
     result.cautions.push_back(
-        "looked at before the rule of the study has ended it, which was not planned: nothing "
-        "is adjusted for that, and p < " +
-        shortest_words(result.plan.alpha) + " is no proof");
+        said("looked at before the rule of the study has ended it, which was not planned: "
+             "nothing is adjusted for that, and p < {} is no proof",
+             shortest_words(result.plan.alpha)));
   }
 }
 

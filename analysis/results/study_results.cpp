@@ -14,6 +14,7 @@
 #include "analysis/results/threshold_results.h"
 #include "analysis/results/trial_losses.h"
 #include "analysis/results/unanswered_results.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -66,9 +67,10 @@ void add_blocks_set_aside(std::vector<ResultsSection>& sections, const StudyData
     ResultsSection& section = found == sections.end()
                                   ? sections.emplace_back(ResultsSection{.name = block.block})
                                   : *found;
-    section.excluded.push_back({"everyone", "every answer in " + block.block +
-                                                " is set aside by `jnd exclude`, so that there "
-                                                "is no value"});
+    section.excluded.push_back(
+        {"everyone",
+         said("every answer in {} is set aside by `jnd exclude`, so that there is no value",
+              block.block)});
   }
 }
 

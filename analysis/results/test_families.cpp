@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "analysis/statistics/multiplicity.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 
@@ -15,7 +16,7 @@ void mark_movement_family(std::vector<ResultsSection>& sections) {
       if (named.comparison.kind == Comparison::Kind::kPaired) {
         named.family = kMovementFamily;
       } else {
-        named.name += ", sensitivity";
+        named.name += said(", sensitivity");
       }
     }
   }
@@ -30,14 +31,14 @@ void mark_pairs_family(std::vector<ResultsSection>& sections, bool were_asked_fo
 }
 
 void mark_pairs_beside_plan(std::vector<ResultsSection>& sections) {
-  constexpr std::string_view kPrimary = " (primary)";
+  const std::string_view primary = said(" (primary)");
   for (ResultsSection& section : sections) {
     for (NamedComparison& named : section.comparisons) {
       if (!named.primary) continue;
       named.primary = false;
       named.family = kBesidePlanFamily;
-      const std::size_t at = named.name.find(kPrimary);
-      if (at != std::string::npos) named.name.erase(at, kPrimary.size());
+      const std::size_t at = named.name.find(primary);
+      if (at != std::string::npos) named.name.erase(at, primary.size());
     }
   }
 }

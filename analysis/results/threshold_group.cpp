@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "analysis/statistics/summary.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -48,7 +49,7 @@ void add_geometric_mean(ResultsSection& section, const GroupName& group,
   section.estimates.push_back(
       mean_estimate(group, summary, [](double log) { return std::exp(log); }));
   add_spread(section, group, summary, group.name + "_sd_ln",
-             "standard deviation of its ln between people");
+             said("standard deviation of its ln between people"));
 }
 
 void add_median_fraction(ResultsSection& section, const std::string& block,
@@ -59,7 +60,7 @@ void add_median_fraction(ResultsSection& section, const std::string& block,
   section.estimates.push_back(
       mean_estimate(group, summary, [](double value) { return std::expm1(std::exp(value)); }));
   add_spread(section, group, summary, block + ".slope_sd_between_people",
-             "sd of ln ln(1 + w) between people: of the participants' own w");
+             said("sd of ln ln(1 + w) between people: of the participants' own w"));
 }
 
 void add_mean(ResultsSection& section, const GroupName& group, const OwnNumbers& values) {

@@ -4,6 +4,7 @@
 
 #include "analysis/data/magnitude_means.h"
 #include "analysis/results/magnitude_section.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -58,7 +59,7 @@ void add_median(ResultsSection& section, const std::vector<std::vector<double>>&
   Estimate estimate{.name = "trial_correlation_median",
                     .value = median(everyone(by_participant.size())),
                     .unit = "1",
-                    .meaning = "median of the correlations of all participants and pairs",
+                    .meaning = said("median of the correlations of all participants and pairs"),
                     .n = static_cast<int>(by_participant.size())};
   if (!estimate.value) return;
   estimate.ci95 =
@@ -99,7 +100,7 @@ void add_trial_correlations(ResultsSection& section, const StudyData& data,
            .ci95 = resampled(correlations, options,
                              [](const Summary& sample) { return sample.mean; }),
            .unit = "1",
-           .meaning = "correlation of two repetitions, mean of the participants",
+           .meaning = said("correlation of two repetitions, mean of the participants"),
            .n = summary.num_values});
     }
   }

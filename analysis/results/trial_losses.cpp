@@ -7,6 +7,7 @@
 #include "analysis/results/discrimination_group.h"
 #include "analysis/results/number_words.h"
 #include "analysis/results/threshold_results.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -57,9 +58,10 @@ ResultsSection section_of(const StudyData& data, const BlockDesign& block,
 
 /// "5.3 % of the answers were repeated, discarded ..."
 std::string affected_words(double ratio) {
-  return number_words(100.0 * ratio, 1) +
-         " % of the answers come from trials that were repeated, faulted, limited in force or "
-         "without a whole stroke";
+  return said(
+      "{} % of the answers come from trials that were repeated, faulted, limited in force or "
+      "without a whole stroke",
+      number_words(100.0 * ratio, 1));
 }
 
 bool is_outside(double value, const Interval& ci95) {
@@ -76,20 +78,20 @@ void compare(ResultsSection& section, const std::string& prefix, const ResultsSe
     const auto found = std::ranges::find(without.estimates, estimate.name, &Estimate::name);
     Estimate other{.name = estimate.name + kSuffix,
                    .unit = estimate.unit,
-                   .meaning = "the same without them: " + affected_words(ratio)};
+                   .meaning = said("the same without them: {}", affected_words(ratio))};
     if (found == without.estimates.end()) {
-      other.reason =
+      other.reason = said(
           "its rule saw these trials, and which came next followed from them, so that it has "
-          "nothing to say without them";
+          "nothing to say without them");
     } else {
       other.value = found->value;
       other.ci95 = found->ci95;
       other.n = found->n;
       other.reason = found->reason;
-      if (!other.value && other.reason.empty()) other.reason = "too few answers are left";
+      if (!other.value && other.reason.empty()) other.reason = said("too few answers are left");
       if (other.value && is_outside(*other.value, estimate.ci95)) {
-        estimate.cautions.push_back(affected_words(ratio) + "; without them it is " +
-                                    number_words(other.value) + ", outside of the interval");
+        estimate.cautions.push_back(said("{}; without them it is {}, outside of the interval",
+                                         affected_words(ratio), number_words(other.value)));
       }
     }
     added.push_back(std::move(other));

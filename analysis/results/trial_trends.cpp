@@ -7,6 +7,7 @@
 
 #include "analysis/results/test_families.h"
 #include "analysis/results/threshold_results.h"
+#include "analysis/words/said.h"
 #include "core/psychometric_function.h"
 #include "core/random_stream.h"
 #include "core/require.h"
@@ -137,22 +138,24 @@ class Person {
 };
 
 std::string more_or_less(const std::string& block, const std::string& what) {
-  return block + ": " + what +
-         " over the trials, each in their own way, exploratory (sum of participants' z^2)";
+  return said(
+      "{}: {} over the trials, each in their own way, exploratory (sum of participants' z^2)",
+      block, what);
 }
 
 Comparison comparison_of(const TrendDispersion& found, int num_redraws) {
-  Comparison result{.status = FitStatus::kDegenerate,
-                    .kind = Comparison::Kind::kDispersion,
-                    .reason = "no answers vary within a level",
-                    .method = "sum of squared z, p by parametric bootstrap (" +
-                              std::to_string(num_redraws) + " redraws, one-sided)"};
+  Comparison result{
+      .status = FitStatus::kDegenerate,
+      .kind = Comparison::Kind::kDispersion,
+      .reason = said("no answers vary within a level"),
+      .method = said("sum of squared z, p by parametric bootstrap ({} redraws, one-sided)",
+                     std::to_string(num_redraws))};
   if (found.num_people == 0) return result;
   result.status = FitStatus::kOk;
   result.reason = "";
   result.estimate = found.sum_squares / found.num_people;
   result.statistic = found.sum_squares;
-  result.statistic_name = "sum of z^2";
+  result.statistic_name = said("sum of z^2");
   result.degrees_of_freedom = found.num_people;
   result.p_value = found.p_value;
   result.num_a = found.num_people;
@@ -177,7 +180,7 @@ TrendDispersions trend_dispersions(const std::vector<DiscriminationAnswers>& all
     if (!observed.drift) continue;  // Then learning is not defined, either.
     add(result.drift, observed.drift);
     add(result.learning, observed.learning);
-    core::RandomStream random(seed, "trial trends", {static_cast<std::int64_t>(i)});
+    core::RandomStream random(seed, said("trial trends"), {static_cast<std::int64_t>(i)});
     for (std::size_t redraw = 0; redraw < drift.size(); ++redraw) {
       const Squares redrawn = person.redrawn(random, observed);
       drift[redraw] += redrawn.drift.value_or(0.0);
@@ -200,8 +203,9 @@ void add_trial_trends(ResultsSection& section, const std::vector<DiscriminationA
   if (block.is_adaptive()) {
     section.excluded.push_back(
         {"everyone",
-         block.block + ": no tests of changes over the trials, for the answers led to the "
-                       "levels, so that not every order of them within a level was as likely"});
+         said("{}: no tests of changes over the trials, for the answers led to the levels, so "
+              "that not every order of them within a level was as likely",
+              block.block)});
     return;
   }
   std::vector<double> drift, learning;
@@ -216,17 +220,17 @@ void add_trial_trends(ResultsSection& section, const std::vector<DiscriminationA
     section.comparisons.push_back(
         {.name = name, .comparison = std::move(comparison), .family = kTrialTrendsFamily});
   };
-  add(block.block +
-          ": the test is called \"more\" more often over the trials, exploratory (mean of "
-          "participants' z)",
+  add(said("{}: the test is called \"more\" more often over the trials, exploratory (mean of "
+           "participants' z)",
+           block.block),
       one_sample_t_test(drift));
-  add(more_or_less(block.block, "the test is called \"more\" more or less often"),
+  add(more_or_less(block.block, said("the test is called \"more\" more or less often")),
       comparison_of(dispersions.drift, num_redraws));
-  add(block.block +
-          ": right answers become more frequent over the trials, exploratory (mean of "
-          "participants' z)",
+  add(said("{}: right answers become more frequent over the trials, exploratory (mean of "
+           "participants' z)",
+           block.block),
       one_sample_t_test(learning));
-  add(more_or_less(block.block, "right answers become more or less frequent"),
+  add(more_or_less(block.block, said("right answers become more or less frequent")),
       comparison_of(dispersions.learning, num_redraws));
 }
 

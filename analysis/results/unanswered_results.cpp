@@ -7,6 +7,7 @@
 #include "analysis/results/number_words.h"
 #include "analysis/results/study_sections.h"
 #include "analysis/results/threshold_group.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace {
@@ -45,16 +46,18 @@ Unanswered unanswered_of(const ParticipantData& participant, const std::string& 
 }
 
 std::string often_words(const Unanswered& found) {
-  return "\"cannot tell\" in " + std::to_string(found.num_cannot_tell) + " of " +
-         counted_words(found.num_answers, "answer") +
-         "; what is estimated rests on the others, in which the choice was easier, so that a "
-         "Weber fraction or threshold comes out smaller than where everybody has to choose";
+  return said(
+      "\"cannot tell\" in {} of {}; what is estimated rests on the others, in which the choice "
+      "was easier, so that a Weber fraction or threshold comes out smaller than where "
+      "everybody has to choose",
+      std::to_string(found.num_cannot_tell), counted_words(found.num_answers, "answer"));
 }
 
 std::string missed_words(const Unanswered& found) {
-  return counted_words(found.num_missed, "answer") + " missed the deadline, " +
-         std::to_string(found.num_answers) +
-         " did not; what is hard to answer takes longer, and was asked for once more";
+  return said(
+      "{} missed the deadline, {} did not; what is hard to answer takes longer, and was asked "
+      "for once more",
+      counted_words(found.num_missed, "answer"), std::to_string(found.num_answers));
 }
 
 }  // namespace
@@ -84,13 +87,13 @@ std::optional<ResultsSection> unanswered_results(const StudyData& data) {
     }
     add_mean_rate(section,
                   {.name = block.block + ".cannot_tell_ratio",
-                   .meaning = "share of answers that were \"cannot tell\", which no curve and "
-                              "no rate has: mean over participants"},
+                   .meaning = said("share of answers that were \"cannot tell\", which no curve "
+                                   "and no rate has: mean over participants")},
                   cannot_tell);
     add_mean_rate(section,
                   {.name = block.block + ".missed_deadline_ratio",
-                   .meaning = "share of answers that missed their deadline, after which the "
-                              "trial was run again: mean over participants"},
+                   .meaning = said("share of answers that missed their deadline, after which "
+                                   "the trial was run again: mean over participants")},
                   missed);
   }
   if (section.participants.empty()) return std::nullopt;

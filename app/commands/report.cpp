@@ -26,6 +26,7 @@ struct ReportOptions {
   std::string out;
   bool pilot = false;
   bool json = false;
+  std::string language = "en";
   int jobs = 2;
   std::vector<std::string> compare;  ///< "group_d,group_e"
   std::string inverted;              ///< "in", "out"
@@ -112,6 +113,7 @@ int run_report(const ReportOptions& options) {
         "report: expected a study folder or --commissioning RECORD, found neither of them");
   }
   if (!options.commissioning.empty()) return run_commissioning_report(options);
+  write_reports_in(options.language);
   const StudyReport report = written(options);
   const analysis::StudyResults& results = report.results;
   const analysis::ReportOutcome& outcome = report.outcome;
@@ -180,7 +182,15 @@ void add_report(CLI::App& program, Invocation& invocation) {
       ->add_option("--operator", options->operator_name,
                    "With --commissioning: who measured; default: as the record says")
       ->needs(record);
-  command->add_flag("--json", options->json, "One JSON document on stdout");
+  CLI::Option* const json =
+      command->add_flag("--json", options->json, "One JSON document on stdout, in English");
+  command
+      ->add_option(
+          "--language", options->language,
+          "Of a study's report: en, or de for German; its tables of numbers stay English")
+      ->excludes(record)
+      ->excludes(json)
+      ->capture_default_str();
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run_report(*options); }; });
 }

@@ -1,14 +1,19 @@
 #include "app/results/study_report.h"
-#include "app/preregistration/deviations.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "analysis/data/study_data.h"
 #include "analysis/results/inverted_answers.h"
+#include "analysis/words/said.h"
+#include "app/language/words.h"
+#include "app/preregistration/deviations.h"
 #include "app/results/measured_devices.h"
 #include "app/results/noted_export.h"
 #include "app/results/results_output.h"
+#include "app/session/shipped_files.h"
 #include "app/session/stored_session.h"
+#include "core/error.h"
 
 namespace jnd::app {
 namespace {
@@ -34,6 +39,19 @@ std::optional<DeliveredReport> delivered_report(const core::StudyStore& store,
 }
 
 }  // namespace
+
+void write_reports_in(const std::string& language) {
+  const std::vector<Language> all = languages_in(languages_folder());
+  if (std::ranges::find(all, language, &Language::code) == all.end()) {
+    std::string codes;
+    for (const Language& one : all) codes += (codes.empty() ? "" : ", ") + one.code;
+    throw core::Error("--language: expected one of " + codes + ", found \"" + language + "\"");
+  }
+  if (!begin_language(languages_folder(), language)) return analysis::speak({});
+  analysis::speak({.code = language,
+                   .words = [](const char* english) { return tr(english); },
+                   .decimal_comma = writes_decimal_comma(language)});
+}
 
 StudyReport write_study_report(const StudyReportRequest& request) {
   // Of many people the fits take most of the time, of recordings the movement.

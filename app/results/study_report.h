@@ -9,6 +9,11 @@
 
 namespace jnd::app {
 
+/// Has all reports that follow written in this language ("de"), of which the program has a
+/// catalogue; "en" is English. Throws `Error` for any other, naming those that there are. While
+/// no other thread of the program runs.
+void write_reports_in(const std::string& language);
+
 struct StudyReportRequest {
   std::filesystem::path folder;  ///< NAME.study
   std::filesystem::path out;     ///< New or empty.
