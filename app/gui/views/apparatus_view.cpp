@@ -11,6 +11,7 @@ namespace jnd::app::gui {
 namespace {
 
 constexpr float kButtonRow = 36;
+constexpr float kRefusalMargin = 10;
 constexpr double kTurn_rad_per_px = 0.008;
 constexpr double kTurn_rad_per_press = 0.12;
 constexpr double kZoomStep = 1.12;
@@ -44,6 +45,18 @@ void draw_what_goes_on(Ui& ui, const Rect& place, const SessionView& view) {
           {.font = Font::kStrong, .colour = has_fault ? red : Colour::kInk});
   ui.text(inside, has_fault ? view.fault : view.sentence,
           {.colour = has_fault ? red : Colour::kSoft, .any_length = true});
+}
+
+/// Why what was asked for last was not done, as on the card of a session.
+void draw_refusal(Ui& ui, Rect& rest, const SessionView& view) {
+  if (view.refusal.empty()) return;
+  const std::string words = tr("Not done: {}.", view.refusal);
+  const TextStyle amber{.colour = Colour::kAmber, .wrap = true};
+  const float width = rest.width - 2 * kPadding;
+  const float height = ui.text_height(width, words, amber);
+  const Rect place = rest.take_top(height + 2 * kRefusalMargin, kGap);
+  ui.card(place);
+  ui.text(place.middle(width, height), words, amber);
 }
 
 void draw_hidden_apparatus(Ui& ui, const Rect& place) {
@@ -207,6 +220,7 @@ RunViewResult draw_apparatus_view(Ui& ui, const SessionView& view,
   const Rect footer = rest.take_bottom(kFooterHeight);
   rest = rest.inset(kGap);
   draw_what_goes_on(ui, rest.take_top(46, kGap), view);
+  draw_refusal(ui, rest, view);
   bool has_joints = false;
   if (view.hides_levels || view.is_alone) {
     state.held.reset();
