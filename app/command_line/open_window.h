@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -36,6 +37,10 @@ struct WindowRequest {
   std::filesystem::path answer_port;  ///< Of a box that answers by bytes; "": none.
   int answer_baud = 9600;
   std::string sound_output;  ///< Of every session; "": this machine's own; or "off".
+  /// Seconds from any moment on, asked from any thread. Where it is there, sessions take their
+  /// time from it, at simulated devices alone: for tests that go through a day of them. Else
+  /// they run in real time.
+  std::function<double()> simulated_clock_s;
   /// A session to go on with.
   std::optional<std::int64_t> resume_session;
 };

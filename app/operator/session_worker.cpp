@@ -74,6 +74,10 @@ void SessionWorker::publish(const OperatedSession& session) {
   if (parameters_.wake) parameters_.wake();
 }
 
+double SessionWorker::simulated_now_s() const {
+  return parameters_.simulated_clock_s ? parameters_.simulated_clock_s() : 0.0;
+}
+
 void SessionWorker::run() noexcept {
   try {
     work();
@@ -97,6 +101,7 @@ void SessionWorker::work() {
                            .scopes = &scopes_,
                            .language = parameters_.language,
                            .fitting = parameters_.fitting,
+                           .realtime = !parameters_.simulated_clock_s,
                            .allow_no_realtime = parameters_.allow_no_realtime,
                            .stops = parameters_.stops,
                            .streams = parameters_.streams,
@@ -104,10 +109,12 @@ void SessionWorker::work() {
                            .markers = parameters_.markers,
                            .controls = parameters_.controls});
   auto next_picture = std::chrono::steady_clock::now();
+  double last_look_s = simulated_now_s();
   while (!session.over()) {
     const std::vector<OperatorRequest> requests = wait_for_requests();
     for (const OperatorRequest& request : requests) session.request(request);
-    session.advance(0.0);
+    const double now_s = simulated_now_s();
+    session.advance(now_s - std::exchange(last_look_s, now_s));
     // What was asked for is shown at once, what only moves on at the window's pace.
     const auto now = std::chrono::steady_clock::now();
     if (requests.empty() && now < next_picture) continue;

@@ -45,6 +45,8 @@ class SessionWorker {
     SoundChoice sound{};                            ///< Likewise.
     WantedMarkers markers{};                        ///< Likewise.
     std::map<std::string, std::string> controls{};  ///< Likewise.
+    /// As `WindowRequest::simulated_clock_s`; asked from the thread.
+    std::function<double()> simulated_clock_s{};
     /// Called from the thread whenever there is a newer picture; may be empty.
     std::function<void()> wake;
   };
@@ -73,6 +75,7 @@ class SessionWorker {
  private:
   void run() noexcept;
   void work();
+  [[nodiscard]] double simulated_now_s() const;
   void publish(const OperatedSession& session);
   std::vector<OperatorRequest> wait_for_requests();
 

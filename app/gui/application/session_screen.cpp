@@ -58,7 +58,7 @@ void SessionScreen::start(const NewSession& session) {
                                             .profile = profile ? &*profile : nullptr,
                                             .seed = session.seed,
                                             .pilot = session.pilot,
-                                            .realtime = true,
+                                            .realtime = !simulated_clock_s_,
                                             .allow_no_realtime = allow_no_realtime_,
                                             .fields = session.fields},
                                            {session.participant})
@@ -116,6 +116,7 @@ void SessionScreen::run(std::unique_ptr<core::StudyStore> store, std::int64_t se
                                 .sound = {.output = sound_output},
                                 .markers = markers_,
                                 .controls = controls_.words(),
+                                .simulated_clock_s = simulated_clock_s_,
                                 .wake = host_.wake()},
       exchange_);
   controls_.begin_session(

@@ -25,10 +25,11 @@ class SessionScreen final : public Screen {
  public:
   /// `device_profile`: that of sessions that are resumed, a file; "": looked for. `streams`: to
   /// and of other recorders, of every session, as `markers`. `sound_output`: of those that are
-  /// resumed.
+  /// resumed. `simulated_clock_s`: as in `WindowRequest`.
   SessionScreen(ScreenHost& host, OpenStudy& study, bool allow_no_realtime,
                 std::string device_profile, WantedStreams streams, WantedMarkers markers,
-                AnswerControls& controls, std::string sound_output)
+                AnswerControls& controls, std::string sound_output,
+                std::function<double()> simulated_clock_s)
       : host_(host),
         study_(study),
         allow_no_realtime_(allow_no_realtime),
@@ -36,7 +37,8 @@ class SessionScreen final : public Screen {
         streams_(std::move(streams)),
         markers_(std::move(markers)),
         controls_(controls),
-        sound_output_(std::move(sound_output)) {}
+        sound_output_(std::move(sound_output)),
+        simulated_clock_s_(std::move(simulated_clock_s)) {}
   ~SessionScreen() override { controls_.end_session(); }
   SessionScreen(const SessionScreen&) = delete;
   SessionScreen& operator=(const SessionScreen&) = delete;
@@ -101,6 +103,7 @@ class SessionScreen final : public Screen {
   WantedMarkers markers_;
   AnswerControls& controls_;
   std::string sound_output_;
+  std::function<double()> simulated_clock_s_;
   OperatorExchange exchange_;
   std::unique_ptr<SessionWorker> worker_;
   std::shared_ptr<const SessionView> view_;

@@ -1,0 +1,191 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/environment.h"
+#include "app/operator/simulated_study.h"
+#include "soak/person.h"
+#include "soak/process_use.h"
+#include "support/temporary_folder.h"
+
+// A day of work in minutes: everything in the window, again and again, by a clock that goes on
+// a thirtieth of a second with each frame. What grows is a leak. Exit code 0: nothing has
+// grown; 1: something has, or a view was never seen; 2: wrong usage.
+
+namespace jnd::soak {
+namespace {
+
+/// From so many on, all is judged: below, the arenas of the C library have not found their size
+/// yet, and nobody looks long at anything.
+constexpr double kHoursOfALongSoak = 2.0;
+constexpr double kLook_s = 6.0, kGlance_s = 0.4;
+/// Median of the frames of the last eighth against the second.
+constexpr double kMostSlowing = 1.2;
+constexpr std::size_t kFramesToJudgeAView = 500;
+constexpr std::size_t kFewestRounds = 8;
+constexpr std::size_t kLeftBehindEachRound_bytes = 1'000'000;
+
+struct Options {
+  double hours = 8.0;
+  /// For a proof that a soak sees them: "memory" or "handles" are left behind in each round.
+  std::string leak;
+  bool tells = false;
+};
+
+Options options_of(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--tell") {
+      options.tells = true;
+      continue;
+    }
+    if (word == "--leak" && i + 1 < argc) {
+      options.leak = argv[++i];
+      if (options.leak == "memory" || options.leak == "handles") continue;
+    } else {
+      char* end = nullptr;
+      options.hours = std::strtod(word.c_str(), &end);
+      if (*end == '\0' && options.hours > 0.0 && options.hours < 1000.0) continue;
+    }
+    throw std::runtime_error("expected [HOURS] [--leak memory|handles] [--tell], found `" +
+                             word + "`");
+  }
+  return options;
+}
+
+void leave_behind(const std::string& what) {
+  // Volatile, so that no compiler leaves out what nobody reads.
+  static char* volatile lost = nullptr;
+  if (what == "memory") {
+    for (std::size_t bytes = 0; bytes < kLeftBehindEachRound_bytes; bytes += 1000) {
+      lost = static_cast<char*>(std::malloc(1000));
+      *lost = 'x';
+    }
+  } else if (what == "handles") {
+    (void)::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  }
+}
+
+/// The last frames against the first ones after the warm-up, of each view that has enough of
+/// them: the median of the views' ratios.
+double slowing(const Person& person) {
+  std::vector<double> ratios;
+  for (const auto& [view, times] : person.frames()) {
+    if (times.num_compared() < kFramesToJudgeAView) continue;
+    ratios.push_back(times.at_last_s() / times.at_first_s());
+  }
+  return ratios.empty() ? 1.0 : median(ratios);
+}
+
+bool is_machine_busy() {
+  double load = 0.0;
+  return ::getloadavg(&load, 1) != 1 ||
+         load > 1.5 * static_cast<double>(std::thread::hardware_concurrency());
+}
+
+nlohmann::json told_of(const std::string& quantity, const std::vector<ProcessUse>& rounds,
+                       double ProcessUse::*value) {
+  std::vector<double> values;
+  for (const ProcessUse& round : rounds) values.push_back(round.*value);
+  const BeforeAndAfter change = compared(values);
+  return {{quantity,
+           {{"after_warm_up", change.before},
+            {"at_end", change.after},
+            {"growth_ratio", change.growth()}}}};
+}
+
+int soak(const Options& options) {
+  const test_support::TemporaryFolder folder(test_support::memory_folder());
+  const app::EnvironmentVariable state("XDG_STATE_HOME", folder.path().c_str());
+  const app::EnvironmentVariable config("XDG_CONFIG_HOME", folder.path().c_str());
+  const app::EnvironmentVariable data("XDG_DATA_HOME", folder.path().c_str());
+  const bool is_long = options.hours >= kHoursOfALongSoak;
+  app::SimulatedStudy made;
+  made.simulate(2, /*record=*/true);
+  (void)made.interrupt(3);
+  // Where the copies look for it: beside them.
+  app::write_file(folder.path() / "tiny.json", app::kTinyStudy);
+  Person person({.template_study = made.folder(),
+                 .table = app::write_file(folder.path() / "order.csv",
+                                          "condition,delay,yes,n\nlight,-90,2,40\n"
+                                          "light,-30,12,40\nlight,0,20,40\nlight,30,30,40\n"
+                                          "sound,-90,1,40\nsound,-30,5,40\nsound,0,12,40\n"
+                                          "sound,30,22,40\nsound,90,37,40\n"),
+                 .folder = folder.path(),
+                 .duration_s = 3600.0 * options.hours,
+                 .look_s = is_long ? kLook_s : kGlance_s,
+                 .tells = options.tells});
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<ProcessUse> rounds;
+  while (person.now_s() < 3600.0 * options.hours || rounds.size() < kFewestRounds) {
+    person.go_round();
+    leave_behind(options.leak);
+    rounds.push_back(process_use());
+    if (::testing::UnitTest::GetInstance()->ad_hoc_test_result().Failed()) break;
+  }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  std::vector<std::string> problems = growths(rounds, is_long);
+  for (const std::string& missed : person.missed()) problems.push_back("not seen: " + missed);
+  const double slower = slowing(person);
+  const bool is_busy = is_machine_busy();
+  if (is_long && !is_busy && slower > kMostSlowing) {
+    problems.push_back("frames: expected those of the last eighth as fast as at first, found " +
+                       std::to_string(slower) + " times its time");
+  }
+  if (::testing::UnitTest::GetInstance()->ad_hoc_test_result().Failed()) {
+    problems.emplace_back(
+        "a view: expected every widget once and each key for one of them; "
+        "see what is told above");
+  }
+  nlohmann::json told = {{"simulated_hours", person.now_s() / 3600.0},
+                         {"simulated_hours_in_sessions", person.in_sessions_s() / 3600.0},
+                         {"seconds", took.count()},
+                         {"rounds", rounds.size()},
+                         {"sessions", person.num_sessions()},
+                         {"frames", person.num_frames()},
+                         {"frame_slowing_ratio", slower},
+                         {"machine_is_busy", is_busy},
+                         {"handles", rounds.back().num_handles},
+                         {"threads", rounds.back().num_threads},
+                         {"problems", problems}};
+  told.update(told_of("allocated_bytes", rounds, &ProcessUse::allocated_bytes));
+  told.update(told_of("resident_bytes", rounds, &ProcessUse::resident_bytes));
+  for (const auto& [view, times] : person.frames()) {
+    told["views"][view] = {{"frames", times.num()},
+                           {"median_at_first_ms", 1e3 * times.at_first_s()},
+                           {"median_at_last_ms", 1e3 * times.at_last_s()}};
+  }
+  for (const ProcessUse& round : rounds) {
+    told["allocated_bytes_by_round"].push_back(round.allocated_bytes);
+    told["resident_bytes_by_round"].push_back(round.resident_bytes);
+    told["handles_by_round"].push_back(round.num_handles);
+  }
+  std::printf("%s\n", told.dump(1).c_str());
+  return problems.empty() ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace jnd::soak
+
+int main(int argc, char** argv) {
+  // Widgets that are drawn twice are told by the expectations of the frames.
+  int no_arguments = 1;
+  ::testing::InitGoogleTest(&no_arguments, argv);
+  try {
+    return jnd::soak::soak(jnd::soak::options_of(argc, argv));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "jnd_soak: %s\n", error.what());
+    return 2;
+  }
+}
