@@ -8,13 +8,15 @@ if [ "${1:-}" = --cold ]; then export CCACHE_DISABLE=1; fi
 if [ -n "$(git status --porcelain --untracked-files=no)" ]; then
   echo "reproducible: what is not committed is not in it" >&2
 fi
+revision=$(git rev-parse HEAD)  # Somebody may commit while it builds.
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 began=$SECONDS
 for folder in first a/second/folder; do
-  git clone --quiet --shared . "$work/$folder"
+  git clone --quiet --shared --no-checkout . "$work/$folder"
   (
     cd "$work/$folder"
+    git checkout --quiet --detach "$revision"
     before=$SECONDS
     cmake --preset package >/dev/null
     cmake --build --preset package >"$work/log" 2>&1 || { tail -40 "$work/log" >&2; exit 1; }
