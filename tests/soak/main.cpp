@@ -37,8 +37,8 @@ constexpr std::size_t kLeftBehindEachRound_bytes = 1'000'000;
 
 struct Options {
   double hours = 8.0;
-  /// For a proof that a soak sees them: "memory" or "handles" are left behind in each round.
-  std::string leak;
+  /// For a proof that a soak sees them: what is left behind in each round.
+  bool leaks_memory = false, leaks_handles = false;
   bool tells = false;
 };
 
@@ -51,8 +51,10 @@ Options options_of(int argc, char** argv) {
       continue;
     }
     if (word == "--leak" && i + 1 < argc) {
-      options.leak = argv[++i];
-      if (options.leak == "memory" || options.leak == "handles") continue;
+      const std::string leak = argv[++i];
+      options.leaks_memory = options.leaks_memory || leak == "memory";
+      options.leaks_handles = options.leaks_handles || leak == "handles";
+      if (leak == "memory" || leak == "handles") continue;
     } else {
       char* end = nullptr;
       options.hours = std::strtod(word.c_str(), &end);
@@ -64,17 +66,16 @@ Options options_of(int argc, char** argv) {
   return options;
 }
 
-void leave_behind(const std::string& what) {
+void leave_behind(const Options& options) {
   // Volatile, so that no compiler leaves out what nobody reads.
   static char* volatile lost = nullptr;
-  if (what == "memory") {
+  if (options.leaks_memory) {
     for (std::size_t bytes = 0; bytes < kLeftBehindEachRound_bytes; bytes += 1000) {
       lost = static_cast<char*>(std::malloc(1000));
       *lost = 'x';
     }
-  } else if (what == "handles") {
-    (void)::open("/dev/null", O_RDONLY | O_CLOEXEC);
   }
+  if (options.leaks_handles) (void)::open("/dev/null", O_RDONLY | O_CLOEXEC);
 }
 
 /// The last frames against the first ones after the warm-up, of each view that has enough of
@@ -130,7 +131,7 @@ int soak(const Options& options) {
   std::vector<ProcessUse> rounds;
   while (person.now_s() < 3600.0 * options.hours || rounds.size() < kFewestRounds) {
     person.go_round();
-    leave_behind(options.leak);
+    leave_behind(options);
     rounds.push_back(process_use());
     if (::testing::UnitTest::GetInstance()->ad_hoc_test_result().Failed()) break;
   }
