@@ -244,7 +244,7 @@ class RecordReader {
 
   /// Where the session is now.
   [[nodiscard]] std::string where() const {
-    const std::string stage = title_of_stage(state_.stage);
+    std::string stage = title_of_stage(state_.stage);
     const std::optional<std::int64_t> trial = state_.current_trial();
     if (!trial || !state_.stage_open) return stage;
     return tr("{}, trial {}", stage, number_in_block(*trial));
@@ -320,12 +320,13 @@ class RecordReader {
   /// From the last one back, for a fault may have kept none.
   void add_flight_records(const std::vector<fs::path>& files) {
     std::size_t fault = record_.faults.size();
-    for (auto file = files.rbegin(); file != files.rend(); ++file) {
-      const std::string name = file->stem().string();
+    for (std::size_t later = files.size(); later > 0; --later) {
+      const fs::path& file = files[later - 1];
+      const std::string name = file.stem().string();
       const std::int64_t tick = std::atoll(name.substr(name.rfind('-') + 1).c_str());
       while (fault > 0 && fault_ticks_[fault - 1] > tick) --fault;
       if (fault == 0) return;
-      record_.faults[--fault].flight_record = *file;
+      record_.faults[--fault].flight_record = file;
     }
   }
 
@@ -406,7 +407,7 @@ SessionRecord session_record(const fs::path& folder, std::int64_t session,
   reader.finish(core::flight_records(store.recording_file(session)));
   std::ranges::reverse(record.notes);
   add_adverse_events(store, now_ns, record);
-  std::ranges::stable_partition(record.notes, [](const RecordNote& note) {
+  std::stable_partition(record.notes.begin(), record.notes.end(), [](const RecordNote& note) {
     return note.kind == RecordNote::Kind::kAdverseEvent;
   });
   mark_read(folder, record);

@@ -94,8 +94,9 @@ void draw_step_strip(Ui& ui, const Rect& strip, const DeviceView& device,
   const float width = (strip.width - (per_row - 1) * kBetweenSteps) / per_row;
   const float height = (strip.height - (rows - 1) * kBetweenSteps) / rows;
   for (std::size_t i = 0; i < device.steps.size(); ++i) {
-    const Rect cell{strip.x + static_cast<float>(i % in_row) * (width + kBetweenSteps),
-                    strip.y + static_cast<float>(i / in_row) * (height + kBetweenSteps), width,
+    const std::size_t column = i % in_row, line = i / in_row;
+    const Rect cell{strip.x + static_cast<float>(column) * (width + kBetweenSteps),
+                    strip.y + static_cast<float>(line) * (height + kBetweenSteps), width,
                     height};
     const bool is_shown = i == shown;
     if (is_shown) ui.fill(cell, Colour::kBlueSoft, 8);

@@ -162,9 +162,9 @@ ControlsResult draw_controls_dialog(
   Rect actions = inside.take_top(of_actions - 14, 14);
   const float width = (actions.width - 12) / static_cast<float>(kActionColumns);
   for (std::size_t i = 0; i < core::kControlActions.size(); ++i) {
-    const Rect place{actions.x + static_cast<float>(i / kRows) * (width + 12),
-                     actions.y + static_cast<float>(i % kRows) * kActionRow, width,
-                     kActionRow - 2};
+    const std::size_t column = i / kRows, row = i % kRows;
+    const Rect place{actions.x + static_cast<float>(column) * (width + 12),
+                     actions.y + static_cast<float>(row) * kActionRow, width, kActionRow - 2};
     draw_action(ui, place, i, map, state);
   }
   draw_devices_of_controls(ui, inside, devices);
