@@ -95,17 +95,6 @@ bool is_machine_busy() {
          load > 1.5 * static_cast<double>(std::thread::hardware_concurrency());
 }
 
-nlohmann::json told_of(const std::string& quantity, const std::vector<ProcessUse>& rounds,
-                       double ProcessUse::*value) {
-  std::vector<double> values;
-  for (const ProcessUse& round : rounds) values.push_back(round.*value);
-  const BeforeAndAfter change = compared(values);
-  return {{quantity,
-           {{"after_warm_up", change.before},
-            {"at_end", change.after},
-            {"growth_ratio", change.growth()}}}};
-}
-
 int soak(const Options& options) {
   const test_support::TemporaryFolder folder(test_support::memory_folder());
   const app::EnvironmentVariable state("XDG_STATE_HOME", folder.path().c_str());
@@ -156,22 +145,14 @@ int soak(const Options& options) {
                          {"sessions", person.num_sessions()},
                          {"frames", person.num_frames()},
                          {"machine_is_busy", is_busy},
-                         {"handles", rounds.back().num_handles},
-                         {"threads", rounds.back().num_threads},
+                         {"held", told_of(rounds)},
                          {"problems", problems}};
   // In a short one the first frames of a view are not of what its last ones show.
   if (is_long) told["frame_slowing_ratio"] = slower;
-  told.update(told_of("allocated_bytes", rounds, &ProcessUse::allocated_bytes));
-  told.update(told_of("resident_bytes", rounds, &ProcessUse::resident_bytes));
   for (const auto& [view, times] : person.frames()) {
     told["views"][view] = {{"frames", times.num()},
                            {"median_at_first_ms", 1e3 * times.at_first_s()},
                            {"median_at_last_ms", 1e3 * times.at_last_s()}};
-  }
-  for (const ProcessUse& round : rounds) {
-    told["allocated_bytes_by_round"].push_back(round.allocated_bytes);
-    told["resident_bytes_by_round"].push_back(round.resident_bytes);
-    told["handles_by_round"].push_back(round.num_handles);
   }
   std::printf("%s\n", told.dump(1).c_str());
   return problems.empty() ? 0 : 1;

@@ -7,27 +7,36 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
+#include <system_error>
 
 namespace jnd::soak {
 
 namespace fs = std::filesystem;
 
-/// The folder that lists handles is a handle itself while it is read.
-constexpr int kHandleOfTheLook = 1;
-
 static int num_entries(const fs::path& folder) {
-  return static_cast<int>(
-      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+  std::error_code gone;
+  const fs::directory_iterator entries(folder, gone);
+  return gone ? 0 : static_cast<int>(std::distance(begin(entries), end(entries)));
 }
 
-ProcessUse process_use() {
-  const struct mallinfo2 heap = ::mallinfo2();
-  ProcessUse use{.allocated_bytes = static_cast<double>(heap.uordblks + heap.hblkhd),
-                 .num_handles = num_entries("/proc/self/fd") - kHandleOfTheLook,
-                 .num_threads = num_entries("/proc/self/task")};
+static ProcessUse seen_in(const fs::path& process) {
+  ProcessUse use{.num_handles = num_entries(process / "fd"),
+                 .num_threads = num_entries(process / "task")};
   double total_pages = 0.0, resident_pages = 0.0;
-  std::ifstream("/proc/self/statm") >> total_pages >> resident_pages;
+  std::ifstream(process / "statm") >> total_pages >> resident_pages;
   use.resident_bytes = resident_pages * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  return use;
+}
+
+ProcessUse use_of(pid_t process) { return seen_in("/proc/" + std::to_string(process)); }
+
+ProcessUse process_use() {
+  ProcessUse use = seen_in("/proc/self");
+  // The folder that lists handles is a handle itself while it is read.
+  --use.num_handles;
+  const struct mallinfo2 heap = ::mallinfo2();
+  use.allocated_bytes = static_cast<double>(heap.uordblks + heap.hblkhd);
   return use;
 }
 
@@ -46,6 +55,24 @@ BeforeAndAfter compared(const std::vector<double>& rounds) {
   const auto first = rounds.begin() + warm_up;
   return {median({first, first + compared_rounds}),
           median({rounds.end() - compared_rounds, rounds.end()})};
+}
+
+nlohmann::json told_of(const std::vector<ProcessUse>& rounds) {
+  nlohmann::json told;
+  const auto tell = [&](const std::string& quantity, auto value) {
+    std::vector<double> values;
+    for (const ProcessUse& round : rounds) values.push_back(value(round));
+    const BeforeAndAfter change = compared(values);
+    told[quantity] = {{"after_warm_up", change.before},
+                      {"at_end", change.after},
+                      {"growth_ratio", change.growth()},
+                      {"by_round", values}};
+  };
+  tell("allocated_bytes", [](const ProcessUse& use) { return use.allocated_bytes; });
+  tell("resident_bytes", [](const ProcessUse& use) { return use.resident_bytes; });
+  tell("handles", [](const ProcessUse& use) { return 1.0 * use.num_handles; });
+  tell("threads", [](const ProcessUse& use) { return 1.0 * use.num_threads; });
+  return told;
 }
 
 std::vector<std::string> growths(const std::vector<ProcessUse>& rounds, bool judges_resident) {

@@ -41,6 +41,7 @@ class RunningProgram {
   /// The next line of stdout without its end; none at the end of the stream.
   [[nodiscard]] std::optional<std::string> read_line();
   void send_signal(int number) const;
+  [[nodiscard]] pid_t process() const noexcept { return pid_; }
   /// It needs no waiting for any more.
   [[nodiscard]] bool has_ended() const;
   /// Closes the reading end of its stdout, as `head` does.

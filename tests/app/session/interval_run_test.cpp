@@ -24,14 +24,13 @@ class IntervalRunTest : public ::testing::Test {
     for (int i = 1; i <= num_people; ++i) people.push_back("P0" + std::to_string(i));
     core::StudyStore store(temporary_.path() / (name + ".study"),
                            core::StudyStore::Mode::kCreate, core::Durability::kAtClose);
-    const std::vector<std::int64_t> sessions =
-        add_sessions(store,
-                     {.study = study_,
-                      .laboratory = &laboratory_,
-                      .study_file = "study.json",
-                      .seed = 11,
-                      .record = false},
-                     {"P01", "P02", "P03", "P04", "P05", "P06", "P07", "P08"});
+    const std::vector<std::int64_t> sessions = add_sessions(store,
+                                                            {.study = study_,
+                                                             .laboratory = &laboratory_,
+                                                             .study_file = "study.json",
+                                                             .seed = 11,
+                                                             .record = false},
+                                                            people);
     for (const std::int64_t session : sessions) {
       (void)run_laboratory({.study = study_,
                             .laboratory = laboratory_,

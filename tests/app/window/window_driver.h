@@ -34,6 +34,8 @@ class WindowDriver {
   void kill();
   /// Waits until it ends by itself.
   [[nodiscard]] test_support::ProgramOutcome wait_for_exit();
+  /// The running program's number, as the system counts.
+  [[nodiscard]] pid_t process() const noexcept { return program_->process(); }
   /// Where the program finds its studies; its own else.
   std::filesystem::path share;
   /// The program's environment but for the display.
