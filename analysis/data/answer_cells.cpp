@@ -54,6 +54,18 @@ bool is_missing(std::string_view cell) noexcept {
          same_word(cell, "none");
 }
 
+bool is_missing_name(std::string_view cell) noexcept {
+  return cell.empty() || (cell.size() == 2 && same_word(cell, "na"));
+}
+
+bool is_called_right(std::string_view column) noexcept {
+  static constexpr std::array<std::string_view, 8> kCalledRight = {
+      "correct", "iscorrect", "is_correct", "corr", "acc", "accuracy", "right", "hit"};
+  const std::string_view last = column.substr(column.rfind('.') + 1);
+  return std::ranges::any_of(kCalledRight,
+                             [last](std::string_view name) { return same_word(last, name); });
+}
+
 std::string shown_cell(std::string_view cell) {
   constexpr std::size_t kLongest = 60;
   const std::string part(cell.substr(0, kLongest));
@@ -108,7 +120,13 @@ void TableProblems::report_form(int line, const std::string& what) {
 std::size_t TableProblems::place_of(const std::string& column,
                                     const std::vector<std::string>& header, int line) {
   const auto found = std::ranges::find(header, column);
-  if (found != header.end()) return static_cast<std::size_t>(found - header.begin());
+  if (found != header.end()) {
+    if (const auto num = std::ranges::count(header, column); num > 1) {
+      report_form(line, column + ": expected one column of this name, found " +
+                            std::to_string(num) + "; rename all but one of them");
+    }
+    return static_cast<std::size_t>(found - header.begin());
+  }
   report_form(line, column + ": expected a column of this name, found the columns " +
                         shown_columns(header));
   return 0;

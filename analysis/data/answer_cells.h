@@ -15,8 +15,15 @@ namespace jnd::analysis {
 /// Whether these are the same letters; `lower` has no capitals.
 [[nodiscard]] bool same_word(std::string_view cell, std::string_view lower) noexcept;
 
-/// Empty, NA, NaN, null or None.
+/// Empty, NA, NaN, null or None: as a number or an answer.
 [[nodiscard]] bool is_missing(std::string_view cell) noexcept;
+
+/// Empty or NA: as the name of a person, a group or a condition, of which "none" may be one.
+[[nodiscard]] bool is_missing_name(std::string_view cell) noexcept;
+
+/// Whether a column is called as other programs call whether an answer was right: correct,
+/// corr, acc, key_resp.corr. In a forced choice chance alone makes some of them so.
+[[nodiscard]] bool is_called_right(std::string_view column) noexcept;
 
 /// As a message shows it.
 [[nodiscard]] std::string shown_cell(std::string_view cell);

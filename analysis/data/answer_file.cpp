@@ -75,6 +75,7 @@ class AnswerCollector final : public RowSink {
     for (const auto& [name, cell] : columns_.where)
       where_.push_back(problems().place_of(name, file_.columns, line));
     problems().throw_problems();
+    elsewhere_.resize(where_.size());
     for (std::size_t i = 0; i < file_.columns.size(); ++i) {
       const auto is_at = [i](std::size_t place) { return place == i; };
       if (tells_rows_apart(file_.columns[i]) && std::ranges::none_of(group_by_, is_at) &&
@@ -93,13 +94,16 @@ class AnswerCollector final : public RowSink {
     for (std::size_t i = 0; i < where_.size(); ++i) {
       if (!is_same_cell(cell(where_[i]), columns_.where[i].second, decimal_comma)) {
         ++file_.num_elsewhere;
+        constexpr std::size_t kMostCells = 8;
+        std::set<std::string>& others = elsewhere_[i];
+        if (others.size() < kMostCells) others.emplace(cell(where_[i]));
         return;
       }
     }
     if (skips(cell(intensity_), columns_.intensity) || skips(cell(yes_), columns_.yes)) return;
     if (trials_ && skips(cell(*trials_), *columns_.trials)) return;
     for (std::size_t i = 0; i < group_by_.size(); ++i) {
-      if (skips(cell(group_by_[i]), columns_.group_by[i])) return;
+      if (skips_name(cell(group_by_[i]), columns_.group_by[i])) return;
     }
     const double intensity = number_of(cell(intensity_), decimal_comma);
     if (std::isnan(intensity)) {
@@ -115,6 +119,15 @@ class AnswerCollector final : public RowSink {
         counted_answers(words_, cell(yes_), trials_ ? cell(*trials_) : std::string_view(),
                         decimal_comma, line, problems());
     if (!counted) return;
+    if (columns_.yes_value && counted->num_yes == 0) {
+      constexpr std::size_t kMostWords = 20;
+      const auto [word, is_new] = file_.num_no.try_emplace(std::string(cell(yes_)), 0);
+      if (is_new && file_.num_no.size() > kMostWords) {
+        file_.num_no.erase(word);
+      } else {
+        word->second += counted->num_trials;
+      }
+    }
     for (std::size_t i = 0; i < pooled_.size(); ++i) {
       if (pooled_cells_[i].size() < kMostPooled) pooled_cells_[i].emplace(cell(pooled_[i]));
     }
@@ -123,6 +136,7 @@ class AnswerCollector final : public RowSink {
 
   [[nodiscard]] AnswerFile finish() {
     problems().throw_problems();
+    require_some_rows();
     if (columns_.group_by.empty() && tallies_.empty()) tallies_.emplace_back();
     if (columns_.group_by.empty() && file_.groups.empty()) file_.groups.emplace_back();
     for (std::size_t i = 0; i < tallies_.size(); ++i) {
@@ -137,10 +151,27 @@ class AnswerCollector final : public RowSink {
   }
 
  private:
+  /// A cell that no row has is a slip: another case of letters, or another language.
+  void require_some_rows() {
+    if (file_.num_rows == 0 || file_.num_elsewhere < file_.num_rows) return;
+    for (std::size_t i = 0; i < where_.size(); ++i) {
+      if (elsewhere_[i].empty()) continue;
+      std::string found;
+      for (const std::string& cell : elsewhere_[i]) {
+        found += (found.empty() ? "" : ", ") + shown_cell(cell);
+      }
+      throw core::Error(problems().name() + ": " + columns_.where[i].first +
+                        ": expected rows with " + shown_cell(columns_.where[i].second) +
+                        ", which --where asks for, found none; there are " + found);
+    }
+  }
   bool skips(std::string_view cell, const std::string& column) {
-    if (!is_missing(cell)) return false;
-    ++file_.num_missing[column];
-    return true;
+    if (is_missing(cell)) ++file_.num_missing[column];
+    return is_missing(cell);
+  }
+  bool skips_name(std::string_view cell, const std::string& column) {
+    if (is_missing_name(cell)) ++file_.num_missing[column];
+    return is_missing_name(cell);
   }
 
   Tallies& tallies_of(const std::vector<std::string_view>& cells) {
@@ -176,6 +207,7 @@ class AnswerCollector final : public RowSink {
   std::optional<std::size_t> trials_;
   std::vector<std::size_t> group_by_, where_, pooled_;
   std::vector<std::set<std::string>> pooled_cells_;
+  std::vector<std::set<std::string>> elsewhere_;  ///< Other cells of each of `where_`.
   std::vector<Tallies> tallies_;
   std::unordered_map<std::string, std::size_t> group_places_;
   std::string key_;

@@ -42,8 +42,12 @@ struct AnswerFile {
   std::vector<std::string> columns;
   std::int64_t num_rows = 0;       ///< Below the header.
   std::int64_t num_elsewhere = 0;  ///< Left out by `where`.
-  /// Left out because a cell that is needed is empty, NA, null, NaN or None: by column.
+  /// Left out because a cell that is needed is empty, NA, null, NaN or None, or, of a column
+  /// that groups, empty or NA: by column.
   std::map<std::string, std::int64_t> num_missing;
+  /// Where `yes_value` says what is a yes: trials of each other cell, of which all are a no; at
+  /// most 20 of them.
+  std::map<std::string, std::int64_t> num_no;
   /// Different cells of columns that tell people or conditions apart but are not grouped by;
   /// at most 1000 of each are counted.
   std::map<std::string, std::size_t> num_pooled;

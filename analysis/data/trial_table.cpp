@@ -26,7 +26,7 @@ class TrialCollector final : public RowSink {
     for (const std::string& variable : columns_.variables) {
       const auto found = std::ranges::find(header, variable);
       if (found == header.end()) throw UnknownColumn(problems().name(), variable, header);
-      variables_.push_back(static_cast<std::size_t>(found - header.begin()));
+      variables_.push_back(problems().place_of(variable, header, line));
     }
     yes_ = problems().place_of(columns_.answers.yes, header, line);
     if (columns_.answers.trials) {
@@ -54,7 +54,9 @@ class TrialCollector final : public RowSink {
     if (skips(cell(yes_), columns_.answers.yes)) return;
     if (trials_ && skips(trials, *columns_.answers.trials)) return;
     for (std::size_t i = 0; i < variables_.size(); ++i) {
-      if (skips(cell(variables_[i]), columns_.variables[i])) return;
+      if (!is_none(cell(variables_[i])) && skips(cell(variables_[i]), columns_.variables[i])) {
+        return;
+      }
     }
     const std::optional<CountedAnswers> counted =
         counted_answers(columns_.answers, cell(yes_), trials, decimal_comma, line, problems());
@@ -72,10 +74,64 @@ class TrialCollector final : public RowSink {
 
   [[nodiscard]] TrialTable finish() {
     problems().throw_problems();
+    leave_out_numbers_that_are_none();
     return std::move(table_);
   }
 
  private:
+  /// The name of a condition, or what Python and JSON write for no number: the other cells of
+  /// its column tell which.
+  static bool is_none(std::string_view cell) noexcept {
+    return same_word(cell, "none") || same_word(cell, "null");
+  }
+
+  /// In columns whose other cells are numbers.
+  void leave_out_numbers_that_are_none() {
+    std::vector<bool> stays(table_.num_rows(), true);
+    for (const TrialVariable& variable : table_.variables) {
+      std::size_t num_none = 0, num_numbers = 0;
+      for (std::size_t i = 0; i < variable.cells.size(); ++i) {
+        num_none += is_none(variable.cells[i]) ? 1 : 0;
+        num_numbers += std::isnan(variable.numbers[i]) ? 0 : 1;
+      }
+      if (num_none == 0 || num_numbers == 0 || num_none + num_numbers < variable.cells.size()) {
+        continue;
+      }
+      for (std::size_t row = 0; row < stays.size(); ++row) {
+        if (!stays[row] || !is_none(variable.cell(row))) continue;
+        stays[row] = false;
+        ++table_.num_missing[variable.name];
+      }
+    }
+    if (std::ranges::find(stays, false) == stays.end()) return;
+    for (std::vector<double>* counts : {&table_.num_yes, &table_.num_trials}) {
+      std::size_t num_kept = 0;
+      for (std::size_t row = 0; row < stays.size(); ++row) {
+        if (stays[row]) (*counts)[num_kept++] = (*counts)[row];
+      }
+      counts->resize(num_kept);
+    }
+    for (TrialVariable& variable : table_.variables) keep_rows(variable, stays);
+  }
+
+  /// And no cells but theirs.
+  static void keep_rows(TrialVariable& variable, const std::vector<bool>& stays) {
+    constexpr std::uint32_t kNotThere = 0xFFFFFFFF;
+    TrialVariable kept{.name = variable.name, .cells = {}, .numbers = {}, .place = {}};
+    std::vector<std::uint32_t> moved(variable.cells.size(), kNotThere);
+    for (std::size_t row = 0; row < stays.size(); ++row) {
+      if (!stays[row]) continue;
+      std::uint32_t& to = moved[variable.place[row]];
+      if (to == kNotThere) {
+        to = static_cast<std::uint32_t>(kept.cells.size());
+        kept.cells.push_back(variable.cell(row));
+        kept.numbers.push_back(variable.number(row));
+      }
+      kept.place.push_back(to);
+    }
+    variable = std::move(kept);
+  }
+
   bool skips(std::string_view cell, const std::string& column) {
     if (!is_missing(cell)) return false;
     ++table_.num_missing[column];

@@ -1,7 +1,9 @@
 #include "analysis/mixed/mixed_table.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 namespace jnd::analysis {
@@ -154,6 +156,53 @@ MixedData mixed_data(const MixedFormulas& formulas, const Design& fixed,
     }
   }
   return data;
+}
+
+namespace {
+
+/// Whether some group has rows with different cells of the column.
+bool varies_within(const TrialVariable& variable,
+                   const std::vector<const TrialVariable*>& groups) {
+  std::map<std::vector<std::uint32_t>, std::uint32_t> first;
+  for (std::size_t row = 0; row < variable.place.size(); ++row) {
+    std::vector<std::uint32_t> group;
+    for (const TrialVariable* column : groups) group.push_back(column->place[row]);
+    const auto known = first.try_emplace(std::move(group), variable.place[row]).first;
+    if (known->second != variable.place[row]) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<EffectOfAll> effects_of_all(const MixedFormulas& formulas,
+                                        const TrialTable& table) {
+  std::vector<EffectOfAll> found;
+  const std::set<std::string> groups = [&] {
+    std::set<std::string> names;
+    for (const RandomTerm& term : formulas.random) names.insert(term.group);
+    return names;
+  }();
+  for (const std::string& group : groups) {
+    std::set<std::string> random;
+    std::vector<const TrialVariable*> columns;
+    for (const RandomTerm& term : formulas.random) {
+      if (term.group != group) continue;
+      for (const FormulaVariable& one : term.effects.variables) random.insert(one.column);
+      columns.clear();
+      for (const std::string& column : term.group_columns)
+        columns.push_back(table.find(column));
+    }
+    for (const FormulaVariable& variable : formulas.fixed.variables) {
+      const TrialVariable* column = table.find(variable.column);
+      if (column == nullptr || random.contains(variable.column)) continue;
+      if (std::ranges::find(columns, nullptr) != columns.end()) continue;
+      if (!varies_within(*column, columns)) continue;
+      random.insert(variable.column);
+      found.push_back({.column = variable.column, .group = group});
+    }
+  }
+  return found;
 }
 
 }  // namespace jnd::analysis

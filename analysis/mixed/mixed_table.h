@@ -34,6 +34,17 @@ inline constexpr const char* kPreviousAnswer = "previous_answer";
 std::size_t add_history(TrialTable& table, const std::string& stimulus,
                         const std::string& person);
 
+/// A fixed effect that people could differ in, and may not in this model.
+struct EffectOfAll {
+  std::string column, group;  ///< `group`: as R names it.
+};
+
+/// Columns of the fixed effects that have several values within a group of a random term, and
+/// none of whose random effects. Where people do differ in such an effect, its standard error
+/// is too small (Barr et al. 2013).
+[[nodiscard]] std::vector<EffectOfAll> effects_of_all(const MixedFormulas& formulas,
+                                                      const TrialTable& table);
+
 /// Answers and matrices of the formulas over the rows of the table. `fixed` is the design of
 /// the fixed effects. Throws as `Design`; `core::Error` where there is no random term.
 [[nodiscard]] MixedData mixed_data(const MixedFormulas& formulas, const Design& fixed,

@@ -71,13 +71,27 @@ std::string with_other_fonts(const std::string& svg) {
   return text.append(svg, from);
 }
 
+/// Without the marks of bars that have none: gnuplot draws them at the scale 0, and readers
+/// that invert every scale, as librsvg does, refuse the whole picture for that.
+std::string without_empty_marks(const std::string& svg) {
+  std::string text;
+  std::size_t from = 0;
+  while (from < svg.size()) {
+    const std::size_t end = std::min(svg.find('\n', from), svg.size() - 1) + 1;
+    const std::string_view line = std::string_view(svg).substr(from, end - from);
+    if (line.find(" scale(0.00)'") == std::string_view::npos) text += line;
+    from = end;
+  }
+  return text;
+}
+
 DrawnFigure draw(const Figure& figure, const fs::path& folder, const FigureOptions& options) {
   DrawnFigure drawn{.name = figure.name};
   const ToolOutcome outcome = run_tool(options.gnuplot, {figure.name + ".gp"}, folder);
   const fs::path svg = folder / (figure.name + ".svg");
   const fs::path pdf = folder / (figure.name + ".pdf");
   if (outcome.ok) {
-    drawn.svg = with_other_fonts(text_of(svg));
+    drawn.svg = without_empty_marks(with_other_fonts(text_of(svg)));
     require_whole(svg, drawn.svg, "</svg>");
     write_text_file(svg, drawn.svg);
     require_whole(pdf, text_of(pdf), "%%EOF");

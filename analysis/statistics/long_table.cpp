@@ -51,10 +51,18 @@ void complete_people(LongGroup& group, const std::vector<Row>& rows) {
   }
 }
 
+/// `conditions`: of the whole table, so that a and b are the same in every group.
 LongGroup group_of(std::vector<std::pair<std::string, std::string>> key,
-                   const std::vector<Row>& rows, const LongColumns& columns) {
+                   const std::vector<Row>& rows, const std::vector<std::string>& conditions,
+                   const LongColumns& columns) {
   LongGroup group{.key = std::move(key)};
-  group.conditions = columns.levels.empty() ? in_order(rows, &Row::condition) : columns.levels;
+  group.conditions = columns.levels;
+  if (columns.levels.empty()) {
+    std::ranges::copy_if(conditions, std::back_inserter(group.conditions),
+                         [&](const std::string& condition) {
+                           return std::ranges::count(rows, condition, &Row::condition) > 0;
+                         });
+  }
   for (const std::string& condition : group.conditions) {
     std::vector<double>& values = group.values.emplace_back();
     for (const Row& row : rows) {
@@ -97,8 +105,8 @@ class LongCollector : public RowSink {
     };
     Row row{.condition = std::string(cell(by_)),
             .person = pair_ ? std::string(cell(*pair_)) : ""};
-    if (is_missing(cell(value_)) || is_missing(row.condition) ||
-        (pair_ && is_missing(row.person))) {
+    if (is_missing(cell(value_)) || is_missing_name(row.condition) ||
+        (pair_ && is_missing_name(row.person))) {
       ++num_missing_;
       return;
     }
@@ -131,7 +139,7 @@ class LongCollector : public RowSink {
     }
     LongTable table{.groups = {}, .num_missing = num_missing_};
     for (auto& [key, rows] : groups_) {
-      table.groups.push_back(group_of(std::move(key), rows, columns_));
+      table.groups.push_back(group_of(std::move(key), rows, known_, columns_));
     }
     return table;
   }

@@ -163,8 +163,9 @@ void print_detection(const DetectionResult& result) {
     fmt::print("  no threshold: {}\n", fit.reason);
     return;
   }
-  fmt::print("  threshold       {:<9} 95 % {}  felt in half of the trials\n",
-             number(fit.threshold), whole_range(fit.threshold_ci95));
+  fmt::print(
+      "  threshold       {:<9} 95 % {}  felt in half of the trials, less the false alarms\n",
+      number(fit.threshold), whole_range(fit.threshold_ci95));
   fmt::print("  spread          {:<9} 95 % {}  standard deviation of ln intensity\n",
              number(fit.spread_ln), whole_range(fit.spread_ln_ci95));
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -109,6 +110,12 @@ void require_glmm_options(const FitGlmmOptions& options) {
     throw UsageError(
         fmt::format("--jnd-at: expected a number between 0 and 1 that is not 0.5, found {}",
                     options.jnd_at));
+  }
+  if (!options.says_guess && analysis::is_called_right(options.yes)) {
+    throw UsageError(fmt::format(
+        "{}: {} sounds like right answers, which chance alone gives in a forced choice: say "
+        "--guess 0.5 if it was one of two, --guess 0 if a yes is what was felt",
+        options.csv, options.yes));
   }
   if (std::stod(options.guess) + std::stod(options.lapse) >= 1.0) {
     throw UsageError(fmt::format(
@@ -215,6 +222,29 @@ void add_derived(const FitGlmmOptions& options, const analysis::MixedOptions& ho
   }
 }
 
+/// What makes standard errors too small, whatever the fit.
+void add_cautions(GlmmResult& result) {
+  std::map<std::string, std::vector<std::string>> same_for_all;
+  for (const auto& [column, group] : analysis::effects_of_all(result.formulas, result.table)) {
+    if (!column.starts_with("previous_")) same_for_all[group].push_back(column);
+  }
+  for (const auto& [group, columns] : same_for_all) {
+    result.notes.push_back(fmt::format(
+        "the model takes the effect of {} as the same in each {}, within which it differs: "
+        "where "
+        "the effects are not the same, their standard errors and p are far too small; --random "
+        "\"1 + {} | {}\" lets them differ",
+        fmt::join(columns, " and of "), group, fmt::join(columns, " + "), group));
+  }
+  constexpr std::size_t kFewGroups = 20;
+  for (const auto& [name, number] : result.groups) {
+    if (number >= kFewGroups) continue;
+    result.notes.push_back(fmt::format(
+        "z, p and intervals hold for many groups: with {} of {} they are somewhat too sure",
+        number, name));
+  }
+}
+
 /// Fits the model to the result's table.
 void fit_glmm_table(const FitGlmmOptions& options, GlmmResult& result) {
   add_trial_before(options, result);
@@ -253,6 +283,7 @@ void fit_glmm_table(const FitGlmmOptions& options, GlmmResult& result) {
   }
   result.fit = refit->fit();
   result.notes.insert(result.notes.end(), result.fit.notes.begin(), result.fit.notes.end());
+  add_cautions(result);
   if (result.fit.status == FitStatus::kOk && !options.stimulus.empty()) {
     add_derived(options, how, *refit, result);
   }
@@ -491,8 +522,10 @@ void add_fit_glmm(CLI::App& fit, Invocation& invocation) {
       ->check(CLI::IsMember({"r", "python"}));
   add_figure_option(command, options->figure);
   command.add_flag("--json", options->json, "print one JSON document");
-  command.callback(
-      [&invocation, options] { invocation.run = [options] { return fit_glmm(*options); }; });
+  command.callback([&invocation, &command, options] {
+    options->says_guess = command.count("--guess") > 0;
+    invocation.run = [options] { return fit_glmm(*options); };
+  });
 }
 
 }  // namespace jnd::app

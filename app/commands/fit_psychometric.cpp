@@ -54,6 +54,12 @@ void ask_for_task(const CurveAnalysis& curves) {
         "--yes response",
         curves.request.csv));
   }
+  if (curves.is_suspected_by_name) {
+    throw UsageError(fmt::format(
+        "{}: {} sounds like right answers, which chance alone gives in a forced choice: say "
+        "--task mafc:M if it was one among M, --task yes-no if a yes is what was felt",
+        curves.request.csv, curves.request.yes));
+  }
   const double chance = *curves.suspected_chance;
   const long alternatives = std::lround(1.0 / chance);
   throw UsageError(fmt::format(

@@ -215,8 +215,11 @@ def counts():
     for row in rows():
         if any(row.get(one.split("=", 1)[0]) != one.split("=", 1)[1] for one in WHERE):
             continue
-        needed = [INTENSITY, YES] + ([TRIALS] if TRIALS else []) + GROUP_BY
+        needed = [INTENSITY, YES] + ([TRIALS] if TRIALS else [])
         cells = [(row.get(name) or "").strip() for name in needed]
+        names = [(row.get(name) or "").strip() for name in GROUP_BY]
+        if any(cell.lower() in ("", "na") for cell in names):
+            continue
         if any(cell.lower() in ("", "na", "nan", "null", "none") for cell in cells):
             continue
         trials = number(row[TRIALS]) if TRIALS else 1

@@ -15,6 +15,7 @@ namespace jnd::app {
 struct FitGlmmOptions : AnswerRequest {
   std::string fixed;
   std::vector<std::string> random;
+  bool says_guess = false;  ///< Somebody gave --guess.
   std::string link = "probit", contrasts = "treatment", guess = "0", lapse = "0";
   std::string stimulus, terms, script, figure;
   double jnd_at = 0.75;

@@ -100,7 +100,8 @@ std::string glmm_script(const FitGlmmOptions& options, const GlmmResult& result)
   for (const std::string& one : options.random) text += " + " + random_in_r(one);
   text += fmt::format(
       ",\n  data = data, family = family, nAGQ = {},\n"
-      "  control = glmerControl(optimizer = \"bobyqa\", optCtrl = list(maxfun = 1e5)))\n",
+      "  control = glmerControl(optimizer = \"bobyqa\", optCtrl = list(maxfun = 1e5),\n"
+      "    tolPwrss = 1e-13))  # By its usual one the last digits of lme4 are not settled.\n",
       has_quadrature ? options.num_nodes : 1);
   text +=
       "print(summary(fit), correlation = FALSE)\n"

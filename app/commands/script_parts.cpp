@@ -20,7 +20,7 @@ std::string r_table_text(const AnswerRequest& options) {
   std::string text;
   text += "file <- " + quoted(options.csv) + "\n";
   text +=
-      "missing <- c(\"NA\", \"na\", \"NaN\", \"null\", \"None\", \"\")\n"
+      "missing <- c(\"NA\", \"na\", \"NaN\", \"\")\n"
       "if (grepl(\"^\\\\s*[\\\\[{]\", readLines(file, 1, warn = FALSE))) {\n"
       "  data <- jsonlite::flatten(jsonlite::fromJSON(file))\n"
       "} else {\n"
@@ -49,7 +49,14 @@ std::string r_answers_text(const AnswerRequest& options) {
   const std::string trials = trials_column(options);
   text += trials.empty() ? "n <- rep(1, nrow(data))\n"
                          : "n <- number(data[[" + quoted(trials) + "]])\n";
-  text += "answer <- as.character(data[[" + quoted(yes_column(options)) + "]])\n";
+  text += "answer <- data[[" + quoted(yes_column(options)) +
+          "]]\n"
+          "# Of JSON, cells without an answer and answers in parts are lists.\n"
+          "if (is.list(answer)) {\n"
+          "  answer <- sapply(answer, function(cell) if (length(cell) == 1) "
+          "as.character(cell) else NA)\n"
+          "}\n"
+          "answer <- as.character(answer)\n";
   if (!options.yes_value.empty()) {
     text += "yes <- n * (answer == " + quoted(options.yes_value) + ")\n";
   } else {

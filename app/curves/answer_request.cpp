@@ -71,6 +71,17 @@ std::vector<std::string> notes_of(const analysis::AnswerFile& file,
     notes.push_back(fmt::format("left out {} of {} rows, which have nothing in the column {}",
                                 number, file.num_rows, column));
   }
+  if (file.num_no.size() > 1) {
+    std::string words;
+    for (const auto& [cell, number] : file.num_no) {
+      words += fmt::format("{}{} of {}", words.empty() ? "" : ", ", number,
+                           cell.empty() ? "nothing" : analysis::shown_cell(cell));
+    }
+    notes.push_back(fmt::format(
+        "--yes-value {}: every other cell counts as a no, and there are several: {}; --where "
+        "leaves out rows that are no answers",
+        request.yes_value, words));
+  }
   for (const auto& [column, number] : file.num_pooled) {
     notes.push_back(fmt::format(
         "answers of {} values of the column {} are added up into one curve, which is flatter "

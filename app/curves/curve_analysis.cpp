@@ -81,6 +81,10 @@ CurveAnalysis read_curves(const CurveRequest& request) {
     if (exported == ExportedAnswers::kRight && !curves.suspected_chance) {
       curves.suspected_chance = kOfThreeIntervals;
     }
+    if (!curves.suspected_chance && analysis::is_called_right(request.yes)) {
+      curves.suspected_chance = 0.5;
+      curves.is_suspected_by_name = true;
+    }
   }
   return curves;
 }

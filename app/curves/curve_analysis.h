@@ -27,6 +27,7 @@ struct CurveAnalysis {
   /// program's own export, and nobody said what the task was. Who asked decides before there
   /// are fits.
   std::optional<double> suspected_chance;
+  bool is_suspected_by_name = false;     ///< Of the column of answers alone: `is_called_right`.
   std::vector<analysis::CurveFit> fits;  ///< One a group.
   std::optional<analysis::CurveComparison> comparison;
 };

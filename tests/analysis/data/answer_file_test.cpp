@@ -1,5 +1,7 @@
 #include "analysis/data/answer_file.h"
 
+#include "analysis/data/answer_cells.h"
+
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -66,6 +68,46 @@ TEST(AnswerFile, LeavesOutAndCountsRowsWithoutAnAnswer) {
   EXPECT_EQ(file.num_missing.at("x"), 3);
   EXPECT_EQ(file.num_missing.at("r"), 1);
   ASSERT_EQ(file.groups.at(0).tallies.size(), 1U);
+}
+
+TEST(AnswerFile, AConditionMayBeCalledNone) {
+  AnswerColumns columns = kTrials;
+  columns.group_by = {"drug"};
+  const AnswerFile file = parse_answers(
+      "drug,x,r\nnone,1,1\nNA,1,1\nNull,1,0\n,1,0\nlow,None,1\n", "t.csv", columns);
+  ASSERT_EQ(file.groups.size(), 2U);
+  EXPECT_EQ(file.groups[0].key[0].second, "none");
+  EXPECT_EQ(file.groups[1].key[0].second, "Null");
+  EXPECT_EQ(file.num_missing.at("drug"), 2);
+  EXPECT_EQ(file.num_missing.at("x"), 1);
+}
+
+TEST(AnswerFile, TwoColumnsOfOneNameAreRefusedWhereTheyAreUsed) {
+  EXPECT_NE(problem("x,r,r\n1,1,0\n", kTrials)
+                .find("t.csv:1: r: expected one column of this name, found 2"),
+            std::string::npos);
+  EXPECT_EQ(problem("x,r,rt,rt\n1,1,0,0\n", kTrials), "");
+}
+
+TEST(AnswerFile, TellsWhatEveryNoWasAndACellThatNoRowHas) {
+  AnswerColumns columns = kTrials;
+  columns.yes_value = "1";
+  const AnswerFile file = parse_answers("x,r\n1,1\n1,0\n2,9\n2,9\n", "t.csv", columns);
+  EXPECT_EQ(file.num_no.at("0"), 1);
+  EXPECT_EQ(file.num_no.at("9"), 2);
+  columns.where = {{"block", "Main"}};
+  EXPECT_EQ(problem("x,r,block\n1,1,main\n1,0,practice\n", columns),
+            "t.csv: block: expected rows with \"Main\", which --where asks for, found none; "
+            "there are \"main\", \"practice\"");
+}
+
+TEST(AnswerFile, ColumnsOfRightAnswersAreKnownByTheirNames) {
+  for (const char* name : {"correct", "Correct", "corr", "key_resp.corr", "ACC"}) {
+    EXPECT_TRUE(is_called_right(name)) << name;
+  }
+  for (const char* name : {"yes", "correction", "response", "corr.rt", ""}) {
+    EXPECT_FALSE(is_called_right(name)) << name;
+  }
 }
 
 TEST(AnswerFile, GroupsAndTakesTheRowsThatAreAskedFor) {

@@ -54,6 +54,21 @@ TEST(TrialTable, ReadsCountsDecimalCommasAndWhere) {
   EXPECT_EQ(table.num_yes[0], 3.0);
 }
 
+TEST(TrialTable, NoneIsTheNameOfAConditionAndNoNumber) {
+  const TrialTable table =
+      parse_trial_table("drug,u,r\nnone,1,1\nlow,2,0\nhigh,None,1\nlow,3,0\n", "t.csv",
+                        {.answers = {.yes = "r", .yes_value = {}, .trials = {}},
+                         .variables = {"drug", "u"},
+                         .where = {}});
+  ASSERT_EQ(table.num_rows(), 3U);
+  EXPECT_EQ(table.num_missing.at("u"), 1);
+  EXPECT_EQ(table.find("drug")->cells, (std::vector<std::string>{"none", "low"}));
+  EXPECT_TRUE(table.find("u")->is_numeric());
+  EXPECT_EQ(table.find("u")->number(2), 3.0);
+  EXPECT_EQ(table.find("drug")->cell(2), "low");
+  EXPECT_EQ(table.num_yes, (std::vector<double>{1, 0, 0}));
+}
+
 TEST(TrialTable, NamesAColumnThatIsNotThere) {
   const TrialColumns columns = {.answers = {.yes = "answer", .yes_value = {}, .trials = {}},
                                 .variables = {"v"},

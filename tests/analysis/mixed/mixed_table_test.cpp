@@ -64,6 +64,24 @@ TEST(MixedTables, GroupsOfTwoColumnsAreTheirPairs) {
   EXPECT_EQ(data.terms[0].place, (std::vector<std::uint32_t>{0, 1, 2, 0}));
 }
 
+TEST(MixedTables, EffectsThatAreTheSameForAllAreNamedWherePeopleCouldDiffer) {
+  // Everybody has both conditions; nobody has both sexes.
+  const TrialTable table = trials({"u", "c", "sex", "p"},
+                                  "p,sex,c,u,y\na,f,x,1,1\na,f,z,2,0\nb,m,x,1,1\nb,m,z,2,0\n");
+  const auto named = [&table](const char* random) {
+    std::string names;
+    for (const EffectOfAll& one :
+         effects_of_all({parse_formula("u * c * sex"), parse_random_terms(random)}, table)) {
+      names += one.column + "|" + one.group + " ";
+    }
+    return names;
+  };
+  EXPECT_EQ(named("1 | p"), "u|p c|p ");
+  EXPECT_EQ(named("1 + log(u) | p"), "c|p ");
+  EXPECT_EQ(named("(1 + u | p) + (0 + c | p)"), "");
+  EXPECT_EQ(named("1 + u | p:c"), "") << "within a person's condition it does not vary";
+}
+
 TEST(MixedTables, ABarWithoutEffectsIsRefused) {
   const MixedFormulas formulas{parse_formula("u"), parse_random_terms("0 | a")};
   const TrialTable table = trials({"u", "a"}, "u,a,y\n1,x,0\n2,y,1\n");

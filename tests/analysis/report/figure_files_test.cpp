@@ -96,6 +96,18 @@ TEST_F(DrawnFigureTest, TheSameFigureGivesTheSameBytesWheneverItIsDrawn) {
   EXPECT_NE(a[0].svg.find("SIMULATED"), std::string::npos);
 }
 
+TEST_F(DrawnFigureTest, BarsWithoutAMarkLeaveNothingThatCannotBeInverted) {
+  const test_support::TemporaryFolder temporary;
+  Figure figure = small_figure("Bars");
+  figure.plot =
+      "  plot " + from_table(figure.tables[0]) + "'x':'y':(0.1) with yerrorbars pt 7 ps 0\n";
+  const auto drawn = write_figures({figure}, temporary.path(), {.gnuplot = gnuplot_});
+  ASSERT_EQ(drawn[0].problem, "");
+  EXPECT_EQ(drawn[0].svg.find("scale(0.00)"), std::string::npos);
+  EXPECT_NE(drawn[0].svg.find("</svg>"), std::string::npos);
+  EXPECT_NE(drawn[0].svg.find("<path"), std::string::npos) << "the bars stay";
+}
+
 TEST_F(DrawnFigureTest, AFigureThatCannotBeDrawnDoesNotKeepTheOthers) {
   const test_support::TemporaryFolder temporary;
   Figure broken = small_figure();

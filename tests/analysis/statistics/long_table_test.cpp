@@ -58,6 +58,16 @@ TEST(LongTable, GroupsComeInTheOrderOfTheirFirstRows) {
   EXPECT_THAT(table.groups[1].values[1], ElementsAre(0.3, 0.5));
 }
 
+TEST(LongTable, ConditionsHaveOneOrderInEveryGroupAndMayBeCalledNone) {
+  const LongTable table = read({.value = "w", .by = "drug", .group_by = {"sex"}},
+                               "sex,drug,w\nf,none,1\nf,low,2\nm,low,3\nm,none,4\nm,NA,5\n");
+  ASSERT_EQ(table.groups.size(), 2U);
+  EXPECT_THAT(table.groups[0].conditions, ElementsAre("none", "low"));
+  EXPECT_THAT(table.groups[1].conditions, ElementsAre("none", "low"));
+  EXPECT_THAT(table.groups[1].values[0], ElementsAre(4.0));
+  EXPECT_EQ(table.num_missing, 1);
+}
+
 std::string problem_of(const LongColumns& columns, const char* text = kRows) {
   try {
     const LongTable table = parse_long(text, "t.csv", columns);

@@ -158,6 +158,32 @@ TEST_F(FitGlmm, RefusesWhatDoesNotGoTogether) {
   EXPECT_EQ(of_counts(with({"--stimulus", "u", "--terms", "history"})).exit_code, 1);
 }
 
+TEST_F(FitGlmm, SaysWhatMakesItTooSure) {
+  const ProgramOutcome same = of_counts(with({}), false);
+  EXPECT_NE(same.out.find("takes the effect of condition as the same in each participant"),
+            std::string::npos)
+      << same.out;
+  EXPECT_NE(same.out.find("with 4 of participant they are somewhat too sure"),
+            std::string::npos);
+  const ProgramOutcome differ = of_counts(
+      {"--fixed", "u * condition", "--random", "1 + u + condition | participant"}, false);
+  EXPECT_EQ(differ.out.find("as the same in each"), std::string::npos) << differ.out;
+}
+
+TEST_F(FitGlmm, RightAnswersAskForTheirChance) {
+  std::string text = counts();
+  text.replace(text.find(",k,"), 3, ",correct,");
+  table("r.csv", text);
+  Words words = {"--csv", "r.csv", "--yes", "correct", "--trials", "n"};
+  words.insert(words.end(), kModel.begin(), kModel.end());
+  const ProgramOutcome asked = glmm(words, false);
+  EXPECT_EQ(asked.exit_code, 2);
+  EXPECT_NE(asked.err.find("correct sounds like right answers"), std::string::npos)
+      << asked.err;
+  words.insert(words.end(), {"--guess", "0"});
+  EXPECT_EQ(glmm(words, false).exit_code, 0);
+}
+
 TEST_F(FitGlmm, SeparatedAnswersAreSaidSo) {
   table("s.csv", "p,u,k,n\na,1,0,9\na,2,9,9\nb,1,0,9\nb,2,9,9\n");
   const ProgramOutcome outcome = glmm(
