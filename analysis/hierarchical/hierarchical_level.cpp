@@ -18,7 +18,7 @@ double slope_of(HierarchicalLink link, double number) noexcept {
 }
 
 AnswerProbabilities answer_probabilities(double z, double lapse_rate, double guess_rate,
-                                         bool has_yes, bool has_no) noexcept {
+                                         AnswersWanted wanted) noexcept {
   if (lapse_rate == 0.0 && guess_rate == 0.0) {
     const LogNormalTails tails = log_normal_tails(z);
     return {tails.log_lower, tails.log_upper, tails.mills_lower, tails.mills_upper};
@@ -30,12 +30,12 @@ AnswerProbabilities answer_probabilities(double z, double lapse_rate, double gue
     const double by_z = share * tails.density, by_lapse = tails.upper - tails.lower;
     // Most levels far from the reference have answers of one kind, and logarithms are dear.
     AnswerProbabilities found{};
-    if (has_yes) {
+    if (wanted.of_yes) {
       found.log_yes = std::log(yes);
       found.by_z_yes = by_z / yes;
       found.by_lapse_yes = by_lapse / yes;
     }
-    if (has_no) {
+    if (wanted.of_no) {
       found.log_no = std::log(no);
       found.by_z_no = by_z / no;
       found.by_lapse_no = -by_lapse / no;

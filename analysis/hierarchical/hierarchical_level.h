@@ -22,10 +22,15 @@ struct AnswerProbabilities {
   double by_lapse_yes = 0, by_lapse_no = 0;  ///< d ln f / d lapse, d ln g / d lapse
 };
 
-/// `has_yes`, `has_no`: whether what belongs to such an answer is wanted; else it may be 0.
+/// What is wanted of them; the rest may be 0.
+struct AnswersWanted {
+  bool of_yes = true, of_no = true;
+  bool by_z = true, by_lapse = true;  ///< The derivatives.
+};
+
 [[nodiscard]] AnswerProbabilities answer_probabilities(double z, double lapse_rate,
-                                                       double guess_rate, bool has_yes = true,
-                                                       bool has_no = true) noexcept;
+                                                       double guess_rate,
+                                                       AnswersWanted wanted = {}) noexcept;
 
 /// What one kind of answers to a level, yes or no, adds where answers scatter. Their
 /// probability p is drawn from a beta distribution about the curve, so that two of them

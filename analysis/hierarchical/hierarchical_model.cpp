@@ -13,6 +13,10 @@
 namespace jnd::analysis {
 namespace {
 
+/// A table is some 1,300 probabilities itself; below this a study of a dozen people is
+/// computed.
+constexpr double kManyProbabilities = 12'000.0;
+
 using Totals = std::vector<std::pair<double, double>>;
 
 /// How many answers each level of each person has, and how many levels have as many.
@@ -77,6 +81,20 @@ HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& stru
   }
   for (OwnEffects& own : own_) own.grid = grid_of(num_nodes, own.num);
   shared_grid_ = grid_of(num_nodes, structure.num_random_effects - first_shared_);
+  // Own lapse rates are another one at each node.
+  has_table_ = !structure.has_own_lapses && num_probabilities() >= kManyProbabilities;
+}
+
+double HierarchicalLikelihood::num_probabilities() const {
+  double num = 0.0;
+  for (const HierarchicalPerson& person : people_) {
+    for (const HierarchicalCell& cell : person) {
+      const OwnEffects& own = own_[static_cast<std::size_t>(cell.condition)];
+      num += static_cast<double>(cell.log_ratio.size() * own.grid.node.size() *
+                                 shared_grid_.node.size());
+    }
+  }
+  return num;
 }
 
 HierarchicalLikelihood::Population HierarchicalLikelihood::population_of(
@@ -89,7 +107,17 @@ HierarchicalLikelihood::Population HierarchicalLikelihood::population_of(
   for (const HierarchicalStructure::Loading& one : structure_.loadings) {
     population.loadings(one.number, one.random_effect) = parameters(one.parameter);
   }
+  if (has_table_) {
+    table_.set(population.lapse_rate, structure_.guess_rate);
+    population.table = &table_;
+  }
   return population;
+}
+
+AnswerProbabilities HierarchicalLikelihood::answer_at(double z, const Population& population,
+                                                      AnswersWanted wanted) const noexcept {
+  if (population.table != nullptr) return population.table->at(z, wanted);
+  return answer_probabilities(z, population.lapse_rate, structure_.guess_rate, wanted);
 }
 
 double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
@@ -119,8 +147,12 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalCell& cell,
     const Predictor at =
         predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level]);
     const double yes = cell.num_yes[level], no = cell.num_no[level];
-    const AnswerProbabilities answer = answer_probabilities(
-        at.z, population.lapse_rate, structure_.guess_rate, yes > 0.0, no > 0.0);
+    // A count of 0 asks for nothing.
+    const AnswerProbabilities answer = answer_at(at.z, population,
+                                                 {.of_yes = yes > 0.0,
+                                                  .of_no = no > 0.0,
+                                                  .by_z = score != nullptr,
+                                                  .by_lapse = score != nullptr});
     if (scatter > 0.0 && score == nullptr) {
       value += scattered_value(yes, answer.log_yes, scatter) +
                scattered_value(no, answer.log_no, scatter);
@@ -181,8 +213,7 @@ HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivativ
         place_row += cell.order[level] * loadings.row(order_at).transpose();
       }
       const Predictor here = predictor(structure_.link, slope, place, cell.log_ratio[level]);
-      const AnswerProbabilities answer =
-          answer_probabilities(here.z, population.lapse_rate, structure_.guess_rate);
+      const AnswerProbabilities answer = answer_at(here.z, population, {.by_lapse = false});
       const double yes = cell.num_yes[level], no = cell.num_no[level];
       double by_z = yes * answer.by_z_yes - no * answer.by_z_no;
       double expected = (yes + no) * answer.by_z_yes * answer.by_z_no;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/fits/answer_scatter.h"
+#include "analysis/hierarchical/answer_table.h"
 #include "analysis/hierarchical/hierarchical_quadrature.h"
 #include "analysis/hierarchical/hierarchical_structure.h"
 
@@ -46,6 +47,9 @@ class HierarchicalLikelihood {
   /// Whether the integral, own lapses aside, is one node's: Laplace's approximation.
   [[nodiscard]] bool is_laplace() const noexcept { return is_laplace_; }
 
+  /// Whether probabilities of answers are read off an `AnswerTable`, for they are so many.
+  [[nodiscard]] bool reads_a_table() const noexcept { return has_table_; }
+
   /// Each person's most likely numbers, given the parameters and the person's answers.
   [[nodiscard]] std::vector<Eigen::VectorXd> modes(const Eigen::VectorXd& parameters) const;
 
@@ -70,6 +74,8 @@ class HierarchicalLikelihood {
     Loadings loadings;
     double lapse_rate = 0.0;
     double scatter = 0.0;  ///< phi of `scattered_side`; 0 where answers are independent.
+    /// At the lapse rate; none where few answers are asked for.
+    const AnswerTable* table = nullptr;
 
     [[nodiscard]] Numbers at(const RandomEffects& effects) const {
       return median + loadings * effects;
@@ -113,6 +119,10 @@ class HierarchicalLikelihood {
   };
 
   [[nodiscard]] Population population_of(const Eigen::VectorXd& parameters) const;
+  /// How many probabilities of answers one value needs.
+  [[nodiscard]] double num_probabilities() const;
+  [[nodiscard]] AnswerProbabilities answer_at(double z, const Population& population,
+                                              AnswersWanted wanted) const noexcept;
   /// Log-likelihood of a person with these numbers.
   [[nodiscard]] double log_likelihood(const HierarchicalPerson& person, const Numbers& numbers,
                                       const Population& population) const;
@@ -154,6 +164,7 @@ class HierarchicalLikelihood {
   int first_shared_ = 0;
   GaussHermiteGrid shared_grid_;
   bool is_laplace_ = false;
+  bool has_table_ = false;  ///< One value asks for so many probabilities that a table pays.
   LapseNodes lapse_nodes_;  ///< A single one without own lapses.
   /// Of each person how many answers there are to a level, and to how many levels as many.
   std::vector<std::vector<std::pair<double, double>>> totals_;
@@ -161,6 +172,7 @@ class HierarchicalLikelihood {
   mutable std::vector<RandomEffects> last_;
   /// Where `of_people` was asked last, and what it said: the searches ask again.
   mutable Eigen::VectorXd last_parameters_, last_values_;
+  mutable AnswerTable table_;
 };
 
 }  // namespace jnd::analysis

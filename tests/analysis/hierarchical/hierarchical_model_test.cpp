@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -90,6 +91,92 @@ TEST(HierarchicalModel, EffectsOfOneConditionComeBeforeThoseOfSeveral) {
   // The second of two correlated slopes has a part of its own.
   EXPECT_EQ(pair.conditions_of_effects(),
             (std::vector<int>{0, 1, 1, HierarchicalStructure::kSeveral}));
+}
+
+/// So many people in one condition, each with answers of their own to six levels.
+HierarchicalArrangement different_people(int num_people) {
+  std::vector<ParticipantAnswers> all;
+  for (int person = 0; person < num_people; ++person) {
+    ParticipantAnswers one{"P" + std::to_string(person), "", 1.0, {}};
+    std::int64_t level = 0;
+    for (const double x : {0.6, 0.8, 0.95, 1.1, 1.3, 1.7}) {
+      const std::int64_t num_yes = 2 * level + (person * (level + 3) + level) % 4 - 1;
+      one.rows.push_back({x, std::clamp<std::int64_t>(num_yes, 0, 12), 12});
+      ++level;
+    }
+    all.push_back(std::move(one));
+  }
+  return arranged(all);
+}
+
+/// Where a fit of them may ask: slope and place of the median person, both spreads and the
+/// angle of the lapse rate.
+Eigen::VectorXd somewhere(const HierarchicalStructure& structure, double angle) {
+  Eigen::VectorXd at(structure.num_parameters);
+  at << 1.4, 0.05, 0.3, 0.1, angle;
+  return at;
+}
+
+class ManyPeople : public ::testing::TestWithParam<HierarchicalOptions> {};
+
+/// Thirty people ask for 14,580 probabilities, which are read off a table; two for 972.
+TEST_P(ManyPeople, HaveTheLikelihoodsThatFewOfThemHave) {
+  const HierarchicalArrangement all = different_people(30);
+  const HierarchicalStructure structure = structure_of(all, GetParam());
+  const HierarchicalLikelihood many(structure, all.people, 9);
+  ASSERT_TRUE(many.reads_a_table());
+  for (const double angle : {0.0, 1e-3, 0.2}) {
+    const Eigen::VectorXd at = somewhere(structure, angle);
+    Eigen::MatrixXd scores;
+    const Eigen::VectorXd values = many.of_people(at, &scores);
+    double sum = 0.0;
+    for (std::size_t first = 0; first < all.people.size(); first += 2) {
+      const HierarchicalLikelihood two(structure, {all.people[first], all.people[first + 1]},
+                                       9);
+      ASSERT_FALSE(two.reads_a_table());
+      Eigen::MatrixXd two_scores;
+      const Eigen::VectorXd two_values = two.of_people(at, &two_scores);
+      const auto place = static_cast<Eigen::Index>(first);
+      EXPECT_LT((values.segment(place, 2) - two_values).cwiseAbs().maxCoeff(), 1e-8)
+          << angle << ' ' << first;
+      EXPECT_LT((scores.middleCols(place, 2) - two_scores).cwiseAbs().maxCoeff(), 1e-6)
+          << angle << ' ' << first;
+      sum += two_values.sum();
+    }
+    EXPECT_NEAR(many(at) - structure.log_prior(at), sum, 1e-9 * std::fabs(sum)) << angle;
+    // Every parameter counts, or the above would prove nothing of it.
+    EXPECT_GT(scores.topRows(4).cwiseAbs().rowwise().maxCoeff().minCoeff(), 0.1);
+  }
+}
+
+/// The score is that of the table's own likelihood, by which a search comes to rest.
+TEST_P(ManyPeople, HaveScoresThatAreTheSlopeOfTheirLikelihood) {
+  const HierarchicalArrangement all = different_people(30);
+  const HierarchicalStructure structure = structure_of(all, GetParam());
+  const HierarchicalLikelihood many(structure, all.people, 9);
+  ASSERT_TRUE(many.reads_a_table());
+  const Eigen::VectorXd at = somewhere(structure, 0.2);
+  Eigen::VectorXd gradient;
+  (void)many(at, &gradient);
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    const Eigen::VectorXd step = 1e-4 * Eigen::VectorXd::Unit(at.size(), i);
+    // The exact integral's against that of a rule of nine nodes.
+    EXPECT_NEAR(gradient(i), (many(at + step) - many(at - step)) / 2e-4,
+                1e-3 * (1.0 + std::fabs(gradient(i))))
+        << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Structures, ManyPeople,
+                         ::testing::Values(HierarchicalOptions{},
+                                           HierarchicalOptions{
+                                               .link = HierarchicalLink::kLinear},
+                                           HierarchicalOptions{.guess_rate = 0.5}));
+
+TEST(HierarchicalModel, OfADozenPeopleReadsNoTable) {
+  const HierarchicalArrangement all = different_people(12);
+  const HierarchicalLikelihood dozen(structure_of(all, {}), all.people, 9);
+  EXPECT_FALSE(dozen.reads_a_table());
 }
 
 }  // namespace hierarchical_model_test
