@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "analysis/hierarchical/hierarchical_level.h"
@@ -26,17 +28,59 @@ class AnswerTable {
   /// As `answer_probabilities`; those by the lapse rate may be 0 where they are not wanted.
   [[nodiscard]] AnswerProbabilities at(double z, AnswersWanted wanted) const noexcept;
 
+  /// Of one kind of answers: ln of its probability, the derivative by z of a yes and by -z of a
+  /// no, > 0, and that by the lapse rate. Without `kDerivatives` both are 0.
+  struct Side {
+    double log = 0.0, by_z = 0.0, by_lapse = 0.0;
+  };
+  template <bool kDerivatives>
+  [[nodiscard]] Side side(bool is_no, double z) const noexcept {
+    const double s = is_no ? -z : z;
+    if (!(std::fabs(s) < kEnd)) return computed(is_no, z);
+    const double place = (s + kEnd) * kKnotsPerUnit;
+    // Just below the upper end the sum may be rounded up onto it.
+    const int number = std::min(static_cast<int>(place), kNumIntervals - 1);
+    const double t = place - number;
+    const Interval& of = (is_no && has_no_ ? no_intervals_ : yes_intervals_).data()[number];
+    const std::array<double, 6>& c = of.log;
+    const double rest = t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
+    Side found{.log = c[0] + rest};
+    if constexpr (kDerivatives) {
+      found.by_z =
+          kKnotsPerUnit *
+          (c[1] + t * (2.0 * c[2] + t * (3.0 * c[3] + t * (4.0 * c[4] + t * (5.0 * c[5])))));
+      found.by_lapse =
+          ((is_no ? of_no_ : of_yes_) * of.inverse * small_exp(-rest) - at_most_) * per_share_;
+    }
+    return found;
+  }
+
  private:
   static constexpr double kEnd = 10.0, kKnotsPerUnit = 64.0;
   static constexpr int kNumIntervals = static_cast<int>(2.0 * kEnd * kKnotsPerUnit);
-  /// By the place within the interval, 0 to 1; the constant first.
-  using Polynomial = std::array<double, 6>;
-  struct Interval {
-    Polynomial log_yes, log_no;
+  /// By the place within the interval, 0 to 1, the constant first. A line of the cache.
+  struct alignas(64) Interval {
+    std::array<double, 6> log;
+    double inverse = 0.0;  ///< Of the probability at the interval's lower end.
   };
 
+  /// e^x of |x| <= 1 / 6, as far as a logarithm changes within an interval: to 2e-11.
+  static double small_exp(double x) noexcept {
+    constexpr double k2 = 1.0 / 2.0, k3 = 1.0 / 6.0, k4 = 1.0 / 24.0, k5 = 1.0 / 120.0,
+                     k6 = 1.0 / 720.0, k7 = 1.0 / 5040.0;
+    return 1.0 + x * (1.0 + x * (k2 + x * (k3 + x * (k4 + x * (k5 + x * (k6 + x * k7))))));
+  }
+  [[nodiscard]] Side computed(bool is_no, double z) const noexcept;
+  static void fill(std::vector<Interval>& intervals, bool is_no, double lapse_rate,
+                   double guess_rate);
+
   double lapse_rate_ = -1.0, guess_rate_ = -1.0;
-  std::vector<Interval> intervals_;
+  /// f = guess + share Phi, g = lapse + share (1 - Phi), without a guess rate f has the lapse
+  /// rate too: then the derivatives by it are (of / f - at most) / share.
+  double of_yes_ = 0.0, of_no_ = 0.0, at_most_ = 0.0, per_share_ = 0.0;
+  /// By z of a yes and by -z of a no, which without a guess rate is the same function.
+  std::vector<Interval> yes_intervals_, no_intervals_;
+  bool has_no_ = false;
 };
 
 }  // namespace jnd::analysis

@@ -33,15 +33,9 @@ LapseProfile::LapseProfile(const HierarchicalLikelihood& likelihood,
 const LapseProfile::Point& LapseProfile::at(double lapse_rate) {
   const auto known = points_.find(lapse_rate);
   if (known != points_.end()) return known->second;
-  const auto nearest = std::ranges::min_element(points_, {}, [&](const auto& one) {
-    return one.second.exists ? std::fabs(one.first - lapse_rate)
-                             : std::numeric_limits<double>::infinity();
-  });
   const int angle_at = structure_.angle_at();
-  Eigen::VectorXd start = nearest->second.parameters;
-  start(angle_at) = std::asin(std::sqrt(lapse_rate / structure_.lapse_limit()));
   Point point;
-  if (const auto found = search_.from(std::move(start))) {
+  if (const auto found = search_.from(expected_at(lapse_rate))) {
     point.exists = true;
     point.parameters = *found;
     point.log_likelihood = likelihood_(*found) - structure_.log_prior(*found);
@@ -52,6 +46,35 @@ const LapseProfile::Point& LapseProfile::at(double lapse_rate) {
     }
   }
   return points_[lapse_rate] = std::move(point);
+}
+
+Eigen::VectorXd LapseProfile::expected_at(double lapse_rate) const {
+  constexpr double kNoSpread = 1e-5;
+  const std::pair<const double, Point>*nearest = nullptr, *next = nullptr;
+  const auto distance = [&](const auto* one) {
+    return one == nullptr ? std::numeric_limits<double>::infinity()
+                          : std::fabs(one->first - lapse_rate);
+  };
+  for (const auto& one : points_) {
+    if (!one.second.exists) continue;
+    if (distance(&one) < distance(nearest)) {
+      next = std::exchange(nearest, &one);
+    } else if (distance(&one) < distance(next)) {
+      next = &one;
+    }
+  }
+  Eigen::VectorXd expected = nearest->second.parameters;
+  // Along the line through both, unless it would lead far, or a spread away from 0.
+  if (next != nullptr && distance(next) < 4.0 * std::fabs(next->first - nearest->first)) {
+    const double share = (lapse_rate - nearest->first) / (nearest->first - next->first);
+    expected += share * (nearest->second.parameters - next->second.parameters);
+    for (const int spread : structure_.even_parameters()) {
+      const double known = nearest->second.parameters(spread);
+      if (std::fabs(known) < kNoSpread) expected(spread) = known;
+    }
+  }
+  expected(structure_.angle_at()) = std::asin(std::sqrt(lapse_rate / structure_.lapse_limit()));
+  return expected;
 }
 
 std::optional<double> LapseProfile::variance_at(double lapse_rate, int parameter) {

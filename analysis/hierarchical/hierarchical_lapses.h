@@ -47,6 +47,8 @@ class LapseProfile {
   /// Of the profile at one of its points.
   [[nodiscard]] double height(double lapse_rate, bool has_prior);
   [[nodiscard]] std::optional<double> end(double from, bool has_prior, double direction);
+  /// About what the parameters are there, by the points that are known.
+  [[nodiscard]] Eigen::VectorXd expected_at(double lapse_rate) const;
 
   const HierarchicalLikelihood& likelihood_;
   const HierarchicalStructure& structure_;

@@ -59,7 +59,8 @@ HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& stru
       has_orders_(structure.has_orders()),
       people_(people),
       own_(static_cast<std::size_t>(structure.num_conditions)),
-      is_laplace_(num_nodes == 1),
+      loadings_(static_cast<std::size_t>(structure.num_conditions)),
+      num_nodes_(num_nodes),
       lapse_nodes_(structure.has_own_lapses
                        ? lapse_nodes(most_answers(people), structure.lapse_limit())
                        : LapseNodes{{0.0}, {1.0}}),
@@ -79,7 +80,21 @@ HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& stru
     OwnEffects& own = own_[static_cast<std::size_t>(condition)];
     if (own.num++ == 0) own.first = effect;
   }
-  for (OwnEffects& own : own_) own.grid = grid_of(num_nodes, own.num);
+  for (OwnEffects& own : own_) {
+    own.grid = grid_of(num_nodes, own.num);
+    for (std::size_t k = 0; k < own.grid.node.size(); ++k) {
+      own.heights.push_back(std::log(own.grid.weight[k]) +
+                            0.5 * own.grid.node[k].squaredNorm());
+    }
+  }
+  for (const HierarchicalStructure::Loading& one : structure.loadings) {
+    const int condition = structure.condition_of(one.number);
+    const std::size_t number = one.number == condition                                      ? 0
+                               : has_orders_ && one.number == structure.order_at(condition) ? 2
+                                                                                            : 1;
+    loadings_[static_cast<std::size_t>(condition)].push_back(
+        {number, one.random_effect, one.parameter});
+  }
   shared_grid_ = grid_of(num_nodes, structure.num_random_effects - first_shared_);
   // Own lapse rates are another one at each node.
   has_table_ = !structure.has_own_lapses && num_probabilities() >= kManyProbabilities;
@@ -97,6 +112,12 @@ double HierarchicalLikelihood::num_probabilities() const {
   return num;
 }
 
+std::optional<HierarchicalLikelihood> HierarchicalLikelihood::coarser() const {
+  constexpr int kCoarse = 5, kFine = 9;
+  if (!has_table_ || num_nodes_ < kFine) return std::nullopt;
+  return HierarchicalLikelihood(structure_, people_, kCoarse);
+}
+
 HierarchicalLikelihood::Population HierarchicalLikelihood::population_of(
     const Eigen::VectorXd& parameters) const {
   Population population{
@@ -112,134 +133,6 @@ HierarchicalLikelihood::Population HierarchicalLikelihood::population_of(
     population.table = &table_;
   }
   return population;
-}
-
-AnswerProbabilities HierarchicalLikelihood::answer_at(double z, const Population& population,
-                                                      AnswersWanted wanted) const noexcept {
-  if (population.table != nullptr) return population.table->at(z, wanted);
-  return answer_probabilities(z, population.lapse_rate, structure_.guess_rate, wanted);
-}
-
-double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
-                                              const Numbers& numbers,
-                                              const Population& population) const {
-  double value = 0.0;
-  for (const HierarchicalCell& cell : person) {
-    value += log_likelihood(cell, numbers, population, nullptr);
-  }
-  return value;
-}
-
-double HierarchicalLikelihood::log_likelihood(const HierarchicalCell& cell,
-                                              const Numbers& numbers,
-                                              const Population& population,
-                                              Score* score) const {
-  const double scatter = population.scatter;
-  const int place_at = structure_.place_at(cell.condition);
-  const int order_at = structure_.order_at(cell.condition);
-  const double slope = slope_of(structure_.link, numbers(cell.condition));
-  const double place = structure_.has_places ? numbers(place_at) : 0.0;
-  const double by_interval = has_orders_ ? numbers(order_at) : 0.0;
-  double value = 0.0, by_lapse = 0.0, by_scatter = 0.0;
-  double by_slope = 0.0, by_place = 0.0, by_order = 0.0;
-  for (std::size_t level = 0; level < cell.log_ratio.size(); ++level) {
-    const double order = has_orders_ ? cell.order[level] : 0.0;
-    const Predictor at =
-        predictor(structure_.link, slope, place + by_interval * order, cell.log_ratio[level]);
-    const double yes = cell.num_yes[level], no = cell.num_no[level];
-    // A count of 0 asks for nothing.
-    const AnswerProbabilities answer = answer_at(at.z, population,
-                                                 {.of_yes = yes > 0.0,
-                                                  .of_no = no > 0.0,
-                                                  .by_z = score != nullptr,
-                                                  .by_lapse = score != nullptr});
-    if (scatter > 0.0 && score == nullptr) {
-      value += scattered_value(yes, answer.log_yes, scatter) +
-               scattered_value(no, answer.log_no, scatter);
-      continue;
-    }
-    double by_z = 0.0;
-    if (scatter > 0.0) {
-      const ScatteredSide of_yes =
-          scattered_side(yes, answer.log_yes, answer.by_z_yes, answer.by_lapse_yes, scatter);
-      const ScatteredSide of_no =
-          scattered_side(no, answer.log_no, answer.by_z_no, answer.by_lapse_no, scatter);
-      value += of_yes.value + of_no.value;
-      by_z = of_yes.by_z - of_no.by_z;
-      by_lapse += of_yes.by_lapse + of_no.by_lapse;
-      by_scatter += of_yes.by_scatter + of_no.by_scatter;
-    } else {
-      // A zero count contributes nothing, even where its logarithm is infinite.
-      if (yes > 0.0) value += yes * answer.log_yes;
-      if (no > 0.0) value += no * answer.log_no;
-      by_z = yes * answer.by_z_yes - no * answer.by_z_no;
-      by_lapse += yes * answer.by_lapse_yes + no * answer.by_lapse_no;
-    }
-    by_slope += by_z * at.by_slope;
-    by_place += by_z * at.by_place;
-    by_order += by_z * at.by_place * order;
-  }
-  if (score == nullptr) return value;
-  score->numbers(cell.condition) += by_slope;
-  if (structure_.has_places) score->numbers(place_at) += by_place;
-  if (has_orders_) score->numbers(order_at) += by_order;
-  score->lapse_rate += by_lapse;
-  score->scatter += by_scatter;
-  return value;
-}
-
-HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivatives(
-    const HierarchicalPerson& person, const Population& population,
-    const RandomEffects& at) const {
-  const Numbers numbers = population.at(at);
-  const Loadings& loadings = population.loadings;
-  const double scatter = population.scatter;
-  const Curvature prior = Curvature::Identity(at.size(), at.size());
-  JointDerivatives joint{-at, prior, prior};
-  for (const HierarchicalCell& cell : person) {
-    const int place_at = structure_.place_at(cell.condition);
-    const int order_at = structure_.order_at(cell.condition);
-    const double slope = slope_of(structure_.link, numbers(cell.condition));
-    const RandomEffects slope_row = loadings.row(cell.condition).transpose();
-    for (std::size_t level = 0; level < cell.log_ratio.size(); ++level) {
-      double place = 0.0;
-      RandomEffects place_row = RandomEffects::Zero(at.size());
-      if (structure_.has_places) {
-        place = numbers(place_at);
-        place_row = loadings.row(place_at).transpose();
-      }
-      if (has_orders_) {
-        place += cell.order[level] * numbers(order_at);
-        place_row += cell.order[level] * loadings.row(order_at).transpose();
-      }
-      const Predictor here = predictor(structure_.link, slope, place, cell.log_ratio[level]);
-      const AnswerProbabilities answer = answer_at(here.z, population, {.by_lapse = false});
-      const double yes = cell.num_yes[level], no = cell.num_no[level];
-      double by_z = yes * answer.by_z_yes - no * answer.by_z_no;
-      double expected = (yes + no) * answer.by_z_yes * answer.by_z_no;
-      double observed = yes * answer.by_z_yes * (here.z + answer.by_z_yes) +
-                        no * answer.by_z_no * (answer.by_z_no - here.z);
-      if (scatter > 0.0) {
-        const ScatteredSide of_yes =
-            scattered_side(yes, answer.log_yes, answer.by_z_yes, 0.0, scatter);
-        const ScatteredSide of_no =
-            scattered_side(no, answer.log_no, answer.by_z_no, 0.0, scatter);
-        by_z = of_yes.by_z - of_no.by_z;
-        expected /= 1.0 + (yes + no - 1.0) * scatter / (1.0 + scatter);
-        observed = of_yes.squares + of_no.squares + here.z * by_z;
-      }
-      const RandomEffects by_effect = here.by_slope * slope_row + here.by_place * place_row;
-      const Curvature outer = by_effect * by_effect.transpose();
-      joint.gradient += by_z * by_effect;
-      joint.expected += expected * outer;
-      joint.observed += observed * outer;
-      if (structure_.link == HierarchicalLink::kLinear) continue;
-      const Curvature mixed = slope_row * place_row.transpose();
-      joint.observed -= by_z * (here.z * slope_row * slope_row.transpose() -
-                                slope * (mixed + mixed.transpose()));
-    }
-  }
-  return joint;
 }
 
 HierarchicalLikelihood::Mode HierarchicalLikelihood::mode_of(const HierarchicalPerson& person,
@@ -278,7 +171,11 @@ Eigen::VectorXd HierarchicalLikelihood::of_people(const Eigen::VectorXd& paramet
                                                   Eigen::MatrixXd* scores) const {
   const bool is_known =
       last_parameters_.size() == parameters.size() && last_parameters_ == parameters;
-  if (scores == nullptr && is_known) return last_values_;
+  if (is_known && scores == nullptr) return last_values_;
+  if (is_known && last_scores_.size() > 0) {
+    *scores = last_scores_;
+    return last_values_;
+  }
   const Population population = population_of(parameters);
   const auto num_people = static_cast<Eigen::Index>(people_.size());
   const bool has_scores = scores != nullptr;
@@ -318,6 +215,7 @@ Eigen::VectorXd HierarchicalLikelihood::of_people(const Eigen::VectorXd& paramet
   }
   last_parameters_ = parameters;
   last_values_ = values;
+  last_scores_ = has_scores ? *scores : Eigen::MatrixXd();
   return values;
 }
 

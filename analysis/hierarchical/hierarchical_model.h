@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -45,7 +46,11 @@ class HierarchicalLikelihood {
   [[nodiscard]] std::size_t num_people() const noexcept { return people_.size(); }
 
   /// Whether the integral, own lapses aside, is one node's: Laplace's approximation.
-  [[nodiscard]] bool is_laplace() const noexcept { return is_laplace_; }
+  [[nodiscard]] bool is_laplace() const noexcept { return num_nodes_ == 1; }
+
+  /// Of the same people with fewer nodes, whose optimum is near and found in a third of the
+  /// time; none where there are few nodes or few people.
+  [[nodiscard]] std::optional<HierarchicalLikelihood> coarser() const;
 
   /// Whether probabilities of answers are read off an `AnswerTable`, for they are so many.
   [[nodiscard]] bool reads_a_table() const noexcept { return has_table_; }
@@ -63,11 +68,14 @@ class HierarchicalLikelihood {
 
  private:
   static constexpr int kMostNumbers = 16;
+  static constexpr int kCellNumbers = 3;  ///< Of a person in one condition: a, p, q.
   using Numbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostNumbers, 1>;
   using Loadings = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostNumbers,
                                  kMostRandomEffects>;
   using Curvature = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostRandomEffects,
                                   kMostRandomEffects>;
+  using CellLoadings =
+      Eigen::Matrix<double, kCellNumbers, Eigen::Dynamic, 0, kCellNumbers, kMostRandomEffects>;
   /// What the parameters say, before anybody's own deviations.
   struct Population {
     Numbers median;
@@ -92,9 +100,13 @@ class HierarchicalLikelihood {
     Curvature expected, observed;
   };
 
-  /// Derivatives of a person's log-likelihood.
-  struct Score {
-    Numbers numbers;
+  /// A person's numbers in one condition.
+  struct CellNumbers {
+    double slope = 0.0, place = 0.0, by_interval = 0.0;  ///< a, p, q
+  };
+  /// Derivatives of the log-likelihood of one condition.
+  struct CellScore {
+    std::array<double, kCellNumbers> numbers = {};  ///< In the order of `CellNumbers`.
     double lapse_rate = 0.0;
     double scatter = 0.0;  ///< By phi.
   };
@@ -104,12 +116,22 @@ class HierarchicalLikelihood {
     Eigen::VectorXd by_parameter;  ///< But for the three angles and spreads that come last.
     double by_lapse_rate = 0.0, by_scatter = 0.0;
   };
+  /// At one of a condition's own nodes.
+  struct OwnNode {
+    std::array<double, kMostRandomEffects> effects = {};
+    CellScore score;
+  };
+  /// What the shared effects of a person are at one shared node.
+  struct SharedNode {
+    RandomEffects effects;  ///< The person's; those of one condition alone at the mode.
+    RandomEffects away;     ///< From the mode, of those that are shared.
+  };
   /// What one person's integral needs at each node, kept from person to person.
   struct Nodes {
     std::vector<double> shares, own_shares;  ///< Of the shared nodes, of a condition's own.
-    std::vector<RandomEffects> own_effects;
-    std::vector<Score> own_scores;
-    std::vector<Integral> at_shared;
+    std::vector<OwnNode> own;
+    Eigen::MatrixXd by_parameter;  ///< A column a shared node.
+    std::vector<double> by_lapse_rate, by_scatter;
   };
   /// A person at the mode, the lapse rate's own deviation b among what is sought.
   struct OwnMode {
@@ -126,9 +148,25 @@ class HierarchicalLikelihood {
   /// Log-likelihood of a person with these numbers.
   [[nodiscard]] double log_likelihood(const HierarchicalPerson& person, const Numbers& numbers,
                                       const Population& population) const;
-  /// That of one condition; its derivatives are added to `score`.
-  [[nodiscard]] double log_likelihood(const HierarchicalCell& cell, const Numbers& numbers,
-                                      const Population& population, Score* score) const;
+  /// That of one condition, and its derivatives where `score` is wanted.
+  [[nodiscard]] double log_likelihood(const HierarchicalCell& cell, const CellNumbers& numbers,
+                                      const Population& population,
+                                      CellScore* score) const noexcept;
+  /// The same of answers that do not scatter, off the table.
+  template <bool kHasScores>
+  [[nodiscard]] double tabled_log_likelihood(const HierarchicalCell& cell,
+                                             const CellNumbers& numbers,
+                                             const AnswerTable& table,
+                                             CellScore* score) const noexcept;
+  [[nodiscard]] CellNumbers numbers_in(int condition, const Numbers& numbers) const noexcept;
+  /// Of a condition, a row each of a, p and q; 0 of what there is not.
+  [[nodiscard]] CellLoadings loadings_in(int condition, const Population& population) const;
+  /// ln of the sum over a condition's own nodes at one shared node, the `place`th, to whose
+  /// scores its own are added.
+  [[nodiscard]] double own_sum(const HierarchicalCell& cell, const Population& population,
+                               const Mode& mode, const Curvature& upper,
+                               const SharedNode& shared, std::size_t place, bool has_scores,
+                               Nodes& nodes) const;
   [[nodiscard]] Integral integral_of(const HierarchicalPerson& person,
                                      const Population& population, const Mode& mode,
                                      bool has_scores, Nodes& nodes) const;
@@ -159,11 +197,18 @@ class HierarchicalLikelihood {
   struct OwnEffects {
     int first = 0, num = 0;
     GaussHermiteGrid grid;
+    std::vector<double> heights;  ///< Of each node: ln weight + |node|^2 / 2.
   };
-  std::vector<OwnEffects> own_;  ///< By condition.
+  /// A loading of a condition's numbers, the `number`th of `CellNumbers`.
+  struct CellLoading {
+    std::size_t number = 0;
+    int random_effect = 0, parameter = 0;
+  };
+  std::vector<OwnEffects> own_;                     ///< By condition.
+  std::vector<std::vector<CellLoading>> loadings_;  ///< By condition.
   int first_shared_ = 0;
   GaussHermiteGrid shared_grid_;
-  bool is_laplace_ = false;
+  int num_nodes_ = 1;       ///< In each dimension.
   bool has_table_ = false;  ///< One value asks for so many probabilities that a table pays.
   LapseNodes lapse_nodes_;  ///< A single one without own lapses.
   /// Of each person how many answers there are to a level, and to how many levels as many.
@@ -172,6 +217,7 @@ class HierarchicalLikelihood {
   mutable std::vector<RandomEffects> last_;
   /// Where `of_people` was asked last, and what it said: the searches ask again.
   mutable Eigen::VectorXd last_parameters_, last_values_;
+  mutable Eigen::MatrixXd last_scores_;  ///< Empty where the values alone were asked for.
   mutable AnswerTable table_;
 };
 

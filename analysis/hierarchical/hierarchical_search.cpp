@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "analysis/fits/ceres_descent.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 /// Beyond this a number of the median person has run away: ln slope, say, to a step.
 constexpr double kRunAway = 25.0;
+constexpr char kNotAtRest[] = "the search for the optimum did not come to rest";
 
 /// Of a value or of one for each person, by each parameter in turn: central differences of
 /// fourth order (Abramowitz and Stegun 25.3.6), handed to `take` with the parameter's place.
@@ -81,27 +83,52 @@ Eigen::VectorXd roughly_most_likely(const HierarchicalLikelihood& likelihood,
                                            static_cast<Eigen::Index>(found.size()));
 }
 
-/// Minus the second derivatives.
+/// Without a parameter's row, and column; all of it where none is held (-1).
+Eigen::VectorXd without(const Eigen::VectorXd& all, Eigen::Index held) {
+  if (held < 0) return all;
+  Eigen::VectorXd others(all.size() - 1);
+  others << all.head(held), all.tail(all.size() - 1 - held);
+  return others;
+}
+
+/// Back again, with 0 for the held one.
+Eigen::VectorXd with_zero(const Eigen::VectorXd& others, Eigen::Index held) {
+  if (held < 0) return others;
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(others.size() + 1);
+  all.head(held) = others.head(held);
+  all.tail(others.size() - held) = others.tail(others.size() - held);
+  return all;
+}
+
+/// Minus the second derivatives by all parameters but one that is held, or by all (-1). `here`:
+/// the value at `at`.
 Eigen::MatrixXd information_at(const HierarchicalLikelihood& likelihood,
-                               const Eigen::VectorXd& at, double here) {
+                               const Eigen::VectorXd& at, double here, Eigen::Index held = -1) {
   constexpr double kStep = 1e-3;
-  Eigen::MatrixXd information(at.size(), at.size());
+  std::vector<Eigen::Index> moving;
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    if (i != held) moving.push_back(i);
+  }
+  const auto size = static_cast<Eigen::Index>(moving.size());
+  const auto parameter = [&](Eigen::Index i) { return moving[static_cast<std::size_t>(i)]; };
+  Eigen::MatrixXd information(size, size);
   if (!likelihood.is_laplace()) {
-    for (Eigen::Index i = 0; i < at.size(); ++i) {
-      const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(at.size(), i);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(at.size(), parameter(i));
       information.col(i) =
-          (gradient_of(likelihood, at - step) - gradient_of(likelihood, at + step)) /
-          (2.0 * kStep);
+          without((gradient_of(likelihood, at - step) - gradient_of(likelihood, at + step)) /
+                      (2.0 * kStep),
+                  held);
     }
     return 0.5 * (information + information.transpose());
   }
   const auto value = [&](Eigen::Index i, double step_i, Eigen::Index j, double step_j) {
     Eigen::VectorXd moved = at;
-    moved(i) += step_i;
-    moved(j) += step_j;
+    moved(parameter(i)) += step_i;
+    moved(parameter(j)) += step_j;
     return likelihood(moved);
   };
-  for (Eigen::Index i = 0; i < at.size(); ++i) {
+  for (Eigen::Index i = 0; i < size; ++i) {
     information(i, i) =
         (2.0 * here - value(i, kStep, i, 0.0) - value(i, -kStep, i, 0.0)) / (kStep * kStep);
     for (Eigen::Index j = 0; j < i; ++j) {
@@ -137,81 +164,120 @@ Inverse inverse_of(const Eigen::MatrixXd& information) {
   return inverse;
 }
 
-/// Without a parameter's row, and column.
-Eigen::VectorXd without(const Eigen::VectorXd& all, Eigen::Index held) {
-  Eigen::VectorXd others(all.size() - 1);
-  others << all.head(held), all.tail(all.size() - 1 - held);
-  return others;
+/// What a step and the change of the rise over it tell of an inverse of the information
+/// (Broyden, Fletcher, Goldfarb and Shanno). A step that is next to rounding tells nothing.
+void learn(Eigen::MatrixXd& inverse, const Eigen::VectorXd& step, const Eigen::VectorXd& fall) {
+  constexpr double kSmallStep = 1e-6;
+  const double product = step.dot(fall);
+  if (!(step.cwiseAbs().maxCoeff() > kSmallStep && product > 0.0)) return;
+  const Eigen::VectorXd known = inverse * fall;
+  const Eigen::MatrixXd crossed = step * known.transpose();
+  inverse += (1.0 + fall.dot(known) / product) / product * step * step.transpose() -
+             (crossed + crossed.transpose()) / product;
 }
 
-Eigen::MatrixXd without(const Eigen::MatrixXd& all, Eigen::Index held) {
-  Eigen::MatrixXd others(all.rows() - 1, all.cols() - 1);
-  for (Eigen::Index column = 0; column < others.cols(); ++column) {
-    others.col(column) =
-        without(Eigen::VectorXd(all.col(column < held ? column : column + 1)), held);
+/// Newton's method from a start near by, one parameter held or none (-1). `inverse`: of the
+/// information there by what moves, or empty. It learns of each step, and is computed anew
+/// where the steps do not get smaller. Without covariance.
+HierarchicalOptimum climbed(const HierarchicalLikelihood& likelihood,
+                            const Eigen::VectorXd& start, Eigen::Index held,
+                            Eigen::MatrixXd& inverse) {
+  constexpr int kMaxSteps = 40;
+  constexpr double kSmallStep = 1e-8, kLargestStep = 0.5, kSlowly = 0.3;
+  HierarchicalOptimum found;
+  found.parameters = start;
+  found.status = FitStatus::kNotConverged;
+  found.reason = kNotAtRest;
+  Eigen::VectorXd& at = found.parameters;
+  double last_size = kLargestStep;
+  Eigen::VectorXd last_step, last_rise;
+  for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
+    if (!(at.cwiseAbs().maxCoeff() < kRunAway)) {
+      found.status = FitStatus::kDegenerate;
+      found.is_separated = true;
+      found.reason = "the likelihood rises without bound: the answers are nearly separated";
+      return found;
+    }
+    const Eigen::VectorXd rise = without(gradient_of(likelihood, at), held);
+    if (!rise.allFinite()) return found;
+    const bool is_new = inverse.size() == 0;
+    const auto renew = [&] {
+      inverse = inverse_of(information_at(likelihood, at, likelihood(at), held)).matrix;
+    };
+    if (is_new) {
+      renew();
+    } else if (last_step.size() > 0) {
+      learn(inverse, last_step, last_rise - rise);
+    }
+    Eigen::VectorXd step = inverse * rise;
+    double size = step.cwiseAbs().maxCoeff();
+    if (!is_new && size > kSmallStep && size > kSlowly * last_size) {
+      renew();
+      step = inverse * rise;
+      size = step.cwiseAbs().maxCoeff();
+    }
+    if (!std::isfinite(size)) return found;
+    if (size <= kSmallStep) {
+      found.log_likelihood = likelihood(at);
+      found.status = FitStatus::kOk;
+      found.reason.clear();
+      return found;
+    }
+    if (size > kLargestStep) step *= kLargestStep / size;
+    at += with_zero(step, held);
+    last_size = size;
+    last_step = step;
+    last_rise = rise;
   }
-  return others;
+  return found;
 }
 
-/// Back again, with 0 for the held one.
-Eigen::VectorXd with_zero(const Eigen::VectorXd& others, Eigen::Index held) {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(others.size() + 1);
-  all.head(held) = others.head(held);
-  all.tail(others.size() - held) = others.tail(others.size() - held);
-  return all;
+/// A search from far away: Ceres first, of many people by the coarser rule, which leads to
+/// where the likelihood's own optimum is near.
+HierarchicalOptimum climbed_from_afar(const HierarchicalLikelihood& likelihood,
+                                      const Eigen::VectorXd& start) {
+  Eigen::MatrixXd inverse;
+  if (const auto coarser = likelihood.coarser()) {
+    HierarchicalOptimum found =
+        climbed(likelihood, roughly_most_likely(*coarser, start), -1, inverse);
+    if (found.status == FitStatus::kOk) return found;
+    inverse.resize(0, 0);
+  }
+  return climbed(likelihood, roughly_most_likely(likelihood, start), -1, inverse);
+}
+
+/// Covariance and influence of one that was found; it is none where the likelihood rises along
+/// some direction.
+HierarchicalOptimum with_covariance(const HierarchicalLikelihood& likelihood,
+                                    HierarchicalOptimum found) {
+  if (found.status != FitStatus::kOk) return found;
+  Eigen::MatrixXd scores;
+  // Before the differences move away from where the search has been last.
+  if (!likelihood.is_laplace()) scores = scores_of(likelihood, found.parameters);
+  Inverse inverse =
+      inverse_of(information_at(likelihood, found.parameters, found.log_likelihood));
+  if (inverse.rising) {
+    found.status = FitStatus::kNotConverged;
+    found.reason = kNotAtRest;
+    return found;
+  }
+  if (likelihood.is_laplace()) scores = scores_of(likelihood, found.parameters);
+  found.covariance = std::move(inverse.matrix);
+  found.influence = found.covariance * (scores.colwise() - scores.rowwise().mean().eval());
+  return found;
 }
 
 }  // namespace
 
 Eigen::VectorXd most_likely_with(const HierarchicalLikelihood& likelihood,
                                  const Eigen::VectorXd& start, Eigen::Index held) {
-  return roughly_most_likely(likelihood, start, held);
+  const auto coarser = likelihood.coarser();
+  return roughly_most_likely(coarser ? *coarser : likelihood, start, held);
 }
 
 HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
                                 const Eigen::VectorXd& start) {
-  constexpr int kMaxSteps = 30;
-  constexpr double kSmallStep = 1e-8, kLargeStep = 1e-3, kLargestStep = 0.5;
-  HierarchicalOptimum found;
-  found.parameters = roughly_most_likely(likelihood, start);
-  found.status = FitStatus::kNotConverged;
-  found.reason = "the search for the optimum did not come to rest";
-  Inverse inverse;
-  for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
-    if (!(found.parameters.cwiseAbs().maxCoeff() < kRunAway)) {
-      found.status = FitStatus::kDegenerate;
-      found.is_separated = true;
-      found.reason = "the likelihood rises without bound: the answers are nearly separated";
-      return found;
-    }
-    // Where the curvature is still known, value and gradient come of one evaluation.
-    Eigen::VectorXd rise;
-    const bool has_rise = inverse.matrix.size() > 0 && !likelihood.is_laplace();
-    found.log_likelihood = likelihood(found.parameters, has_rise ? &rise : nullptr);
-    const auto inverse_here = [&] {
-      return inverse_of(information_at(likelihood, found.parameters, found.log_likelihood));
-    };
-    // The curvature anew only while the steps are large.
-    if (inverse.matrix.size() == 0) inverse = inverse_here();
-    if (!has_rise) rise = gradient_of(likelihood, found.parameters);
-    Eigen::VectorXd step = inverse.matrix * rise;
-    const double size = step.cwiseAbs().maxCoeff();
-    if (!std::isfinite(size)) return found;
-    if (size <= kSmallStep) {
-      inverse = inverse_here();
-      if (inverse.rising) return found;
-      found.covariance = std::move(inverse.matrix);
-      const Eigen::MatrixXd scores = scores_of(likelihood, found.parameters);
-      found.influence = found.covariance * (scores.colwise() - scores.rowwise().mean().eval());
-      found.status = FitStatus::kOk;
-      found.reason.clear();
-      return found;
-    }
-    if (size > kLargestStep) step *= kLargestStep / size;
-    found.parameters += step;
-    if (size > kLargeStep) inverse.matrix.resize(0, 0);
-  }
-  return found;
+  return with_covariance(likelihood, climbed_from_afar(likelihood, start));
 }
 
 Eigen::VectorXd rise_of(const HierarchicalLikelihood& likelihood, const Eigen::VectorXd& at) {
@@ -221,7 +287,7 @@ Eigen::VectorXd rise_of(const HierarchicalLikelihood& likelihood, const Eigen::V
 std::optional<Eigen::MatrixXd> covariance_without(const HierarchicalLikelihood& likelihood,
                                                   const Eigen::VectorXd& at,
                                                   Eigen::Index held) {
-  Inverse inverse = inverse_of(without(information_at(likelihood, at, likelihood(at)), held));
+  Inverse inverse = inverse_of(information_at(likelihood, at, likelihood(at), held));
   if (inverse.rising) return std::nullopt;
   return std::move(inverse.matrix);
 }
@@ -229,33 +295,9 @@ std::optional<Eigen::MatrixXd> covariance_without(const HierarchicalLikelihood& 
 std::optional<Eigen::VectorXd> most_likely_near(const HierarchicalLikelihood& likelihood,
                                                 const Eigen::VectorXd& start, Eigen::Index held,
                                                 Eigen::MatrixXd& inverse) {
-  constexpr int kMaxSteps = 40;
-  constexpr double kSmallStep = 1e-8, kLargestStep = 0.5, kSlowly = 0.3;
-  Eigen::VectorXd at = start;
-  double last_size = kLargestStep;
-  for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
-    if (!(at.cwiseAbs().maxCoeff() < kRunAway)) return std::nullopt;
-    const Eigen::VectorXd rise = without(gradient_of(likelihood, at), held);
-    if (!rise.allFinite()) return std::nullopt;
-    const auto renew = [&] {
-      inverse =
-          inverse_of(without(information_at(likelihood, at, likelihood(at)), held)).matrix;
-    };
-    if (inverse.size() == 0) renew();
-    Eigen::VectorXd step = inverse * rise;
-    double size = step.cwiseAbs().maxCoeff();
-    if (size > kSmallStep && size > kSlowly * last_size) {
-      renew();
-      step = inverse * rise;
-      size = step.cwiseAbs().maxCoeff();
-    }
-    if (!std::isfinite(size)) return std::nullopt;
-    if (size <= kSmallStep) return at;
-    if (size > kLargestStep) step *= kLargestStep / size;
-    at += with_zero(step, held);
-    last_size = size;
-  }
-  return std::nullopt;
+  HierarchicalOptimum found = climbed(likelihood, start, held, inverse);
+  if (found.status != FitStatus::kOk) return std::nullopt;
+  return std::move(found.parameters);
 }
 
 HierarchicalOptimum better_optimum(const HierarchicalLikelihood& likelihood,
@@ -269,10 +311,12 @@ HierarchicalOptimum better_optimum(const HierarchicalLikelihood& likelihood,
   Eigen::VectorXd other = start;
   other(structure.angle_at()) = found_some ? 0.0 : kSomeLapsesAngle;
   HierarchicalOptimum second =
-      most_likely(likelihood, most_likely_with(likelihood, other, structure.angle_at()));
+      climbed_from_afar(likelihood, most_likely_with(likelihood, other, structure.angle_at()));
   const bool is_better =
       first.status != FitStatus::kOk || second.log_likelihood > first.log_likelihood;
-  return second.status == FitStatus::kOk && is_better ? second : first;
+  if (second.status != FitStatus::kOk || !is_better) return first;
+  second = with_covariance(likelihood, std::move(second));
+  return second.status == FitStatus::kOk ? second : first;
 }
 
 HeldSearch::HeldSearch(const HierarchicalLikelihood& likelihood, std::vector<int> even,

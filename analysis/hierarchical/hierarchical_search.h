@@ -21,9 +21,9 @@ struct HierarchicalOptimum {
   double log_likelihood = 0.0;  ///< And log prior.
 };
 
-/// The largest integrated likelihood (times prior) near `start`: Ceres by Fisher's gradient,
-/// then Newton on the rule's own value, whose derivatives are differences of it. A loading that
-/// ends at 0 is an optimum there: the likelihood is even in it.
+/// The largest integrated likelihood (times prior) near `start`: Ceres by Fisher's gradient, of
+/// many people with fewer nodes, then Newton's method, whose curvature is differences of that
+/// gradient. A loading that ends at 0 is an optimum there: the likelihood is even in it.
 [[nodiscard]] HierarchicalOptimum most_likely(const HierarchicalLikelihood& likelihood,
                                               const Eigen::VectorXd& start);
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/hierarchical/hierarchical_arrangement.h"
+#include "analysis/hierarchical/hierarchical_search.h"
 
 namespace jnd::analysis {
 namespace hierarchical_model_test {
@@ -173,10 +174,35 @@ INSTANTIATE_TEST_SUITE_P(Structures, ManyPeople,
                                                .link = HierarchicalLink::kLinear},
                                            HierarchicalOptions{.guess_rate = 0.5}));
 
+/// The search goes by fewer nodes and by the table first; where it ends, neither may be seen.
+TEST(HierarchicalModel, OfManyPeopleHasItsOptimumWhereTheExactScoresOfFewAddUpToNothing) {
+  const HierarchicalArrangement all = different_people(30);
+  const HierarchicalStructure structure = structure_of(all, {});
+  const HierarchicalLikelihood many(structure, all.people, 9);
+  ASSERT_TRUE(many.coarser().has_value());
+  std::string reason;
+  const auto start = start_of(all, structure, reason);
+  ASSERT_TRUE(start.has_value()) << reason;
+  const HierarchicalOptimum found = better_optimum(many, structure, *start);
+  ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
+  Eigen::VectorXd rise = Eigen::VectorXd::Zero(structure.num_parameters);
+  double value = structure.log_prior(found.parameters);
+  for (std::size_t first = 0; first < all.people.size(); first += 2) {
+    const HierarchicalLikelihood two(structure, {all.people[first], all.people[first + 1]}, 9);
+    Eigen::MatrixXd scores;
+    value += two.of_people(found.parameters, &scores).sum();
+    rise += scores.rowwise().sum();
+  }
+  structure.add_log_prior_rise(found.parameters, rise);
+  EXPECT_LT((found.covariance * rise).cwiseAbs().maxCoeff(), 1e-7);
+  EXPECT_NEAR(value, found.log_likelihood, 1e-9 * std::fabs(value));
+}
+
 TEST(HierarchicalModel, OfADozenPeopleReadsNoTable) {
   const HierarchicalArrangement all = different_people(12);
   const HierarchicalLikelihood dozen(structure_of(all, {}), all.people, 9);
   EXPECT_FALSE(dozen.reads_a_table());
+  EXPECT_FALSE(dozen.coarser().has_value());
 }
 
 }  // namespace hierarchical_model_test
