@@ -1,13 +1,17 @@
 #include "analysis/fits/calibrated_drop.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
-#include <map>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "analysis/fits/normal_tail.h"
 #include "analysis/fits/probit_regression.h"
 #include "analysis/fits/psychometric_redraw.h"
 #include "core/random_stream.h"
+#include "core/require.h"
 
 namespace jnd::analysis {
 namespace {
@@ -28,18 +32,114 @@ double drop_of(std::vector<double> ratios) {
   return std::max(kLikelihoodDrop, 0.5 * ratios[static_cast<std::size_t>(place)]);
 }
 
-}  // namespace
+/// Refits of answers drawn anew from a probit line: `fit_probit` from that line, which is near
+/// them, in vectors and matrices of a known size. Where answers are separated it ends as near
+/// the limit as rounding can tell.
+template <int kColumns>
+class ProbitRefit {
+ public:
+  struct Found {
+    double log_likelihood = 0.0;
+    double first = 0.0;  ///< The first coefficient.
+  };
 
-CalibratedDrops calibrated_drops(const Eigen::MatrixXd& design,
+  /// `line`: what the answers are drawn from. `offset`: as of `fit_probit`.
+  ProbitRefit(const Eigen::MatrixXd& design, const Eigen::VectorXd& num_trials,
+              const Eigen::VectorXd& line, const Eigen::VectorXd& offset = {})
+      : design_(design),
+        num_trials_(num_trials),
+        offset_(offset),
+        num_all_(num_trials.sum()),
+        rows_(design.transpose()),
+        line_(line) {}
+
+  [[nodiscard]] Found find(const Eigen::VectorXd& num_yes) const {
+    constexpr int kMaxSteps = 60;
+    constexpr double kSmallStep = 1e-5, kSmallGain = 1e-13;
+    // Of answers all alike the slope's sign hangs on where the search starts.
+    const double sum = num_yes.sum();
+    Coefficients at = line_;
+    double last_gain = core::kInfinity;
+    for (int number = 0; sum > 0.0 && sum < num_all_ && number < kMaxSteps; ++number) {
+      const Rise rise = rise_at(at, num_yes);
+      const Eigen::LLT<Information> cholesky(rise.information);
+      if (cholesky.info() != Eigen::Success) break;
+      const Coefficients step = cholesky.solve(rise.gradient);
+      // Half of it is what Newton's step gains, but for the step's cube.
+      const double gain = step.dot(rise.gradient);
+      if (!(gain < last_gain)) break;
+      if (gain <= kSmallGain ||
+          (step.transpose() * rows_).cwiseAbs().maxCoeff() <= kSmallStep) {
+        return {log_likelihood_at(at, num_yes) + 0.5 * gain, at(0) + step(0)};
+      }
+      at += step;
+      last_gain = gain;
+    }
+    const ProbitRegression fit = fit_probit(design_, num_yes, num_trials_, offset_);
+    return {fit.log_likelihood, fit.coefficients(0)};
+  }
+
+ private:
+  using Coefficients = Eigen::Matrix<double, kColumns, 1>;
+  using Information = Eigen::Matrix<double, kColumns, kColumns>;
+  /// Derivatives of the log-likelihood; the second ones negated.
+  struct Rise {
+    Coefficients gradient;
+    Information information;
+  };
+
+  [[nodiscard]] double z_at(Eigen::Index row, const Coefficients& at) const {
+    return (offset_.size() > 0 ? offset_(row) : 0.0) + rows_.col(row).dot(at);
+  }
+
+  [[nodiscard]] Rise rise_at(const Coefficients& at, const Eigen::VectorXd& num_yes) const {
+    Rise here{Coefficients::Zero(at.size()), Information::Zero(at.size(), at.size())};
+    for (Eigen::Index row = 0; row < rows_.cols(); ++row) {
+      const auto x = rows_.col(row);
+      const double z = z_at(row, at), yes = num_yes(row), no = num_trials_(row) - yes;
+      const MillsRatios mills = mills_ratios(z);
+      here.gradient += (yes * mills.lower - no * mills.upper) * x;
+      here.information +=
+          (yes * mills.lower * (z + mills.lower) + no * mills.upper * (mills.upper - z)) * x *
+          x.transpose();
+    }
+    return here;
+  }
+
+  [[nodiscard]] double log_likelihood_at(const Coefficients& at,
+                                         const Eigen::VectorXd& num_yes) const {
+    double value = 0.0;
+    for (Eigen::Index row = 0; row < rows_.cols(); ++row) {
+      const double yes = num_yes(row), no = num_trials_(row) - yes;
+      const LogNormalTails tails = log_normal_tails(z_at(row, at));
+      if (yes > 0.0) value += yes * tails.log_lower;
+      if (no > 0.0) value += no * tails.log_upper;
+    }
+    return value;
+  }
+
+  Eigen::MatrixXd design_;
+  Eigen::VectorXd num_trials_, offset_;
+  double num_all_ = 0.0;
+  Eigen::Matrix<double, kColumns, Eigen::Dynamic> rows_;
+  Coefficients line_;
+};
+
+/// With this many columns, or `Eigen::Dynamic`.
+template <int kColumns>
+CalibratedDrops drops_of_columns(const Eigen::MatrixXd& design,
                                  const Eigen::VectorXd& num_trials,
                                  const Eigen::VectorXd& coefficients, bool free_pse,
                                  int num_redraws, std::uint64_t seed) {
+  constexpr int kHeld = kColumns == Eigen::Dynamic ? Eigen::Dynamic : kColumns - 1;
   const Eigen::Index last = design.cols() - 1;
   const double slope = coefficients(0);
-  const Eigen::VectorXd by_slope = slope * design.col(0);
-  const Eigen::MatrixXd without_slope = design.rightCols(last);
   Eigen::MatrixXd without_pse = design.leftCols(last);
   without_pse.col(0).array() += coefficients(last) / slope;
+  const ProbitRefit<kColumns> free(design, num_trials, coefficients);
+  const ProbitRefit<kHeld> at_slope(design.rightCols(last), num_trials, coefficients.tail(last),
+                                    slope * design.col(0));
+  const ProbitRefit<kHeld> at_pse(without_pse, num_trials, coefficients.head(last));
   std::vector<BinomialTable> answers;
   for (Eigen::Index row = 0; row < design.rows(); ++row) {
     answers.emplace_back(num_trials(row),
@@ -47,22 +147,19 @@ CalibratedDrops calibrated_drops(const Eigen::MatrixXd& design,
   }
   core::RandomStream random(seed, "calibration of a likelihood ratio");
   const auto ratios_of = [&](const std::vector<double>& num_yes) {
-    const Eigen::Map<const Eigen::VectorXd> mapped(num_yes.data(), design.rows());
-    const Eigen::VectorXd redrawn = mapped;
-    Ratios ratios;
-    const ProbitRegression free = fit_probit(design, redrawn, num_trials);
-    ratios.exist = free.coefficients.size() > 0 && free.coefficients(0) > 0.0;
+    const Eigen::VectorXd redrawn =
+        Eigen::Map<const Eigen::VectorXd>(num_yes.data(), design.rows());
+    const auto freely = free.find(redrawn);
+    Ratios ratios{.exist = freely.first > 0.0};
     if (!ratios.exist) return ratios;
-    const ProbitRegression at_slope = fit_probit(without_slope, redrawn, num_trials, by_slope);
-    ratios.of_slope = 2.0 * (free.log_likelihood - at_slope.log_likelihood);
-    if (!free_pse) return ratios;
-    const ProbitRegression at_pse = fit_probit(without_pse, redrawn, num_trials);
-    ratios.of_pse = 2.0 * (free.log_likelihood - at_pse.log_likelihood);
+    ratios.of_slope = 2.0 * (freely.log_likelihood - at_slope.find(redrawn).log_likelihood);
+    if (free_pse) {
+      ratios.of_pse = 2.0 * (freely.log_likelihood - at_pse.find(redrawn).log_likelihood);
+    }
     return ratios;
   };
-  // Few answers are often drawn alike; those of many rows never are, and are not kept.
-  constexpr Eigen::Index kMostRowsKept = 32;
-  std::map<std::vector<double>, Ratios> known;
+  const AnswerNumbering numbering({num_trials.begin(), num_trials.end()});
+  std::unordered_map<std::uint64_t, Ratios> known;
   std::vector<double> of_slope, of_pse;
   std::vector<double> redrawn(answers.size());
   for (int redraw = 0; redraw < num_redraws; ++redraw) {
@@ -70,18 +167,35 @@ CalibratedDrops calibrated_drops(const Eigen::MatrixXd& design,
       redrawn[row] = answers[row].draw(random);
     }
     Ratios ratios;
-    if (design.rows() > kMostRowsKept) {
-      ratios = ratios_of(redrawn);
-    } else {
-      const auto [found, is_new] = known.try_emplace(redrawn);
+    if (const auto number = numbering.of(redrawn)) {
+      const auto [found, is_new] = known.try_emplace(*number);
       if (is_new) found->second = ratios_of(redrawn);
       ratios = found->second;
+    } else {
+      ratios = ratios_of(redrawn);
     }
     if (!ratios.exist) continue;
     of_slope.push_back(ratios.of_slope);
     if (free_pse) of_pse.push_back(ratios.of_pse);
   }
   return {drop_of(std::move(of_slope)), drop_of(std::move(of_pse))};
+}
+
+}  // namespace
+
+CalibratedDrops calibrated_drops(const Eigen::MatrixXd& design,
+                                 const Eigen::VectorXd& num_trials,
+                                 const Eigen::VectorXd& coefficients, bool free_pse,
+                                 int num_redraws, std::uint64_t seed) {
+  const Eigen::VectorXd half = 0.5 * num_trials;
+  if (fit_probit(design, half, num_trials).coefficients.size() == 0) return {};
+  const auto drops = [&]<int kColumns>() {
+    return drops_of_columns<kColumns>(design, num_trials, coefficients, free_pse, num_redraws,
+                                      seed);
+  };
+  if (design.cols() == 2) return drops.template operator()<2>();
+  if (design.cols() == 3) return drops.template operator()<3>();
+  return drops.template operator()<Eigen::Dynamic>();
 }
 
 }  // namespace jnd::analysis

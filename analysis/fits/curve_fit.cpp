@@ -524,7 +524,8 @@ CurveFit fit_curve(const std::vector<AnswerCount>& rows, const CurveOptions& opt
   if (options.num_goodness > 0) {
     const PsychometricSearch search(few.levels, kMaximumLikelihood, true, few.free[2]);
     const PsychometricGoodness goodness = goodness_of_fit(
-        search, few.levels, few.found.optimum.curve, options.num_goodness, options.seed);
+        search, few.levels, few.found.optimum.curve,
+        {.num = options.num_goodness, .seed = options.seed, .correlation = false});
     fit.goodness_p_value = goodness.p_value;
     fit.goodness_reason = goodness.reason;
   }

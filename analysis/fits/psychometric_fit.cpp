@@ -284,7 +284,9 @@ PsychometricFit fit_psychometric(const std::vector<AnswerCount>& data,
         search, levels, curve, {options.num_bootstrap, options.seed, options.bootstrap_kind});
   }
   if (options.diagnostics) {
-    fit.goodness = goodness_of_fit(search, levels, curve, options.num_goodness, options.seed);
+    fit.goodness =
+        goodness_of_fit(search, levels, curve,
+                        {options.num_goodness, options.seed, options.goodness_of_correlation});
   }
   if (options.intervals) fit.misfit_p_value = misfit_p_value(levels, search.free(), curve);
   add_psychometric_warnings(fit, data, levels, options, falls.has_value());

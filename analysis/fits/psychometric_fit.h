@@ -89,6 +89,8 @@ struct PsychometricOptions {
   bool advice = false;
   bool guess_unknown = false;  ///< Also a warning where the counts look like right answers.
   int num_goodness = 0;        ///< Redraws for the p values beside them; 0 leaves those out.
+  /// Also that of the residuals' correlation, which takes a third of the time.
+  bool goodness_of_correlation = true;
   /// Redraws that widen the likelihood-ratio intervals where they are known to be too narrow:
   /// with a free pse, or orders that vary, and no level of 30 answers; see `CalibratedDrops`. 0
   /// leaves them as they are, else 200 or more. kWeber by maximum likelihood without lapses,

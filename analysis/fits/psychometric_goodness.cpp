@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "analysis/fits/answer_scatter.h"
@@ -121,8 +121,9 @@ std::optional<double> misfit_p_value(const PsychometricLevels& levels,
 
 PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
                                      const PsychometricLevels& levels,
-                                     const PsychometricCurve& fitted, int num_redraws,
-                                     std::uint64_t seed) {
+                                     const PsychometricCurve& fitted,
+                                     const GoodnessRedraws& redraws) {
+  const int num_redraws = redraws.num;
   const auto log_likelihood = [&](const PsychometricLevels& data,
                                   const PsychometricCurve& curve) {
     return -psychometric_cost(data, kMaximumLikelihood, curve).value;
@@ -151,19 +152,20 @@ PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
   const double deviance = deviance_of(levels, log_likelihood(levels, fitted));
   const AnswerRedraw redraw(levels, fitted);
   const PsychometricRefit refit(search, levels, fitted);
-  core::RandomStream random(seed, "goodness of fit of a psychometric function");
+  core::RandomStream random(redraws.seed, "goodness of fit of a psychometric function");
   PsychometricLevels redrawn = levels;
   int num_as_far = 0, num_as_correlated = 0, num_correlations = 0;
   const auto judged = [&] {
     Judgement judgement;
     const PsychometricSearchResult found = refit.find(redrawn);
     const bool attained = found.supremum == PsychometricSupremum::kAttained;
-    const double value = attained
-                             ? log_likelihood(redrawn, found.optimum.curve)
-                             : limit_log_likelihood(redrawn, search.free(), found.supremum);
+    const double value =
+        !attained ? limit_log_likelihood(redrawn, search.free(), found.supremum)
+        : search.method() == kMaximumLikelihood ? -found.optimum.cost.value
+                                                : log_likelihood(redrawn, found.optimum.curve);
     // Ties are common at few answers: rounding must not break them.
     judgement.is_as_far = deviance_of(redrawn, value) >= deviance * (1.0 - 1e-9);
-    if (!attained || !goodness.level_correlation) return judgement;
+    if (!attained || !redraws.correlation || !goodness.level_correlation) return judgement;
     const StandardResiduals of_redrawn = residuals_of(redrawn, found.optimum.curve);
     const auto other = correlation(of_redrawn.fitted, of_redrawn.deviance);
     judgement.has_correlation = other.has_value();
@@ -171,19 +173,22 @@ PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
         other && std::fabs(*other) >= std::fabs(*goodness.level_correlation) - 1e-12;
     return judgement;
   };
-  // Few answers are often drawn alike; those of many levels never are, and are not kept.
-  constexpr std::size_t kMostLevelsKept = 32;
-  std::map<std::pair<std::vector<double>, double>, Judgement> known;
+  std::vector<double> num_trials = levels.num_trials;
+  num_trials.push_back(levels.zero_trials);
+  const AnswerNumbering numbering(num_trials);
+  std::unordered_map<std::uint64_t, Judgement> known;
+  std::vector<double> num_yes;
   for (int draw = 0; draw < num_redraws; ++draw) {
     redraw.draw(random, redrawn);
+    num_yes = redrawn.num_yes;
+    num_yes.push_back(redrawn.zero_yes);
     Judgement judgement;
-    if (levels.size() > kMostLevelsKept) {
-      judgement = judged();
-    } else {
-      const auto [found, is_new] =
-          known.try_emplace(std::pair(redrawn.num_yes, redrawn.zero_yes));
+    if (const auto number = numbering.of(num_yes)) {
+      const auto [found, is_new] = known.try_emplace(*number);
       if (is_new) found->second = judged();
       judgement = found->second;
+    } else {
+      judgement = judged();
     }
     num_as_far += judgement.is_as_far ? 1 : 0;
     num_correlations += judgement.has_correlation ? 1 : 0;

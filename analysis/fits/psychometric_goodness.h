@@ -20,12 +20,19 @@ namespace jnd::analysis {
                                                    const FreeParameters& free,
                                                    const PsychometricCurve& fitted);
 
-/// Residuals, overdispersion and, with `num_redraws` > 0, how often data drawn from the fitted
+/// What is drawn anew for a goodness of fit.
+struct GoodnessRedraws {
+  int num = 0;  ///< 0: nothing.
+  std::uint64_t seed = 1;
+  bool correlation = true;  ///< Also how often residuals correlate with the curve as much.
+};
+
+/// Residuals, overdispersion and, with `redraws.num` > 0, how often data drawn from the fitted
 /// curve and refitted lie at least as far off: chi-squared does not hold at few answers a level
 /// (Wichmann and Hill 2001). A refit without an optimum has the deviance of its limit.
 [[nodiscard]] PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
                                                    const PsychometricLevels& levels,
                                                    const PsychometricCurve& fitted,
-                                                   int num_redraws, std::uint64_t seed);
+                                                   const GoodnessRedraws& redraws);
 
 }  // namespace jnd::analysis

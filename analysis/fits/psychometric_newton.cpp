@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
+#include "analysis/fits/normal_tail.h"
 #include "analysis/fits/psychometric_descent.h"
 
 namespace jnd::analysis {
@@ -171,11 +174,67 @@ PsychometricOptimum minimised(const PsychometricLevels& levels, PsychometricMeth
   return best;
 }
 
+/// Without lapses and guesses minus the log-likelihood is convex in slope and offset, and
+/// Newton's method needs nothing of the above near its minimum: its gradient is 0 nowhere else.
+/// Absent where the steps do not get smaller at once.
+std::optional<PsychometricCurve> convex_minimum(const PsychometricLevels& levels, bool free_pse,
+                                                const PsychometricCurve& start) noexcept {
+  constexpr int kMostSteps = 20;
+  PsychometricCurve curve = start;
+  double last_gain = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < kMostSteps; ++iteration) {
+    double by_slope = 0.0, by_offset = 0.0, slope_slope = 0.0, slope_offset = 0.0,
+           offset_offset = 0.0;
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      const double u = levels.abscissa[level], yes = levels.num_yes[level];
+      const double no = levels.num_trials[level] - yes;
+      const double z = curve.slope * u + curve.offset;
+      const MillsRatios mills = mills_ratios(z);
+      const double by_z = yes * mills.lower - no * mills.upper;
+      const double bend =
+          yes * mills.lower * (mills.lower + z) + no * mills.upper * (mills.upper - z);
+      by_slope += by_z * u;
+      slope_slope += bend * u * u;
+      by_offset += by_z;
+      slope_offset += bend * u;
+      offset_offset += bend;
+    }
+    double slope_step = by_slope / slope_slope, offset_step = 0.0;
+    if (free_pse) {
+      const double determinant = slope_slope * offset_offset - slope_offset * slope_offset;
+      slope_step = (by_slope * offset_offset - by_offset * slope_offset) / determinant;
+      offset_step = (by_offset * slope_slope - by_slope * slope_offset) / determinant;
+    }
+    const double gain = slope_step * by_slope + offset_step * by_offset;
+    curve.slope += slope_step;
+    curve.offset += offset_step;
+    if (!(gain >= 0.0 && gain < last_gain && curve.slope > 0.0)) return std::nullopt;
+    if (std::fabs(slope_step) <= kSmallStep * curve.slope &&
+        std::fabs(offset_step) <= kSmallStep * (1.0 + std::fabs(curve.offset))) {
+      return curve;
+    }
+    last_gain = gain;
+  }
+  return std::nullopt;
+}
+
+bool is_convex(const PsychometricLevels& levels, PsychometricMethod method,
+               const FreeParameters& free, const PsychometricCurve& start) noexcept {
+  return method == PsychometricMethod::kMaximumLikelihood && free[0] &&
+         levels.sigmoid == Sigmoid::kNormal && levels.ends.are_bare(free[2]) && !free[3] &&
+         start.lapse == 0.0;
+}
+
 }  // namespace
 
 PsychometricOptimum minimised_by_newton(const PsychometricLevels& levels,
                                         PsychometricMethod method, const FreeParameters& free,
                                         const PsychometricCurve& start) noexcept {
+  if (is_convex(levels, method, free, start)) {
+    if (const auto curve = convex_minimum(levels, free[1], start)) {
+      return {*curve, psychometric_cost(levels, method, *curve), true};
+    }
+  }
   return free[3] ? minimised<4>(levels, method, free, start)
                  : minimised<3>(levels, method, free, start);
 }

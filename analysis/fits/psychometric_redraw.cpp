@@ -51,4 +51,25 @@ void AnswerRedraw::draw(core::RandomStream& random, PsychometricLevels& levels) 
   levels.zero_yes = tables_.back().draw(random);
 }
 
+AnswerNumbering::AnswerNumbering(const std::vector<double>& num_trials) {
+  constexpr double kMostSets = 0x1p62;
+  double num_sets = 1.0;
+  for (const double num : num_trials) {
+    if (!(num_sets <= kMostSets)) break;
+    places_.push_back(static_cast<std::uint64_t>(num_sets));
+    num_sets *= num + 1.0;
+  }
+  has_numbers_ = num_sets <= kMostSets;
+}
+
+std::optional<std::uint64_t> AnswerNumbering::of(
+    const std::vector<double>& num_yes) const noexcept {
+  if (!has_numbers_) return std::nullopt;
+  std::uint64_t number = 0;
+  for (std::size_t level = 0; level < num_yes.size(); ++level) {
+    number += places_[level] * static_cast<std::uint64_t>(num_yes[level]);
+  }
+  return number;
+}
+
 }  // namespace jnd::analysis

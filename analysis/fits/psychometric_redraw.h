@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "analysis/fits/psychometric_model.h"
@@ -34,6 +36,21 @@ class AnswerRedraw {
 
  private:
   std::vector<BinomialTable> tables_;  ///< One a level, then that of intensity 0.
+};
+
+/// Gives every set of answers that can be drawn a number of its own: few answers are often
+/// drawn alike, and what was found of them is then known.
+class AnswerNumbering {
+ public:
+  explicit AnswerNumbering(const std::vector<double>& num_trials);
+
+  /// Absent where there are more sets than numbers: those are never drawn twice.
+  [[nodiscard]] std::optional<std::uint64_t> of(
+      const std::vector<double>& num_yes) const noexcept;
+
+ private:
+  std::vector<std::uint64_t> places_;  ///< What a yes at each level counts.
+  bool has_numbers_ = true;
 };
 
 }  // namespace jnd::analysis

@@ -1,6 +1,7 @@
 #include "analysis/fits/psychometric_refit.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace jnd::analysis {
 namespace {
@@ -46,6 +47,20 @@ PsychometricSearchResult PsychometricRefit::find(const PsychometricLevels& redra
   }
   starts.insert(starts.begin(), near);
   return search_.find_from(redrawn, starts);
+}
+
+std::optional<double> LeastSquaresFractions::of(const std::vector<AnswerCount>& rows,
+                                                double reference) {
+  const PsychometricLevels levels = pooled_levels(rows, reference, false);
+  if (!search_ || reference != reference_ || levels.intensity != intensities_) {
+    search_.emplace(levels, PsychometricMethod::kLeastSquares, false, false);
+    reference_ = reference;
+    intensities_ = levels.intensity;
+  }
+  const PsychometricSearchResult found = search_->find(levels, minimised_by_newton);
+  if (found.supremum != PsychometricSupremum::kAttained) return std::nullopt;
+  const double fraction = found.optimum.curve.weber_fraction(levels);
+  return std::isfinite(fraction) ? std::optional(fraction) : std::nullopt;
 }
 
 }  // namespace jnd::analysis

@@ -28,4 +28,19 @@ class PsychometricRefit {
   std::vector<double> logs_;
 };
 
+/// Weber fractions as of `fit_psychometric` by least squares, the pse at the reference, of
+/// answers that are drawn anew over and over: the grid that the search starts from is kept as
+/// long as the levels stay the same.
+class LeastSquaresFractions {
+ public:
+  /// Absent where there is none. Throws `core::Error` as `fit_psychometric`.
+  [[nodiscard]] std::optional<double> of(const std::vector<AnswerCount>& rows,
+                                         double reference);
+
+ private:
+  double reference_ = 0.0;
+  std::vector<double> intensities_;
+  std::optional<PsychometricSearch> search_;
+};
+
 }  // namespace jnd::analysis

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace jnd::analysis {
 namespace normal_tail_test {
@@ -41,6 +42,42 @@ TEST(NormalTail, TheTailsMirrorEachOther) {
     EXPECT_DOUBLE_EQ(normal_tails(z).lower, normal_tails(-z).upper) << z;
     EXPECT_NEAR(normal_tails(z).lower + normal_tails(z).upper, 1.0, 1e-15) << z;
   }
+}
+
+/// By long double, whose own functions are right to 1e-18.
+TEST(NormalTail, IsRightToThirteenDigitsAtAndBetweenTheKnotsOfItsTable) {
+  // No multiple of it is a knot, 1 / 64; the first goes through all knots.
+  for (const double step : {1.0 / 64.0, 0.00719}) {
+    for (double z = -12.0; z <= 12.0; z += step) {
+      const long double x = z;
+      const long double lower = 0.5L * std::erfc(-x / std::sqrt(2.0L));
+      const long double upper = 0.5L * std::erfc(x / std::sqrt(2.0L));
+      const long double density =
+          std::exp(-0.5L * x * x) / std::sqrt(2.0L * std::numbers::pi_v<long double>);
+      const auto near = [&](double found, long double expected) {
+        return std::fabs(found - static_cast<double>(expected)) <=
+               1e-13 * std::fabs(static_cast<double>(expected));
+      };
+      const LogNormalTails logs = log_normal_tails(z);
+      const NormalTails tails = normal_tails(z);
+      const MillsRatios mills = mills_ratios(z);
+      ASSERT_TRUE(near(tails.lower, lower) && near(tails.upper, upper)) << z;
+      ASSERT_TRUE(near(tails.density, density)) << z;
+      ASSERT_TRUE(near(logs.lower, lower) && near(logs.upper, upper)) << z;
+      ASSERT_TRUE(near(logs.log_lower, z < 0.0 ? std::log(lower) : std::log1p(-upper))) << z;
+      ASSERT_TRUE(near(logs.log_upper, z > 0.0 ? std::log(upper) : std::log1p(-lower))) << z;
+      ASSERT_TRUE(near(logs.mills_lower, density / lower)) << z;
+      ASSERT_TRUE(near(logs.mills_upper, density / upper)) << z;
+      ASSERT_EQ(mills.lower, logs.mills_lower) << z;
+      ASSERT_EQ(mills.upper, logs.mills_upper) << z;
+    }
+  }
+}
+
+TEST(NormalTail, OfNoNumberIsNone) {
+  EXPECT_TRUE(std::isnan(log_normal_tails(NAN).log_lower));
+  EXPECT_TRUE(std::isnan(normal_tails(NAN).upper));
+  EXPECT_TRUE(std::isnan(mills_ratios(NAN).lower));
 }
 
 }  // namespace normal_tail_test

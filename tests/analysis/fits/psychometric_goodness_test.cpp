@@ -51,6 +51,17 @@ TEST(PsychometricGoodness, AnswersOfTheCurveAreNotRejectedAndOthersAre) {
   EXPECT_EQ(std::ranges::count_if(unasked.warnings, far_off), 1) << "by its moments";
 }
 
+TEST(PsychometricGoodness, IsTheSameWithoutTheCorrelationOfResiduals) {
+  PsychometricOptions options{.reference = 1.0, .diagnostics = true, .num_goodness = 300};
+  const PsychometricGoodness with = fit_psychometric(kGood, options).goodness;
+  options.goodness_of_correlation = false;
+  const PsychometricGoodness without = fit_psychometric(kGood, options).goodness;
+  EXPECT_EQ(with.p_value, without.p_value);
+  EXPECT_EQ(with.level_correlation, without.level_correlation);
+  EXPECT_TRUE(with.level_correlation_p_value.has_value());
+  EXPECT_FALSE(without.level_correlation_p_value.has_value());
+}
+
 /// Such a curve passes through every level, and p = 1 would look like praise.
 TEST(PsychometricGoodness, WithoutADegreeOfFreedomNothingIsTested) {
   const PsychometricFit fit = fit_psychometric(
