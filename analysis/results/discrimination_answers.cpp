@@ -85,6 +85,7 @@ PsychometricFit own_fit(const DiscriminationAnswers& answers, const OwnFitOption
                                  .by_order = is_likelihood,
                                  .diagnostics = options.num_goodness > 0,
                                  .num_goodness = options.num_goodness,
+                                 .goodness_of_correlation = false,
                                  .num_calibration = options.num_calibration,
                                  .seed = options.seed,
                                  .intervals = options.intervals});

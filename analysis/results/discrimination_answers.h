@@ -44,7 +44,7 @@ struct OwnFitOptions {
   bool free_pse = false;
   bool intervals = false;
   int num_calibration = 0;  ///< As in `PsychometricOptions`.
-  int num_goodness = 0;     ///< Redraws for the goodness of fit; 0 leaves it out.
+  int num_goodness = 0;     ///< Redraws for the goodness of fit's p value; 0 leaves it out.
   std::uint64_t seed = 1;   ///< Seed of these redraws.
 };
 [[nodiscard]] PsychometricFit own_fit(const DiscriminationAnswers& answers,

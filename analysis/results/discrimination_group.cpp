@@ -3,8 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "analysis/fits/interval_order_fit.h"
+#include "analysis/fits/psychometric_refit.h"
 #include "analysis/fits/psychometric_warnings.h"
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
@@ -16,33 +22,63 @@ namespace {
 
 using Everybody = std::vector<DiscriminationAnswers>;
 
-PsychometricFit pooled_fit(const Everybody& all, const std::vector<std::size_t>& drawn,
-                           PsychometricMethod method, bool free_pse, Solver solver) {
-  std::map<std::pair<double, double>, AnswerCount> pooled;
-  for (const std::size_t index : drawn) {
-    for (const auto& [key, count] : all[index].cells) {
-      AnswerCount& sum = pooled[key];
-      sum.intensity = count.intensity;
-      sum.order = count.order;
-      sum.num_yes += count.num_yes;
-      sum.num_trials += count.num_trials;
+/// Everybody's answers to the levels that anybody has, to be added up over and over.
+class PooledAnswers {
+ public:
+  explicit PooledAnswers(const Everybody& all) {
+    std::map<std::pair<double, double>, std::size_t> places;
+    for (const DiscriminationAnswers& one : all) {
+      for (const auto& [key, count] : one.cells) places.try_emplace(key);
+    }
+    for (auto& [key, place] : places) {
+      place = levels_.size();
+      levels_.push_back({.intensity = key.first, .order = key.second});
+    }
+    for (const DiscriminationAnswers& one : all) {
+      std::vector<Cell>& cells = people_.emplace_back();
+      for (const auto& [key, count] : one.cells) cells.push_back({places.at(key), count});
     }
   }
-  std::vector<AnswerCount> rows;
-  for (const auto& [key, count] : pooled) rows.push_back(count);
-  return fit_psychometric(rows, {.reference = all.front().reference,
-                                 .method = method,
-                                 .free_pse = free_pse,
-                                 .by_order = method == PsychometricMethod::kMaximumLikelihood,
-                                 .intervals = false,
-                                 .solver = solver});
+
+  /// Of these people, a row a level that any of them has.
+  [[nodiscard]] std::vector<AnswerCount> of(const std::vector<std::size_t>& drawn) const {
+    std::vector<AnswerCount> rows = levels_;
+    for (const std::size_t person : drawn) {
+      for (const Cell& cell : people_[person]) {
+        rows[cell.level].num_yes += cell.count.num_yes;
+        rows[cell.level].num_trials += cell.count.num_trials;
+      }
+    }
+    std::erase_if(rows, [](const AnswerCount& row) { return row.num_trials == 0; });
+    return rows;
+  }
+
+ private:
+  struct Cell {
+    std::size_t level = 0;
+    AnswerCount count;
+  };
+  std::vector<AnswerCount> levels_;  ///< Without answers, ascending.
+  std::vector<std::vector<Cell>> people_;
+};
+
+PsychometricFit pooled_fit(const PooledAnswers& answers, double reference,
+                           const std::vector<std::size_t>& drawn, PsychometricMethod method,
+                           bool free_pse, Solver solver) {
+  return fit_psychometric(answers.of(drawn),
+                          {.reference = reference,
+                           .method = method,
+                           .free_pse = free_pse,
+                           .by_order = method == PsychometricMethod::kMaximumLikelihood,
+                           .intervals = false,
+                           .solver = solver});
 }
 
 /// The Weber fraction of a fit; where there is none, its limit: 0 if thicker was said of the
 /// thicker ones all the same (separated), else infinite (flat, inverted).
-double fraction_or_limit(const PsychometricFit& fit, const Everybody& all,
+double fraction_or_limit(const std::optional<double>& fraction, const Everybody& all,
                          const std::vector<std::size_t>& drawn) {
-  if (fit.weber_fraction) return *fit.weber_fraction;
+  if (fraction) return *fraction;
   double order = 0.0;
   for (const std::size_t index : drawn) {
     for (const auto& [intensity, count] : all[index].levels) {
@@ -97,7 +133,10 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
                 PsychometricMethod method, bool free_pse, const std::string& meaning) {
   std::vector<std::size_t> everyone(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) everyone[i] = i;
-  const PsychometricFit fit = pooled_fit(all, everyone, method, free_pse, Solver::kCeres);
+  const PooledAnswers answers(all);
+  const double reference = all.front().reference;
+  const PsychometricFit fit =
+      pooled_fit(answers, reference, everyone, method, free_pse, Solver::kCeres);
   Estimate fraction{.value = fit.weber_fraction, .unit = "1"};
   Estimate pse{.value = fit.pse};
   if (!fit.weber_fraction) {
@@ -109,19 +148,24 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
   }
   if (!fit.pse) pse.reason = fit.weber_fraction ? why_no_pse(fit) : fraction.reason;
   if (fit.weber_fraction && all.size() > 1) {
-    const auto resampled = [&](bool of_pse, double estimate) {
-      return resample_factor(
-                 all.size(), target.options.num_resamples, target.options.seed, estimate,
-                 [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
-                   const PsychometricFit other =
-                       pooled_fit(all, drawn, method, free_pse, Solver::kNewton);
-                   if (of_pse) return other.pse;
-                   return fraction_or_limit(other, all, drawn);
-                 })
-          .ci95;
-    };
-    fraction.ci95 = resampled(false, *fit.weber_fraction);
-    if (free_pse && fit.pse) pse.ci95 = resampled(true, *fit.pse);
+    std::vector<double> estimates = {*fit.weber_fraction};
+    if (free_pse && fit.pse) estimates.push_back(*fit.pse);
+    LeastSquaresFractions least_squares;
+    const std::vector<ResampledInterval> intervals = resample_factors(
+        all.size(), target.options.num_resamples, target.options.seed, estimates,
+        [&](const std::vector<std::size_t>& drawn, std::span<std::optional<double>> values) {
+          if (method == PsychometricMethod::kLeastSquares && !free_pse) {
+            values[0] =
+                fraction_or_limit(least_squares.of(answers.of(drawn), reference), all, drawn);
+            return;
+          }
+          const PsychometricFit other =
+              pooled_fit(answers, reference, drawn, method, free_pse, Solver::kNewton);
+          values[0] = fraction_or_limit(other.weber_fraction, all, drawn);
+          if (values.size() > 1) values[1] = other.pse;
+        });
+    fraction.ci95 = intervals[0].ci95;
+    if (intervals.size() > 1) pse.ci95 = intervals[1].ci95;
   }
   add(target, fraction, name, said("pooled-curve w: {}", meaning), all.size());
   if (fit.order_effect_ln && !free_pse) {

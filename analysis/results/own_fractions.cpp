@@ -4,6 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
@@ -18,8 +21,15 @@ using Statistic = std::function<CensoredValue(const Places&)>;
 
 using core::kInfinity;
 
+/// As `percentile`, of values in any order. Only the two that it lies between are put in place.
 double quantile_of(std::vector<double> values, double probability) {
-  std::ranges::sort(values);
+  const auto below =
+      static_cast<std::ptrdiff_t>(probability * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, values.begin() + below);
+  if (below + 1 < std::ssize(values)) {
+    std::iter_swap(values.begin() + below + 1,
+                   std::ranges::min_element(values.begin() + below + 1, values.end()));
+  }
   return percentile(values, probability);
 }
 
@@ -27,14 +37,14 @@ double quantile_of(std::vector<double> values, double probability) {
 /// what is at most so; an infinite one is open.
 Interval interval_of(const Statistic& statistic, std::size_t num_people,
                      const ResultsOptions& options) {
-  const auto end = [&](double CensoredValue::*which) {
-    return resample_participants(num_people, options.num_resamples, options.seed,
-                                 [&](const Places& drawn) -> std::optional<double> {
-                                   return statistic(drawn).*which;
-                                 })
-        .ci95;
-  };
-  return {end(&CensoredValue::at_least).low, end(&CensoredValue::at_most).high};
+  const std::vector<ResampledInterval> ends =
+      resample_participants(num_people, options.num_resamples, options.seed, 2,
+                            [&](const Places& drawn, std::span<std::optional<double>> values) {
+                              const CensoredValue found = statistic(drawn);
+                              values[0] = found.at_least;
+                              values[1] = found.at_most;
+                            });
+  return {ends[0].ci95.low, ends[1].ci95.high};
 }
 
 /// "> 0.5: 2 of 3 lie beyond the largest stimulus": of a median that the stimuli do not tell.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "analysis/results/published_statistics.h"
 #include "analysis/statistics/distributions.h"
@@ -109,16 +110,21 @@ PredictiveStudies::PredictiveStudies(const PredictivePeople& people, int num_par
   }
 }
 
-PredictiveStudies::Values PredictiveStudies::values_of(const PublishedValue& published) const {
-  PublishedStatistics statistics(everybody_);
+const PredictiveStudies::Values& PredictiveStudies::values_of(
+    const PublishedValue& published) const {
+  const auto n = static_cast<std::size_t>(published.n.value_or(0));
+  const auto known = std::ranges::find_if(known_, [&](const Known& one) {
+    return one.statistic == *published.compute && one.num_participants == n;
+  });
+  if (known != known_.end()) return known->values;
   Values values;
   for (const Draw& draw : drawn_) {
     std::vector<std::size_t> places = draw.places;
-    const auto n = static_cast<std::size_t>(published.n.value_or(0));
     if (n > 0 && n < places.size()) places.resize(n);
-    values.push_back(statistics.value(*published.compute, places));
+    values.push_back(statistics_.value(*published.compute, places));
   }
-  return values;
+  known_.push_back({*published.compute, n, std::move(values)});
+  return known_.back().values;
 }
 
 double PredictiveStudies::standard_error(const std::vector<bool>& counted) const {
@@ -169,7 +175,7 @@ std::optional<JointTail> PredictiveStudies::joint_tail(
   for (const PublishedValue& one : published) {
     if (!one.value || !one.compute || one.follows_from_others) continue;
     std::vector<double>& column = columns.emplace_back();
-    const Values values = values_of(one);
+    const Values& values = values_of(one);
     for (std::size_t i = 0; i < values.size(); ++i) {
       is_whole[i] = is_whole[i] && values[i].has_value();
       column.push_back(rounded(values[i].value_or(0.0), one.num_decimals));

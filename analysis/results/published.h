@@ -29,6 +29,8 @@ struct PublishedStatistic {
   bool is_exponent = false;        ///< Of a power law: a, not k.
   double high_target = 0.0, low_target = 0.0;
   std::vector<std::string> names;
+
+  bool operator==(const PublishedStatistic&) const = default;
 };
 
 /// One published finding, for comparison alone: a number, or in words that it is above zero.

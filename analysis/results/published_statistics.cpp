@@ -16,21 +16,17 @@ using Levels = std::map<double, AnswerCount>;
 
 /// Least squares on proportions with the pse at the reference; a curve without an optimum is
 /// its limit.
-std::optional<double> weber_fraction(const Levels& levels, double reference) {
+std::optional<double> least_squares_or_limit(LeastSquaresFractions& fractions,
+                                             const Levels& levels, double reference) {
   std::vector<AnswerCount> rows;
+  for (const auto& [intensity, count] : levels) rows.push_back(count);
+  if (rows.empty()) return std::nullopt;
+  if (const auto fraction = fractions.of(rows, reference)) return fraction;
   double rise = 0.0;
   for (const auto& [intensity, count] : levels) {
-    rows.push_back(count);
     rise += (2.0 * static_cast<double>(count.num_yes) - static_cast<double>(count.num_trials)) *
             std::log(intensity / reference);
   }
-  if (rows.empty()) return std::nullopt;
-  const PsychometricFit fit =
-      fit_psychometric(rows, {.reference = reference,
-                              .method = PsychometricMethod::kLeastSquares,
-                              .intervals = false,
-                              .solver = Solver::kNewton});
-  if (fit.weber_fraction) return fit.weber_fraction;
   return rise > 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
@@ -45,7 +41,7 @@ std::optional<double> summed_up(std::vector<double> values,
   if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) {
     return std::numeric_limits<double>::infinity();
   }
-  const analysis::Summary of = summary_of(values);
+  const MeanAndDeviation of = mean_and_deviation_of(values);
   return summary == Summary::kMean ? of.mean : of.standard_deviation;
 }
 
@@ -61,15 +57,16 @@ const std::vector<std::optional<double>>& PublishedStatistics::own_fractions(
   for (const PersonOutcome& person : people_) {
     const auto counts = person.counts.find(block);
     const auto reference = person.numbers.find(block + ".reference");
-    place->second.push_back(counts == person.counts.end() || reference == person.numbers.end()
-                                ? std::nullopt
-                                : weber_fraction(counts->second, reference->second));
+    place->second.push_back(
+        counts == person.counts.end() || reference == person.numbers.end()
+            ? std::nullopt
+            : least_squares_or_limit(fractions_, counts->second, reference->second));
   }
   return place->second;
 }
 
 std::optional<double> PublishedStatistics::pooled_fraction(const std::string& block,
-                                                           const Places& drawn) const {
+                                                           const Places& drawn) {
   Levels pooled;
   double reference = 0.0;
   for (const std::size_t place : drawn) {
@@ -85,7 +82,7 @@ std::optional<double> PublishedStatistics::pooled_fraction(const std::string& bl
       sum.num_trials += count.num_trials;
     }
   }
-  return weber_fraction(pooled, reference);
+  return least_squares_or_limit(fractions_, pooled, reference);
 }
 
 PublishedStatistics::Law PublishedStatistics::group_law(const std::string& block,

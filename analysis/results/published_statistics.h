@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/fits/psychometric_refit.h"
 #include "analysis/results/person_outcome.h"
 #include "analysis/results/published.h"
 #include "core/power_function.h"
@@ -32,13 +33,14 @@ class PublishedStatistics {
   using Law = std::optional<core::PowerFunction>;
 
   const std::vector<std::optional<double>>& own_fractions(const std::string& block);
-  std::optional<double> pooled_fraction(const std::string& block, const Places& drawn) const;
+  std::optional<double> pooled_fraction(const std::string& block, const Places& drawn);
   std::vector<double> numbers(const PublishedStatistic& statistic, const Places& drawn);
   Law law(const PublishedStatistic& statistic, const Places& drawn);
   Law group_law(const std::string& block, const Places& drawn, bool of_production);
 
   const std::vector<PersonOutcome>& people_;
   std::map<std::string, std::vector<std::optional<double>>> own_fractions_;
+  LeastSquaresFractions fractions_;
   Places laws_drawn_;  ///< Whom the laws below are of: several statistics share them.
   std::map<std::string, Law> laws_;
 };

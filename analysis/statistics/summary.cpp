@@ -35,10 +35,8 @@ double percentile(const std::vector<double>& ascending, double probability) noex
   return low == high ? low : low + (place - below) * (high - low);
 }
 
-Summary summary_of(const std::vector<double>& values) {
-  Summary summary;
-  summary.num_values = static_cast<int>(values.size());
-  if (values.empty()) return summary;
+MeanAndDeviation mean_and_deviation_of(const std::vector<double>& values) {
+  if (values.empty()) return {};
   double sum = 0.0;
   for (const double value : values) {
     core::require(std::isfinite(value), "value", "a finite number", value);
@@ -46,17 +44,26 @@ Summary summary_of(const std::vector<double>& values) {
   }
   const double n = static_cast<double>(values.size());
   const double mean = sum / n;
-  summary.mean = mean;
+  if (values.size() < 2) return {.mean = mean};
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {.mean = mean, .standard_deviation = std::sqrt(squares / (n - 1.0))};
+}
+
+Summary summary_of(const std::vector<double>& values) {
+  const MeanAndDeviation moments = mean_and_deviation_of(values);
+  Summary summary{.num_values = static_cast<int>(values.size()),
+                  .mean = moments.mean,
+                  .standard_deviation = moments.standard_deviation};
+  if (values.empty()) return summary;
   std::vector<double> ascending = values;
   std::sort(ascending.begin(), ascending.end());
   summary.median = percentile(ascending, 0.5);
   if (values.size() < 2) return summary;
-  double squares = 0.0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  const double deviation = std::sqrt(squares / (n - 1.0));
-  summary.standard_deviation = deviation;
-  const double reach = student_t_quantile(0.975, n - 1.0) * deviation / std::sqrt(n);
-  summary.mean_ci95 = {mean - reach, mean + reach};
+  const double n = static_cast<double>(values.size());
+  const double reach =
+      student_t_quantile(0.975, n - 1.0) * *summary.standard_deviation / std::sqrt(n);
+  summary.mean_ci95 = {*summary.mean - reach, *summary.mean + reach};
   return summary;
 }
 
@@ -68,27 +75,31 @@ struct Resamples {
   int num_undefined = 0;
 };
 
-Resamples resampled(
-    std::size_t num_participants, int num_resamples, std::uint64_t seed,
-    const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic) {
+std::vector<Resamples> resampled(std::size_t num_participants, int num_resamples,
+                                 std::uint64_t seed, std::size_t num_statistics,
+                                 const ResampledStatistics& statistics) {
   core::require(num_participants >= 1, "num_participants", "a number >= 1",
                 static_cast<double>(num_participants));
   core::require(num_resamples >= 1, "num_resamples", "a number >= 1", num_resamples);
-  Resamples all;
+  std::vector<Resamples> all(num_statistics);
   if (num_participants < kFewestParticipants) return all;
   core::RandomStream random(seed, "bootstrap over participants");
   std::vector<std::size_t> drawn(num_participants);
-  all.values.reserve(static_cast<std::size_t>(num_resamples));
+  std::vector<std::optional<double>> values(num_statistics);
+  for (Resamples& one : all) one.values.reserve(static_cast<std::size_t>(num_resamples));
   for (int resample = 0; resample < num_resamples; ++resample) {
     for (std::size_t& participant : drawn) participant = random.below(num_participants);
-    const std::optional<double> value = statistic(drawn);
-    if (value && !std::isnan(*value)) {
-      all.values.push_back(*value);
-    } else {
-      ++all.num_undefined;
+    std::ranges::fill(values, std::nullopt);
+    statistics(drawn, values);
+    for (std::size_t i = 0; i < num_statistics; ++i) {
+      if (values[i] && !std::isnan(*values[i])) {
+        all[i].values.push_back(*values[i]);
+      } else {
+        ++all[i].num_undefined;
+      }
     }
   }
-  std::sort(all.values.begin(), all.values.end());
+  for (Resamples& one : all) std::ranges::sort(one.values);
   return all;
 }
 
@@ -105,22 +116,9 @@ ResampledInterval percentile_interval(const Resamples& all, std::size_t num_part
   return result;
 }
 
-}  // namespace
-
-ResampledInterval resample_participants(
-    std::size_t num_participants, int num_resamples, std::uint64_t seed,
-    const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic) {
-  return percentile_interval(resampled(num_participants, num_resamples, seed, statistic),
-                             num_participants, num_resamples);
-}
-
-ResampledInterval resample_factor(
-    std::size_t num_participants, int num_resamples, std::uint64_t seed, double estimate,
-    const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic) {
+ResampledInterval factor_interval(const Resamples& all, std::size_t num_participants,
+                                  int num_resamples, double estimate) {
   constexpr double kMostWithout = 0.025;
-  core::require(std::isfinite(estimate) && estimate > 0.0, "estimate", "a number > 0",
-                estimate);
-  const Resamples all = resampled(num_participants, num_resamples, seed, statistic);
   std::vector<double> logs;
   for (const double value : all.values) {
     if (value > 0.0 && std::isfinite(value)) logs.push_back(std::log(value));
@@ -136,6 +134,60 @@ ResampledInterval resample_factor(
   return {.ci95 = {estimate * std::exp(-reach), estimate * std::exp(reach)},
           .num_resamples = num_resamples,
           .num_undefined = all.num_undefined};
+}
+
+/// One as several.
+ResampledStatistics only(
+    const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic) {
+  return [&statistic](const std::vector<std::size_t>& drawn,
+                      std::span<std::optional<double>> values) {
+    values.front() = statistic(drawn);
+  };
+}
+
+}  // namespace
+
+std::vector<ResampledInterval> resample_participants(std::size_t num_participants,
+                                                     int num_resamples, std::uint64_t seed,
+                                                     std::size_t num_statistics,
+                                                     const ResampledStatistics& statistics) {
+  std::vector<ResampledInterval> intervals;
+  for (const Resamples& one :
+       resampled(num_participants, num_resamples, seed, num_statistics, statistics)) {
+    intervals.push_back(percentile_interval(one, num_participants, num_resamples));
+  }
+  return intervals;
+}
+
+ResampledInterval resample_participants(
+    std::size_t num_participants, int num_resamples, std::uint64_t seed,
+    const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic) {
+  return resample_participants(num_participants, num_resamples, seed, 1, only(statistic))
+      .front();
+}
+
+std::vector<ResampledInterval> resample_factors(std::size_t num_participants, int num_resamples,
+                                                std::uint64_t seed,
+                                                const std::vector<double>& estimates,
+                                                const ResampledStatistics& statistics) {
+  for (const double estimate : estimates) {
+    core::require(std::isfinite(estimate) && estimate > 0.0, "estimate", "a number > 0",
+                  estimate);
+  }
+  const std::vector<Resamples> all =
+      resampled(num_participants, num_resamples, seed, estimates.size(), statistics);
+  std::vector<ResampledInterval> intervals;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    intervals.push_back(factor_interval(all[i], num_participants, num_resamples, estimates[i]));
+  }
+  return intervals;
+}
+
+ResampledInterval resample_factor(
+    std::size_t num_participants, int num_resamples, std::uint64_t seed, double estimate,
+    const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic) {
+  return resample_factors(num_participants, num_resamples, seed, {estimate}, only(statistic))
+      .front();
 }
 
 }  // namespace jnd::analysis

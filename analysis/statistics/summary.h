@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "analysis/statistics/fit_status.h"
@@ -19,6 +21,15 @@ struct Summary {
 
 /// Throws `core::Error` if a value is not finite.
 [[nodiscard]] Summary summary_of(const std::vector<double>& values);
+
+/// Of what there is to say, that which takes no quantile.
+struct MeanAndDeviation {
+  std::optional<double> mean;
+  std::optional<double> standard_deviation;  ///< As of `Summary`.
+};
+
+/// As `summary_of`.
+[[nodiscard]] MeanAndDeviation mean_and_deviation_of(const std::vector<double>& values);
 
 /// An interval over participants drawn anew.
 struct ResampledInterval {
@@ -39,6 +50,16 @@ struct ResampledInterval {
     std::size_t num_participants, int num_resamples, std::uint64_t seed,
     const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic);
 
+/// Several statistics of one and the same resamples, as of `resample_participants`: `values`
+/// has a place for each, empty where it is undefined.
+using ResampledStatistics = std::function<void(const std::vector<std::size_t>& drawn,
+                                               std::span<std::optional<double>> values)>;
+
+/// An interval each, the same as of each statistic alone.
+[[nodiscard]] std::vector<ResampledInterval> resample_participants(
+    std::size_t num_participants, int num_resamples, std::uint64_t seed,
+    std::size_t num_statistics, const ResampledStatistics& statistics);
+
 /// The same of a value > 0 that a curve through everybody's answers has, such as its Weber
 /// fraction: estimate exp(-+ t s), s being the standard deviation of the logarithms of the
 /// resamples times sqrt(n / (n - 1)), t the 97.5 % quantile of Student's distribution with n -
@@ -50,6 +71,11 @@ struct ResampledInterval {
 [[nodiscard]] ResampledInterval resample_factor(
     std::size_t num_participants, int num_resamples, std::uint64_t seed, double estimate,
     const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic);
+
+/// An interval about each of several estimates > 0, by the same resamples.
+[[nodiscard]] std::vector<ResampledInterval> resample_factors(
+    std::size_t num_participants, int num_resamples, std::uint64_t seed,
+    const std::vector<double>& estimates, const ResampledStatistics& statistics);
 
 /// The quantile of ascending values, interpolated between its two neighbours ((n-1) p, type 7
 /// of Hyndman and Fan 1996). `ascending` is not empty; 0 <= probability <= 1. Not finite if a

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "core/error.h"
 #include "core/random_stream.h"
@@ -123,6 +126,36 @@ TEST(ResampleParticipants, CountsResamplesThatAreUndefinedAndGivesUpAtHalf) {
   EXPECT_THROW((void)resample_participants(
                    0, 1, 1, [](const auto&) { return std::optional<double>(1.0); }),
                core::Error);
+}
+
+TEST(ResampleParticipants, SeveralStatisticsHaveTheIntervalsThatEachHasAlone) {
+  const std::vector<double> values = {0.4, 1.7, 2.2, 3.1, 4.6, 5.5, 9.0};
+  const auto mean = [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
+    double sum = 0.0;
+    for (const std::size_t place : drawn) sum += values[place];
+    return sum / static_cast<double>(drawn.size());
+  };
+  const auto first = [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
+    return drawn[0] == 0 ? std::nullopt : std::optional(values[drawn[0]]);
+  };
+  const ResampledStatistics both = [&](const std::vector<std::size_t>& drawn,
+                                       std::span<std::optional<double>> found) {
+    found[0] = mean(drawn);
+    found[1] = first(drawn);
+  };
+  const auto expect_same = [](const ResampledInterval& found,
+                              const ResampledInterval& expected) {
+    EXPECT_EQ(found.ci95.low, expected.ci95.low);
+    EXPECT_EQ(found.ci95.high, expected.ci95.high);
+    EXPECT_EQ(found.num_undefined, expected.num_undefined);
+  };
+  const auto percentiles = resample_participants(values.size(), 300, 4, 2, both);
+  expect_same(percentiles.at(0), resample_participants(values.size(), 300, 4, mean));
+  expect_same(percentiles.at(1), resample_participants(values.size(), 300, 4, first));
+  EXPECT_GT(percentiles.at(1).num_undefined, 0);
+  const auto factors = resample_factors(values.size(), 300, 4, {3.5, 2.0}, both);
+  expect_same(factors.at(0), resample_factor(values.size(), 300, 4, 3.5, mean));
+  expect_same(factors.at(1), resample_factor(values.size(), 300, 4, 2.0, first));
 }
 
 }  // namespace summary_test
