@@ -129,6 +129,24 @@ std::size_t behind_value_before(std::string_view text, std::size_t byte) {
   return last == std::string_view::npos ? byte : last + 1;
 }
 
+/// The key whose closing quote stands at `byte`: "the key `languages` in line 4", the line
+/// where it is not that of `from`. "" where no colon follows, so that it is no key.
+std::string key_words(std::string_view text, std::size_t byte, std::size_t from) {
+  const std::size_t next = text.find_first_not_of(" \t\r\n", byte + 1);
+  std::size_t open = byte;
+  do {
+    open = open == 0 ? std::string_view::npos : text.rfind('"', open - 1);
+  } while (open != std::string_view::npos && open > 0 && text[open - 1] == '\\');
+  if (next == std::string_view::npos || text[next] != ':' || open == std::string_view::npos) {
+    return "";
+  }
+  const json key = json::parse(text.substr(open, byte + 1 - open), nullptr, false);
+  if (!key.is_string()) return "";
+  const int line = position_of(text, open).line;
+  return "the key `" + shown_text(key.get<std::string>(), 30) + '`' +
+         (line == position_of(text, from).line ? "" : " in line " + std::to_string(line));
+}
+
 /// Where the innermost brace or bracket before this byte opens that nothing closes, in words:
 /// "; the `{` in line 3, column 5 is not closed". "" where all are closed, and before the end
 /// of the text for the outermost one, for then something else is closed too often.
@@ -174,7 +192,14 @@ std::string worded(const std::string& what, std::string_view text, std::size_t& 
             ? has_leading_zero(word)
             : is_literal && found != "string literal" && !found.starts_with(word);
     if (is_value && !is_one_word && (wanted == "'}'" || wanted == "']'")) {
+      const std::size_t end_of_token = byte;
       byte = behind_value_before(text, byte);
+      const std::string key = wanted == "'}'" && found == "string literal"
+                                  ? key_words(text, end_of_token, byte)
+                                  : "";
+      if (!key.empty()) {
+        return "expected `,` behind this value, before " + key + ", found none; write it here";
+      }
       return "expected `,` or " + token_words(wanted) + " behind this value, found " +
              token_words(found);
     }

@@ -46,6 +46,21 @@ Holds belongs(const Parameter& parameter, const json& object, const ParameterTab
   return all;
 }
 
+/// Two keys for the same thing, of which each procedure has one.
+constexpr std::pair<const char*, const char*> kCounterparts[] = {
+    {"catch_trials", "catch_probability"}, {"catch_probability", "catch_trials"}};
+
+/// What an author looks for who writes this key where it does not belong.
+std::string counterpart_hint(const std::string& key, const json& object,
+                             const ParameterTable& table) {
+  for (const auto& [of, counterpart] : kCounterparts) {
+    const Parameter* parameter = key == of ? table.find(counterpart) : nullptr;
+    if (parameter == nullptr || belongs(*parameter, object, table) != Holds::kYes) continue;
+    return std::string("; here the key is `") + counterpart + '`';
+  }
+  return "";
+}
+
 std::string misplaced(const Parameter& parameter, const json& object,
                       const ParameterTable& table) {
   std::string wanted, found;
@@ -63,7 +78,8 @@ std::string misplaced(const Parameter& parameter, const json& object,
     wanted += '`' + condition.key + "` is " + one_of_words(condition.values);
     found += '`' + condition.key + "` is `" + shown_text(*value) + '`';
   }
-  return "expected this key only where " + wanted + ", found it where " + found;
+  return "expected this key only where " + wanted + ", found it where " + found +
+         counterpart_hint(parameter.key, object, table);
 }
 
 bool is_language(std::string_view code) {
@@ -197,12 +213,20 @@ void StructureCheck::check_object(const json& object, const std::string& pointer
 
 void StructureCheck::check_keys(const json& object, const std::string& pointer,
                                 const ParameterTable& table) {
-  std::vector<std::string> candidates = {"comment"};
+  std::vector<std::string> candidates = {"comment"}, present;
   for (const Parameter& parameter : table.parameters) {
-    if (!object.contains(parameter.key) && belongs(parameter, object, table) != Holds::kNo) {
-      candidates.push_back(parameter.key);
-    }
+    if (belongs(parameter, object, table) == Holds::kNo) continue;
+    (object.contains(parameter.key) ? present : candidates).push_back(parameter.key);
   }
+  // Whoever writes a key twice, once with a slip, has to learn which one is read.
+  const auto meant = [&](const std::string& key) {
+    std::string hint = did_you_mean(key, candidates);
+    if (!hint.empty()) return hint;
+    const std::string nearest = nearest_word(key, present);
+    return nearest.empty()
+               ? ""
+               : "; did you mean `" + nearest + "`, which is there already? take this one out";
+  };
   for (const auto& [key, value] : object.items()) {
     if (problems_.size() > kMostProblems) return;
     const std::string child = pointer + '/' + pointer_token(key);
@@ -211,8 +235,7 @@ void StructureCheck::check_keys(const json& object, const std::string& pointer,
     } else if (table.find(key) == nullptr) {
       const std::string home = home_hint(key);
       report_key(child, "expected a key of `" + table.name + "`, found the unknown key `" +
-                            shown_text(key) + "`" +
-                            (home.empty() ? did_you_mean(key, candidates) : home) +
+                            shown_text(key) + "`" + (home.empty() ? meant(key) : home) +
                             file_hint(value));
     }
   }

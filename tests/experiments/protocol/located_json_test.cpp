@@ -71,8 +71,10 @@ TEST(LocatedJson, SaysWhatIsWrongWithTheSyntaxAndWhere) {
             "x:2:1: /a/1: expected a value, found `]` (is there a comma too many?)");
   EXPECT_EQ(problems_in("{\"a\": 1,}"),
             "x:1:9: /: expected a key in quotes, found `}` (is there a comma too many?)");
-  EXPECT_EQ(problems_in("{\"a\": 1 \"b\": 2}"),
-            "x:1:8: /a: expected `,` or `}` behind this value, found a text in quotes");
+  EXPECT_EQ(
+      problems_in("{\"a\": 1 \"b\": 2}"),
+      "x:1:8: /a: expected `,` behind this value, before the key `b`, found none; write it "
+      "here");
   EXPECT_EQ(problems_in("{\"a\": 'x'}"),
             "x:1:7: /a: expected a value or a text in double quotes, found `'x'`");
   EXPECT_EQ(
@@ -129,6 +131,15 @@ TEST(LocatedJson, PlacesAMissingCommaBehindTheValueBefore) {
       problems_in("[-060]"),
       "x:1:5: /1: expected `,` or `]`, found a number (a number begins with 0 only before "
       "a point)");
+}
+
+TEST(LocatedJson, NamesTheKeyThatLacksACommaBeforeIt) {
+  EXPECT_EQ(problems_in("{\"a\": {\"en\": \"x\"}\n\n  \"b\\\"c\" : 1}"),
+            "x:1:18: /a: expected `,` behind this value, before the key `b\\\"c` in line 3, "
+            "found none; write it here");
+  EXPECT_EQ(problems_in("{\"a\": \"x\" \"y\"}"),
+            "x:1:10: /a: expected `,` or `}` behind this value, found a text in quotes")
+      << "no key";
 }
 
 TEST(LocatedJson, NamesTheWordsOfJsonAsTheyAreWritten) {
