@@ -49,6 +49,7 @@ struct PlanOptions {
   std::string laboratory;           ///< "": the default of the device.
   std::vector<std::string> fields;  ///< "sex=female"
   double speed_m_per_s = 0.5;
+  bool all = false;  ///< All cells, however many.
   bool json = false;
 };
 
@@ -319,6 +320,49 @@ void print_group(const experiments::PlannedGroup& group) {
   fmt::print("\n");
 }
 
+/// Sessions of each cell; of very many cells the first ones, unless all are asked for.
+void print_balance(const PlanOutcome& outcome, bool all) {
+  constexpr std::size_t kMostCells = 12;
+  const auto balance = balance_of(outcome);
+  fmt::print("\nBalance: completed sessions, and with the planned ones\n");
+  std::size_t num_shown = 0;
+  for (const auto& [cell, counts] : balance) {
+    if (!all && balance.size() > kMostCells && num_shown == kMostCells) break;
+    fmt::print("  {:<56} {:>3} {:>3}\n", cell.empty() ? "(one cell)" : cell, counts.first,
+               counts.second);
+    ++num_shown;
+  }
+  if (num_shown == balance.size()) return;
+  int fewest = balance.begin()->second.second, most = fewest;
+  for (const auto& [cell, counts] : balance) {
+    fewest = std::min(fewest, counts.second);
+    most = std::max(most, counts.second);
+  }
+  fmt::print(
+      "  ... and {} more; with the planned ones each of all {} has {}; --all lists them\n",
+      balance.size() - num_shown, balance.size(),
+      fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most));
+}
+
+/// "viscosity_pa_s 20 in `thick` (35.50 N in all, 12.40 N at a point)": the first that are too
+/// strong, and how many more there are.
+std::string too_strong_words(const std::vector<experiments::RangeEntry>& range) {
+  constexpr std::size_t kMostNamed = 3;
+  std::string words;
+  std::size_t num = 0;
+  for (const experiments::RangeEntry& entry : range) {
+    if (entry.fits || ++num > kMostNamed) continue;
+    const std::string stimulus =
+        entry.setting.quantity.empty()
+            ? entry.setting.medium
+            : fmt::format("{} {:g}", entry.setting.quantity, entry.setting.intensity);
+    words += fmt::format("{}{} in `{}` ({:.2f} N in all, {:.2f} N at a point)",
+                         words.empty() ? "" : ", ", stimulus, entry.stage, entry.total_force_n,
+                         entry.largest_point_force_n);
+  }
+  return words + (num > kMostNamed ? fmt::format(" and {} more", num - kMostNamed) : "");
+}
+
 void print_range(const PlanOutcome& outcome, const PlanOptions& options) {
   fmt::print(
       "\nStimuli on `{}`: at most {:g} N at a point and {:g} N in all; hand head on at {:g} "
@@ -366,15 +410,12 @@ void print(const PlanOutcome& outcome, const PlanOptions& options) {
   }
   fmt::print("\n\n");
   for (const experiments::ParticipantPlan& plan : outcome.plans) {
-    fmt::print("  {} {}\n", plan.participant, to_string(plan.cell));
+    const std::string cell = to_string(plan.cell);
+    fmt::print("  {}{}{}\n", plan.participant, cell.empty() ? "" : " ", cell);
     for (const experiments::PlannedBlock& block : plan.blocks) print_order(block);
     for (const experiments::PlannedGroup& group : plan.groups) print_group(group);
   }
-  fmt::print("\nBalance: completed sessions, and with the planned ones\n");
-  for (const auto& [cell, counts] : balance_of(outcome)) {
-    fmt::print("  {:<56} {:>3} {:>3}\n", cell.empty() ? "(one cell)" : cell, counts.first,
-               counts.second);
-  }
+  print_balance(outcome, options.all);
   print(outcome.statistics);
   print(outcome.lapses);
   print_range(outcome, options);
@@ -388,10 +429,10 @@ std::vector<std::string> problems_of(const PlanOutcome& outcome, const PlanOptio
                                         [](const auto& entry) { return !entry.fits; });
   if (too_strong > 0) {
     problems.push_back(fmt::format(
-        "{}: expected stimuli that `{}` can render at {:g} m/s, found {} of {} too strong; "
+        "{}: expected stimuli that `{}` can render at {:g} m/s, found {} of {} too strong: {}; "
         "weaken them or plan for another device",
         options.file, options.device, outcome.limits.expected_speed_m_per_s, too_strong,
-        outcome.range.size()));
+        outcome.range.size(), too_strong_words(outcome.range)));
   }
   if (outcome.stability && outcome.stability->num_unstable() > 0) {
     problems.push_back(options.file + ": " +
@@ -461,6 +502,8 @@ void add_plan(CLI::App& program, Invocation& invocation) {
                    "Speed of the hand that forces are expected at")
       ->check(number_between(0.001, 10.0))
       ->capture_default_str();
+  command->add_flag("--all", options->all,
+                    "List all cells of the balance; default: of more than twelve the first");
   command->add_flag("--json", options->json, "Print one JSON document");
   command->callback(
       [&invocation, options] { invocation.run = [options] { return run_plan(*options); }; });

@@ -350,7 +350,10 @@ TEST_F(StudyFileCommandsTest, StimuliThatTheDeviceCannotRenderAreAProblemOfThePl
   EXPECT_EQ(plain.exit_code, 1);
   EXPECT_NE(plain.out.find("TOO STRONG"), std::string::npos)
       << "the plan is printed all the same";
-  EXPECT_EQ(sentence_flaw(plain.err, {"strong.json: expected", "`lumped`", "found 1 of"}), "");
+  EXPECT_EQ(sentence_flaw(plain.err, {"strong.json: expected", "`lumped`", "found 1 of",
+                                      "too strong: viscosity_pa_s 900 in `comparison` (799.",
+                                      " N in all, "}),
+            "");
   const ProgramOutcome outcome = jnd({"plan", "strong.json", "--json"});
   EXPECT_EQ(outcome.exit_code, 1);
   const auto json = document(outcome.out);
