@@ -14,9 +14,9 @@ void add_effect_option(CLI::App& command, std::vector<std::string>& given) {
           "What a condition does to simulated people, once for each: levels of the "
           "study's factors, of its counterbalances or of `block`, then amounts, such as "
           "fluid=thin:weber_fraction_factor=2,weber_fraction_sd_ln=0.2. Amounts are "
-          "weber_fraction_factor, pse_factor, exponent_difference, magnitude_factor, and "
-          "how people differ in them: weber_fraction_sd_ln, pse_sd_ln, exponent_sd, "
-          "magnitude_sd_ln")
+          "weber_fraction_factor, pse_factor, exponent_difference, magnitude_factor, "
+          "rating_difference in steps, and how people differ in them: weber_fraction_sd_ln, "
+          "pse_sd_ln, exponent_sd, magnitude_sd_ln, rating_sd")
       ->type_name("LEVELS:AMOUNTS");
 }
 

@@ -11,6 +11,8 @@
 #include "core/random_stream.h"
 #include "experiments/order/cell.h"
 #include "experiments/procedures/contrast_conditions.h"
+#include "experiments/procedures/magnitude_estimation.h"
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/study/rule_values.h"
 #include "experiments/study/stage_walk.h"
 #include "experiments/study/study_problem.h"
@@ -25,9 +27,60 @@ bool applies(const Laboratory::Effect& effect, const Levels& levels) {
   });
 }
 
-const std::vector<std::string> kAmounts = {
-    "weber_fraction_factor", "weber_fraction_sd_ln", "pse_factor",       "pse_sd_ln",
-    "exponent_difference",   "exponent_sd",          "magnitude_factor", "magnitude_sd_ln"};
+/// An amount, its spread between people, and what they are where an effect does not say them.
+struct Amount {
+  const char *key, *spread_key;
+  double Laboratory::Effect::*value;
+  double Laboratory::Effect::*spread;
+  double nothing;
+};
+
+constexpr Amount kAmounts[] = {
+    {"weber_fraction_factor", "weber_fraction_sd_ln",
+     &Laboratory::Effect::weber_fraction_factor, &Laboratory::Effect::weber_fraction_sd_ln,
+     1.0},
+    {"pse_factor", "pse_sd_ln", &Laboratory::Effect::pse_factor, &Laboratory::Effect::pse_sd_ln,
+     1.0},
+    {"exponent_difference", "exponent_sd", &Laboratory::Effect::exponent_difference,
+     &Laboratory::Effect::exponent_sd, 0.0},
+    {"magnitude_factor", "magnitude_sd_ln", &Laboratory::Effect::magnitude_factor,
+     &Laboratory::Effect::magnitude_sd_ln, 1.0},
+    {"rating_difference", "rating_sd", &Laboratory::Effect::rating_difference,
+     &Laboratory::Effect::rating_sd, 0.0}};
+
+std::vector<std::string> amount_names() {
+  std::vector<std::string> names;
+  for (const Amount& amount : kAmounts) {
+    names.emplace_back(amount.key);
+    names.emplace_back(amount.spread_key);
+  }
+  return names;
+}
+
+/// What an effect says that is not nothing.
+std::vector<std::string> told_amounts(const Laboratory::Effect& effect) {
+  std::vector<std::string> names;
+  for (const Amount& amount : kAmounts) {
+    if (effect.*amount.value != amount.nothing) names.emplace_back(amount.key);
+    if (effect.*amount.spread != 0.0) names.emplace_back(amount.spread_key);
+  }
+  return names;
+}
+
+/// Whether the answers follow an amount, by its key.
+bool acts_on(const std::string& key, const Block& block) {
+  const Measure measures = procedure_named(block.procedure).measures(block);
+  if (key == "weber_fraction_factor") return true;
+  if (key == "pse_factor") {
+    return measures == Measure::kComparison || measures == Measure::kMatch;
+  }
+  if (key == "rating_difference") return measures == Measure::kRating;
+  const bool says_numbers =
+      measures == Measure::kMagnitude || measures == Measure::kProducedMagnitude;
+  if (key == "exponent_difference") return says_numbers;
+  // Numbers that count in a standard are as much larger as its own is.
+  return says_numbers && modulus_of(block) != Modulus::kStandard;
+}
 
 [[noreturn]] void refuse(const std::string& written, const std::string& found) {
   throw core::Error(
@@ -45,7 +98,9 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const std::string& tex
     const std::string pair = text.substr(begin, end - begin);
     const std::size_t equals = pair.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == pair.size()) {
-      refuse(written, "of which `" + pair + "` is no NAME=VALUE");
+      const bool is_word = !pair.empty() && equals == std::string::npos;
+      refuse(written, "of which `" + pair + "` is no NAME=VALUE" +
+                          (is_word ? "; a block is written `block=" + pair + "`" : ""));
     }
     pairs.emplace_back(pair.substr(0, equals), pair.substr(equals + 1));
     begin = end + 1;
@@ -73,6 +128,7 @@ Laboratory::Effect effects_on(const Laboratory& laboratory, const Levels& levels
     all.pse_factor *= effect.pse_factor;
     all.exponent_difference += effect.exponent_difference;
     all.magnitude_factor *= effect.magnitude_factor;
+    all.rating_difference += effect.rating_difference;
   }
   return all;
 }
@@ -95,6 +151,7 @@ Person affected(const Laboratory& laboratory, Person person, std::uint64_t sessi
     person.exponent = std::max(0.05, person.exponent + effect.exponent_difference +
                                          effect.exponent_sd * z("exponent"));
     person.unit *= effect.magnitude_factor * std::exp(effect.magnitude_sd_ln * z("magnitude"));
+    person.rating_steps += effect.rating_difference + effect.rating_sd * z("rating");
   }
   return person;
 }
@@ -112,10 +169,10 @@ std::string with_effects(const std::string& laboratory_text,
       effect["levels"][factor] = level;
     }
     for (const auto& [amount, value] : pairs_of(written.substr(colon + 1), written)) {
-      if (std::ranges::find(kAmounts, amount) == kAmounts.end()) {
-        refuse(written, "of which `" + amount + "` is no amount" +
-                            did_you_mean(amount, kAmounts) + "; amounts are " +
-                            one_of_words(kAmounts));
+      const std::vector<std::string> known = amount_names();
+      if (std::ranges::find(known, amount) == known.end()) {
+        refuse(written, "of which `" + amount + "` is no amount" + did_you_mean(amount, known) +
+                            "; amounts are " + one_of_words(known));
       }
       effect[amount] = number_of(value, written);
     }
@@ -123,6 +180,65 @@ std::string with_effects(const std::string& laboratory_text,
   }
   return file.dump(2) + "\n";
 }
+
+std::vector<std::string> amounts_that_act_on(const Block& block) {
+  std::vector<std::string> names;
+  for (const Amount& amount : kAmounts) {
+    if (!acts_on(amount.key, block)) continue;
+    names.emplace_back(amount.key);
+    names.emplace_back(amount.spread_key);
+  }
+  return names;
+}
+
+namespace {
+
+/// "`fluid=thin,priming=primed`"
+std::string effect_words(const Levels& levels) {
+  std::string words;
+  for (const auto& [factor, level] : levels) {
+    words += (words.empty() ? "" : ",") + factor + "=" + level;
+  }
+  return '`' + shown_text(words) + '`';
+}
+
+/// Throws where no block is any different for it.
+void require_that_it_acts(const Laboratory::Effect& effect, const Laboratory& laboratory,
+                          const Study& study) {
+  std::vector<std::string> blocks;
+  std::vector<std::string> acting;
+  for_each_stage(study.stages, [&](const Stage& stage) {
+    const auto* block = std::get_if<Block>(&stage.content);
+    if (block == nullptr) return;
+    Levels levels = block->levels;
+    levels[kBlockFactor] = stage.name;
+    const bool has_them = std::ranges::all_of(effect.levels, [&](const auto& wanted) {
+      if (is_between_people(study, wanted.first)) return true;
+      const auto found = levels.find(wanted.first);
+      return found != levels.end() && found->second == wanted.second;
+    });
+    if (!has_them) return;
+    blocks.push_back(stage.name);
+    for (const std::string& name : amounts_that_act_on(*block)) {
+      if (std::ranges::find(acting, name) == acting.end()) acting.push_back(name);
+    }
+  });
+  const std::string place =
+      "laboratory " + laboratory.name + ": effect on " + effect_words(effect.levels) + ": ";
+  if (blocks.empty()) {
+    throw core::Error(place +
+                      "expected levels that some block has together, found none that does; "
+                      "give the effect fewer levels");
+  }
+  for (const std::string& name : told_amounts(effect)) {
+    if (std::ranges::find(acting, name) != acting.end()) continue;
+    throw core::Error(place + "expected an amount that changes the answers in " +
+                      names_words(blocks) + ": " + one_of_words(acting) + ", found `" + name +
+                      "`, which changes nothing there");
+  }
+}
+
+}  // namespace
 
 void require_known_effects(const Laboratory& laboratory, const Study& study) {
   std::map<std::string, std::set<std::string>> known;
@@ -154,6 +270,7 @@ void require_known_effects(const Laboratory& laboratory, const Study& study) {
                         " (" + names_words(names) + "), found `" + shown_text(wrong) + "`" +
                         did_you_mean(wrong, names));
     }
+    require_that_it_acts(effect, laboratory, study);
   }
 }
 

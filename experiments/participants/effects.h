@@ -24,7 +24,13 @@ namespace jnd::experiments {
 [[nodiscard]] std::string with_effects(const std::string& laboratory_text,
                                        const std::vector<std::string>& effects);
 
-/// Throws `Error` where an effect names a factor or a level that the study has not.
+/// The amounts of effects that change the answers of simulated people in such a block, as
+/// `with_effects` reads them: "pse_factor" of comparisons, none of ratings.
+[[nodiscard]] std::vector<std::string> amounts_that_act_on(const Block& block);
+
+/// Throws `Error` where an effect names a factor or a level that the study has not, where no
+/// block has all of its levels, or where one of its amounts changes nothing in any of the
+/// blocks that have them.
 void require_known_effects(const Laboratory& laboratory, const Study& study);
 
 }  // namespace jnd::experiments

@@ -121,7 +121,8 @@ class Section {
     if (object_ == nullptr) return;
     for (const auto& [key, value] : object_->items()) {
       if (key != "comment" && !known_.contains(key)) {
-        problems_.push_back(path_ + "/" + shown_text(key) + ": unknown key");
+        problems_.push_back(path_ + "/" + shown_text(key) + ": unknown key" +
+                            did_you_mean(key, {known_.begin(), known_.end()}));
       }
     }
   }
@@ -296,6 +297,8 @@ void read_effects(const json& file, std::vector<Laboratory::Effect>& effects,
     in.optional_number("exponent_sd", effect.exponent_sd, 0.0, 1.0);
     in.optional_number("magnitude_factor", effect.magnitude_factor, 1e-3, 1e3);
     in.optional_number("magnitude_sd_ln", effect.magnitude_sd_ln, 0.0, 2.0);
+    in.optional_number("rating_difference", effect.rating_difference, -100.0, 100.0);
+    in.optional_number("rating_sd", effect.rating_sd, 0.0, 100.0);
     in.finish();
   }
 }
@@ -356,7 +359,9 @@ Laboratory parse_laboratory(const std::string& text, const std::string& place) {
       "device",   "arm",     "movement", "strokes", "perceiver",
       "pressing", "answers", "implied",  "effects", "questions"};
   for (const auto& [key, value] : file.items()) {
-    if (!kKeys.contains(key)) problems.push_back("/" + shown_text(key) + ": unknown key");
+    if (kKeys.contains(key)) continue;
+    problems.push_back("/" + shown_text(key) + ": unknown key" +
+                       did_you_mean(key, {kKeys.begin(), kKeys.end()}));
   }
   if (!file.contains("format") || file.at("format") != 1) {
     problems.emplace_back("/format: expected 1");

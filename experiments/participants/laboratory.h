@@ -120,6 +120,7 @@ struct Laboratory {
     double pse_factor = 1.0, pse_sd_ln = 0.0;
     double exponent_difference = 0.0, exponent_sd = 0.0;
     double magnitude_factor = 1.0, magnitude_sd_ln = 0.0;  ///< Of what numbers say, > 0.
+    double rating_difference = 0.0, rating_sd = 0.0;       ///< Of a rating, in steps.
   };
 
   std::string name;

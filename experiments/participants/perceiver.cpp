@@ -234,7 +234,7 @@ double Perceiver::rate(double magnitude_ratio, int num_steps, const Moment& mome
     return 1.0 + static_cast<double>(stream.below(static_cast<std::size_t>(num_steps)));
   }
   const double last = num_steps - 1;
-  double ratio = 0.5 + person_.shrink * (magnitude_ratio - 0.5);
+  double ratio = 0.5 + person_.shrink * (magnitude_ratio - 0.5) + person_.rating_steps / last;
   if (previous_step) {
     ratio += laboratory_.perceiver.assimilation_ratio * ((*previous_step - 1.0) / last - ratio);
   }

@@ -25,6 +25,7 @@ struct Person {
   int age_years = 0;
   double amplitude_score = 0.0;  ///< Own stroke width, in sd of the population.
   double max_speed_m_per_s = 0.0;
+  double rating_steps = 0.0;  ///< By how much ratings are higher, in steps of the scale.
   double free_modulus = 1.0;  ///< The number that water gets from who chooses their own.
 };
 
@@ -132,8 +133,8 @@ class Perceiver {
 
   /// A step from 1 to `num_steps` for a stimulus that is felt this part of the way from the
   /// weakest to the strongest one (`magnitude_ratio` of trial_feeling.h), drawn toward the
-  /// middle by the person's `shrink`, and by the laboratory's assimilation toward the step
-  /// before. Who lapses takes any step.
+  /// middle by the person's `shrink`, moved by their `rating_steps`, and drawn by the
+  /// laboratory's assimilation toward the step before. Who lapses takes any step.
   [[nodiscard]] double rate(double magnitude_ratio, int num_steps, const Moment& moment,
                             std::optional<double> previous_step) const;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "core/error.h"
@@ -14,6 +15,7 @@
 #include "experiments/participants/thesis_laboratory.h"
 #include "experiments/protocol/study_reader.h"
 #include "experiments/study/stage_walk.h"
+#include "support/places.h"
 
 namespace jnd::experiments {
 namespace effects_test {
@@ -144,6 +146,124 @@ TEST(Effects, OfLevelsThatTheStudyHasNotAreRefused) {
             std::string::npos);
   EXPECT_NE(problem("fluit=thin:pse_factor=2").find("found `fluit`; did you mean `fluid`?"),
             std::string::npos);
+}
+
+TEST(Effects, OnARatingMoveItByStepsAndDifferBetweenPeople) {
+  const Laboratory laboratory =
+      laboratory_with({"fluid=thin:rating_difference=1.5,rating_sd=0.4"});
+  EXPECT_EQ(effects_on(laboratory, {{"fluid", "thin"}}).rating_difference, 1.5);
+  double sum = 0.0, squares = 0.0;
+  constexpr int kPeople = 4000;
+  for (std::uint64_t seed = 1; seed <= kPeople; ++seed) {
+    const Person person = draw_person(laboratory, seed);
+    EXPECT_EQ(person.rating_steps, 0.0);
+    const double steps = affected(laboratory, person, seed, {{"fluid", "thin"}}).rating_steps;
+    sum += steps;
+    squares += steps * steps;
+  }
+  const double mean = sum / kPeople;
+  EXPECT_NEAR(mean, 1.5, 4.0 * 0.4 / std::sqrt(kPeople));
+  EXPECT_NEAR(std::sqrt(squares / kPeople - mean * mean), 0.4, 0.02);
+}
+
+/// Every block that is shipped, in one study, by the names of study and block.
+Study all_shipped_blocks() {
+  Study all;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(test_support::source_folder() / "protocols")) {
+    const std::string file = entry.path().filename().string();
+    if (!file.ends_with(".json") || file.ends_with(".schema.json")) continue;
+    const Study study = read_study(entry.path());
+    for_each_stage(study.stages, [&](const Stage& stage) {
+      if (!std::holds_alternative<Block>(stage.content)) return;
+      Stage& block = all.stages.emplace_back(stage);
+      block.name = study.name + "." + stage.name;
+      block.only_for.clear();
+      block.interleaving.reset();
+    });
+  }
+  all.name = "all";
+  return all;
+}
+
+/// Answers of a few people in every block, by its name.
+std::map<std::string, std::vector<std::optional<double>>> answers_with(
+    const Study& study, const Laboratory& laboratory) {
+  std::map<std::string, std::vector<std::optional<double>>> answers;
+  const AnswerSimulator simulator(study, laboratory);
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    // Each by itself: what is drawn goes by the number of a trial in the session.
+    for (const StageInstance& alone : stages_of(study, cells_of(study).front())) {
+      for (const AnsweredBlock& block : simulator.answers({alone}, seed)) {
+        for (const AnsweredTrial& trial : block.trials) {
+          answers[block.stage->name].push_back(trial.response);
+        }
+      }
+    }
+  }
+  return answers;
+}
+
+// The list of amounts is held against what simulated people do, in every block that is shipped:
+// an amount that is said to act changes answers there, and any other one changes none.
+TEST(Effects, ActWhereTheyAreSaidToAndNowhereElse) {
+  const Study study = all_shipped_blocks();
+  const Laboratory plain = thesis_laboratory();
+  const auto before = answers_with(study, plain);
+  ASSERT_GT(before.size(), 15U);
+  const auto holds = [&](const std::string& amount, const Laboratory::Effect& effect) {
+    Laboratory changed = plain;
+    changed.effects = {effect};  // Without levels it is of all blocks.
+    const auto after = answers_with(study, changed);
+    int num_acting = 0;
+    for (const Stage& stage : study.stages) {
+      const std::vector<std::string> acting =
+          amounts_that_act_on(std::get<Block>(stage.content));
+      const bool acts = std::ranges::find(acting, amount) != acting.end();
+      num_acting += acts ? 1 : 0;
+      EXPECT_EQ(after.at(stage.name) != before.at(stage.name), acts)
+          << amount << " in " << stage.name;
+    }
+    EXPECT_GT(num_acting, 0) << amount;
+  };
+  holds("weber_fraction_factor", {.weber_fraction_factor = 4.0});
+  holds("weber_fraction_sd_ln", {.weber_fraction_sd_ln = 1.0});
+  holds("pse_factor", {.pse_factor = 3.0});
+  holds("pse_sd_ln", {.pse_sd_ln = 1.0});
+  holds("exponent_difference", {.exponent_difference = 0.6});
+  holds("exponent_sd", {.exponent_sd = 0.5});
+  holds("magnitude_factor", {.magnitude_factor = 3.0});
+  holds("magnitude_sd_ln", {.magnitude_sd_ln = 1.0});
+  holds("rating_difference", {.rating_difference = 2.0});
+  holds("rating_sd", {.rating_sd = 2.0});
+}
+
+TEST(Effects, ThatChangeNothingAreRefusedWithThoseThatDo) {
+  const Study study = read_study_text(designed_study(fluid_contrast()), "x.json");
+  const auto problem = [&](const std::string& effect) -> std::string {
+    try {
+      require_known_effects(laboratory_with({effect}), study);
+    } catch (const core::Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(
+      problem("fluid=thin:magnitude_factor=1.3"),
+      "laboratory thesis: effect on `fluid=thin`: expected an amount that changes the "
+      "answers in `thin_a` or `thin_c`: `weber_fraction_factor`, `weber_fraction_sd_ln`, "
+      "`pse_factor` or `pse_sd_ln`, found `magnitude_factor`, which changes nothing there");
+  EXPECT_NE(problem("priming=primed:rating_sd=1").find("found `rating_sd`"), std::string::npos);
+  EXPECT_EQ(problem("fluid=thin:magnitude_factor=1"), "") << "nothing is asked for";
+  EXPECT_EQ(
+      problem("fluid=thin,block=thick_b:pse_factor=2"),
+      "laboratory thesis: effect on `block=thick_b,fluid=thin`: expected levels that some "
+      "block has together, found none that does; give the effect fewer levels");
+  EXPECT_NE(refused({"thin_a:pse_factor=2"}).find("a block is written `block=thin_a`"),
+            std::string::npos);
+  EXPECT_NE(
+      refused({"fluid=thin:rating_diference=2"}).find("did you mean `rating_difference`?"),
+      std::string::npos);
 }
 
 }  // namespace effects_test
