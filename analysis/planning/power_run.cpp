@@ -18,7 +18,7 @@ namespace jnd::analysis {
 namespace {
 
 /// A participant's own number in a block, where it is normally distributed over people:
-/// ln ln(1 + w), the exponent, in production 1 / exponent, or ln(match).
+/// ln ln(1 + w), the exponent, in production 1 / exponent, ln(match), or the mean step.
 struct OwnNumber {
   bool answered = false;
   std::optional<double> plain;      ///< None of a degenerate participant.
@@ -36,6 +36,12 @@ bool frees_pse(const PlannedAnalysis& analysis, const PlannedBlock& block) {
 }
 
 std::string pse_words(bool free_pse) { return free_pse ? "pse free" : "pse at the reference"; }
+
+std::optional<double> mean_over_stimuli(const Means& means) {
+  std::vector<double> values;
+  for (const auto& [x, mean] : means) values.push_back(mean);
+  return summary_of(values).mean;
+}
 
 OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
                      const PlannedAnswers& answers) {
@@ -56,14 +62,16 @@ OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
     own.corrected = fit(true);
     return own;
   }
+  if (block.quantity == PlannedQuantity::kRating) {
+    own.plain = mean_over_stimuli(means_of(answers.magnitudes));
+    return own;
+  }
   // As the results have it: a match of 0 is left out.
   const ZeroRule rule =
       block.quantity == PlannedQuantity::kMatch ? ZeroRule::kLeaveOut : ZeroRule::kHalfSmallest;
   const Means logs = means_of(log_answers(answers.magnitudes, rule).logs);
   if (block.quantity == PlannedQuantity::kMatch) {
-    std::vector<double> means;
-    for (const auto& [standard, mean] : logs) means.push_back(mean);
-    own.plain = summary_of(means).mean;
+    own.plain = mean_over_stimuli(logs);
     return own;
   }
   // Production is answered with an intensity: the slope of ln I over ln S, 1 / exponent.
@@ -123,15 +131,12 @@ std::optional<double> contrast_number(const PlannedAnalysis& analysis,
       }
       return own_number(analysis, block, answers).plain;
     case ContrastMeasure::kMatch:
+    case ContrastMeasure::kRating:
       return own_number(analysis, block, answers).plain;
-    case ContrastMeasure::kMagnitude: {
-      std::vector<double> means;
-      for (const auto& [x, mean] :
-           means_of(log_answers(answers.magnitudes, ZeroRule::kHalfSmallest).logs)) {
-        means.push_back(mean);
-      }
-      return summary_of(means).mean;
-    }
+    case ContrastMeasure::kMagnitude:
+      return mean_over_stimuli(
+          means_of(log_answers(answers.magnitudes, ZeroRule::kHalfSmallest).logs));
+    case ContrastMeasure::kQuestion:
     case ContrastMeasure::kResponseTime:
       break;
   }
@@ -339,6 +344,11 @@ std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis) {
       names.push_back({block.name + ".match",
                        "geometric mean of the participants' matches over all standards",
                        place});
+      continue;
+    }
+    if (block.quantity == PlannedQuantity::kRating) {
+      names.push_back({block.name + ".rating",
+                       "mean of the participants' mean steps over all stimuli", place});
       continue;
     }
     if (block.quantity != PlannedQuantity::kWeberFraction) {

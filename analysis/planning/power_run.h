@@ -20,7 +20,8 @@ enum class PlannedQuantity {
   kWeberFraction,
   kEstimationExponent,
   kProductionExponent,
-  kMatch,  ///< Geometric mean of what was matched, over all standards.
+  kMatch,   ///< Geometric mean of what was matched, over all standards.
+  kRating,  ///< Mean step, over all stimuli.
 };
 
 struct PlannedBlock {
@@ -71,7 +72,7 @@ inline constexpr char kSecondary[] = "secondary in the results";
 /// One participant's answers in one block, without any if the block was not for them.
 struct PlannedAnswers {
   std::vector<AnswerCount> counts;  ///< Discrimination.
-  /// Ratios at intensities, or intensities at targets or standards.
+  /// Ratios or steps at intensities, or intensities at targets or standards.
   MagnitudeAnswers magnitudes;
   /// The posterior of QUEST+ reaches an end of one of its grids.
   bool at_grid_end = false;

@@ -44,7 +44,7 @@ HtmlTable plan_table(const StudyResults& results) {
   for (const ContrastResult& one : results.contrasts) {
     const PlannedContrast& plan = one.plan;
     const std::string role = plan.primary ? "primary" : "secondary";
-    table.rows.push_back({title_of(one), measure_words(plan.measure), joined(one.conditions),
+    table.rows.push_back({title_of(one), measure_words(plan), joined(one.conditions),
                           plan.family == role ? role : role + ", " + plan.family,
                           to_string(plan.direction),
                           plan.smallest_effect ? shortest_words(*plan.smallest_effect) : "–",
@@ -149,9 +149,10 @@ void write_contrasts(HtmlText& html, const StudyResults& results) {
     for (const std::string& caution : one.cautions) cautions.push_back(title + ": " + caution);
     if (const std::string looks = looks_sentence(one); !looks.empty()) html.paragraph(looks);
   }
-  answers.notes.emplace_back(
-      said("Effects are ratios, but of exponents differences. p values are on the side that "
-           "was planned; the adjusted ones are within the family of each contrast."));
+  answers.notes.emplace_back(said(
+      "Effects are ratios; of exponents, ratings and answers to questions they are "
+      "differences. p values are on the side that was planned; the adjusted ones are within "
+      "the family of each contrast."));
   html.table(answers);
   if (!cautions.empty()) html.list(cautions);
   html.table(equivalence);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "analysis/data/cell_arms.h"
 #include "analysis/data/magnitude_means.h"
@@ -8,6 +9,7 @@
 #include "analysis/results/magnitude_fits.h"
 #include "analysis/results/planned_contrasts.h"
 #include "analysis/statistics/summary.h"
+#include "experiments/study/question_answer.h"
 
 namespace jnd::analysis {
 namespace {
@@ -48,6 +50,26 @@ std::optional<double> exponent_of(const Trials& trials) {
   return fit_log_estimation(means_of(log_answers(answers, ZeroRule::kHalfSmallest).logs)).a;
 }
 
+/// Of the answers to a question after the trials of these blocks that count, those of catch
+/// trials among them.
+std::optional<double> mean_answer(const ParticipantData& participant,
+                                  const std::vector<std::string>& blocks,
+                                  const std::string& question) {
+  std::set<std::pair<std::int64_t, std::int64_t>> counted;
+  for (const auto* const list : {&participant.trials, &participant.catch_trials}) {
+    for (const core::TrialRow& trial : *list) {
+      if (std::ranges::find(blocks, trial.block) == blocks.end()) continue;
+      counted.insert({trial.session, trial.trial});
+    }
+  }
+  std::vector<double> values;
+  for (const core::QuestionAnswerRow& row : participant.question_answers) {
+    if (row.question != question || !counted.contains({row.session, row.trial})) continue;
+    if (const auto value = experiments::value_of_answer(row.answer)) values.push_back(*value);
+  }
+  return summary_of(values).mean;
+}
+
 std::optional<double> log_response_time(const Trials& trials) {
   std::vector<double> logs;
   for (const core::TrialRow& trial : trials) {
@@ -72,8 +94,11 @@ std::optional<double> number_of(const Trials& trials, ContrastMeasure measure) {
           means_of(log_answers(answers_at(trials, &core::TrialRow::reference_intensity),
                                ZeroRule::kLeaveOut)
                        .logs));
+    case ContrastMeasure::kRating:
+      return mean_over(means_of(answers_at(trials, &core::TrialRow::intensity)));
     case ContrastMeasure::kResponseTime:
       return log_response_time(trials);
+    case ContrastMeasure::kQuestion:
     case ContrastMeasure::kWeberFraction:
     case ContrastMeasure::kPse:
       break;
@@ -141,8 +166,10 @@ std::vector<DiscriminationAnswers> condition_answers(
   return all;
 }
 
-ConditionNumbers condition_numbers(const StudyData& data, ContrastMeasure measure,
+ConditionNumbers condition_numbers(const StudyData& data,
+                                   const experiments::PlannedContrast& plan,
                                    const experiments::ContrastConditions& conditions) {
+  const ContrastMeasure measure = plan.measure;
   const bool is_fitted =
       measure == ContrastMeasure::kWeberFraction || measure == ContrastMeasure::kPse;
   std::vector<std::vector<DiscriminationAnswers>> answers;
@@ -162,9 +189,13 @@ ConditionNumbers condition_numbers(const StudyData& data, ContrastMeasure measur
     own.groups.push_back(conditions.groups[*group].name);
     std::vector<std::optional<double>>& numbers = own.numbers.emplace_back();
     for (std::size_t at = 0; at < conditions.conditions.size(); ++at) {
+      const std::vector<std::string>& blocks = conditions.conditions[at].blocks;
+      if (measure == ContrastMeasure::kQuestion) {
+        numbers.push_back(mean_answer(participant, blocks, plan.question));
+        continue;
+      }
       if (!is_fitted) {
-        numbers.push_back(
-            number_of(trials_of(participant, conditions.conditions[at].blocks), measure));
+        numbers.push_back(number_of(trials_of(participant, blocks), measure));
         continue;
       }
       const auto found = std::ranges::find(answers[at], participant.participant,

@@ -82,6 +82,14 @@ std::string test_words(const ContrastTest& test, const PlannedContrast& plan) {
   return words;
 }
 
+/// " larger", of steps and other answers " higher".
+std::string difference_words(ContrastMeasure measure, double effect) {
+  if (measure == ContrastMeasure::kExponent) {
+    return effect < 0.0 ? said(" smaller") : said(" larger");
+  }
+  return effect < 0.0 ? said(" lower") : said(" higher");
+}
+
 /// What a single factor compares: "was 2.10 times as large in thin as in thick".
 std::string main_words(const PlannedContrast& plan, double effect, const Weights& weights) {
   const std::string above = joined(levels_with(weights, true));
@@ -96,7 +104,7 @@ std::string main_words(const PlannedContrast& plan, double effect, const Weights
                 below);
   }
   return said(" was {}{} in {} than in {}", effect_words(std::abs(effect)),
-              (effect < 0.0 ? said(" smaller") : said(" larger")), above, below);
+              difference_words(plan.measure, effect), above, below);
 }
 
 /// What several factors compare: "The ratio of the Weber fraction in thin to that in thick was
@@ -104,7 +112,7 @@ std::string main_words(const PlannedContrast& plan, double effect, const Weights
 std::string interaction_words(const PlannedContrast& plan, double effect,
                               const std::vector<const Weights*>& factors) {
   const bool of_ratios = is_ratio(plan.measure);
-  std::string subject = said("the {}", measure_words(plan.measure));
+  std::string subject = said("the {}", measure_words(plan));
   for (std::size_t i = 0; i + 1 < factors.size(); ++i) {
     const std::string above = joined(levels_with(*factors[i], true));
     const std::string below = joined(levels_with(*factors[i], false));
@@ -123,7 +131,7 @@ std::string interaction_words(const PlannedContrast& plan, double effect,
                 below);
   }
   return said("{} was {}{} in {} than in {}", subject, effect_words(std::abs(effect)),
-              (effect < 0.0 ? said(" smaller") : said(" larger")), above, below);
+              difference_words(plan.measure, effect), above, below);
 }
 
 std::string equivalence_words(const ContrastResult& result) {
@@ -176,7 +184,7 @@ std::string contrast_sentence(const ContrastResult& result) {
     if (compares(weights)) factors.push_back(&weights);
   }
   std::string sentence = factors.size() == 1
-                             ? said("The {}{}", measure_words(plan.measure),
+                             ? said("The {}{}", measure_words(plan),
                                     main_words(plan, *result.test.effect, *factors.front()))
                              : interaction_words(plan, *result.test.effect, factors);
   sentence += said("{}, 95 % CI {}{}", restriction_words(plan), interval_text(result.test.ci95),

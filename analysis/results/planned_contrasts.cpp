@@ -60,7 +60,7 @@ struct Scores {
   int num_participants = 0;
 };
 
-Scores scores_of(const OwnContrasts& own, std::size_t num_groups, ContrastMeasure measure) {
+Scores scores_of(const OwnContrasts& own, std::size_t num_groups, const PlannedContrast& plan) {
   Scores scores{.by_group = std::vector<std::vector<double>>(num_groups)};
   for (std::size_t person = 0; person < own.participants.size(); ++person) {
     const std::optional<PersonScore>& score = own.scores[person];
@@ -71,7 +71,7 @@ Scores scores_of(const OwnContrasts& own, std::size_t num_groups, ContrastMeasur
     }
     scores.excluded.push_back(
         {own.participants[person],
-         said("no {} of their own in {}", measure_words(measure), own.lacking[person])});
+         said("no {} of their own in {}", measure_words(plan), own.lacking[person])});
   }
   return scores;
 }
@@ -191,8 +191,8 @@ ContrastResult result_of(const StudyData& data, const PlannedContrast& plan) {
   }
   result.conditions = condition_words(conditions);
   const Scores scores =
-      scores_of(own_contrasts(condition_numbers(data, plan.measure, conditions), conditions),
-                conditions.groups.size(), plan.measure);
+      scores_of(own_contrasts(condition_numbers(data, plan, conditions), conditions),
+                conditions.groups.size(), plan);
   const std::string numbers = own_number_words(plan.measure);
   const std::optional<EffectEstimate> of_people = contrast_estimate(scores.by_group);
   ContrastTest own =
@@ -282,6 +282,10 @@ std::string own_number_words(ContrastMeasure measure) {
       return said("mean ln magnitudes");
     case ContrastMeasure::kMatch:
       return said("mean ln matches");
+    case ContrastMeasure::kRating:
+      return said("mean ratings");
+    case ContrastMeasure::kQuestion:
+      return said("mean answers");
     case ContrastMeasure::kResponseTime:
       return said("mean ln response times");
   }
@@ -319,7 +323,14 @@ std::vector<ContrastResult> planned_contrasts(const StudyData& data) {
   }
   adjust_for_looks(results, data);
   adjust(results);
-  for (ContrastResult& one : results) one.sentence = contrast_sentence(one);
+  for (ContrastResult& one : results) {
+    one.sentence = contrast_sentence(one);
+    const bool is_of_times = one.plan.measure == ContrastMeasure::kResponseTime;
+    if (!is_of_times || !data.simulated || one.sentence.empty()) continue;
+    // Wherever the test is told: simulated people take as long as a stroke does.
+    one.sentence +=
+        said(" The people are SIMULATED: how long they take says nothing about people.");
+  }
   return results;
 }
 

@@ -24,7 +24,7 @@ struct Equivalence {
 /// One way to test a contrast.
 struct ContrastTest {
   std::string method;
-  std::optional<double> effect;  ///< A ratio, or a difference of exponents.
+  std::optional<double> effect;  ///< A ratio, or a difference; see `is_ratio`.
   Interval ci95;
   std::optional<double> statistic, degrees_of_freedom;
   std::optional<double> p_value;  ///< On the side that was planned.
@@ -59,8 +59,10 @@ struct ContrastResult {
 };
 
 /// A person's number in one condition, where people spread evenly: ln ln(1 + w), ln(pse /
-/// reference), the exponent, mean ln magnitude, mean ln match, mean ln response time. Absent
-/// where the person has none.
+/// reference), the exponent, mean ln magnitude, mean ln match, the mean step of a rating, the
+/// mean answer to a question, mean ln response time. Means of magnitudes, matches and ratings
+/// are over the means at each stimulus, so that a lost trial does not move them. Absent where
+/// the person has none.
 struct ConditionNumbers {
   std::vector<std::string> participants;
   std::vector<std::string> groups;  ///< Of each participant.
@@ -79,7 +81,7 @@ struct ConditionNumbers {
 
 /// Everybody's own numbers in the conditions of a contrast. Not real time.
 [[nodiscard]] ConditionNumbers condition_numbers(
-    const StudyData& data, experiments::ContrastMeasure measure,
+    const StudyData& data, const experiments::PlannedContrast& plan,
     const experiments::ContrastConditions& conditions);
 
 /// Everybody's weighted sum of their numbers, by participant.

@@ -27,13 +27,6 @@ std::vector<const core::TrialRow*> trials_of(const ParticipantData& participant,
   return trials;
 }
 
-/// A step or a number; yes is 1 and no is 0. None for a question that was left out.
-std::optional<double> value_of(const Item& item, const std::string& answer) {
-  if (item.kind != "yes_no") return experiments::number_in(answer);
-  if (answer == "yes") return 1.0;
-  return answer == "no" ? std::optional(0.0) : std::nullopt;
-}
-
 RatedAnswer rated(const BlockDesign& block, const core::TrialRow& trial, double value) {
   RatedAnswer answer{.value = value, .was_right = was_right(block.written, trial)};
   if (!trial.is_catch) answer.level = trial.intensity;
@@ -62,11 +55,11 @@ class QuestionSection {
   void add(const Item& item) {
     if (item.kind == "choice" || item.kind == "yes_no_which") add_shares(item);
     if (item.kind == "text" || item.kind == "yes_no_which") add_free_answers(item);
-    if (item.kind != "scale" && item.kind != "number" && item.kind != "yes_no") return;
+    if (!experiments::has_value(item)) return;
     RatedAnswers answers;
     for_each_answer(item, [&](const ParticipantData& participant, const core::TrialRow& trial,
                               const std::string& given) {
-      if (const std::optional<double> value = value_of(item, given)) {
+      if (const std::optional<double> value = experiments::value_of_answer(given)) {
         answers[participant.participant].push_back(rated(block_, trial, *value));
       }
     });

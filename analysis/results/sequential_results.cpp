@@ -152,7 +152,7 @@ std::vector<std::optional<EffectEstimate>> estimates_at_looks(
     throw core::Error(data.study + ": contrast " + decides.name + ": " + conditions.problem);
   }
   const OwnContrasts own =
-      own_contrasts(condition_numbers(data, decides.measure, conditions), conditions);
+      own_contrasts(condition_numbers(data, decides, conditions), conditions);
   std::map<std::string, std::optional<PersonScore>> score_of;
   for (std::size_t person = 0; person < own.participants.size(); ++person) {
     score_of[own.participants[person]] = own.scores[person];

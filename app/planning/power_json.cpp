@@ -23,7 +23,8 @@ constexpr std::pair<PlannedQuantity, const char*> kQuantities[] = {
     {PlannedQuantity::kWeberFraction, "weber_fraction"},
     {PlannedQuantity::kEstimationExponent, "estimation_exponent"},
     {PlannedQuantity::kProductionExponent, "production_exponent"},
-    {PlannedQuantity::kMatch, "match"}};
+    {PlannedQuantity::kMatch, "match"},
+    {PlannedQuantity::kRating, "rating"}};
 
 const char* word_of(PlannedQuantity quantity) {
   for (const auto& [known, word] : kQuantities) {

@@ -47,9 +47,10 @@ PlannedQuantity quantity_of(const Block& block) {
     case AnswerKind::kMatch:
       return form.has_reference ? PlannedQuantity::kMatch
                                 : PlannedQuantity::kProductionExponent;
+    case AnswerKind::kStep:
+      return PlannedQuantity::kRating;
     case AnswerKind::kPercent:
     case AnswerKind::kNumber:
-    case AnswerKind::kStep:
       break;
   }
   return PlannedQuantity::kEstimationExponent;
@@ -71,6 +72,8 @@ PlannedAnswers answers_of(const std::vector<AnsweredTrial>& trials, PlannedQuant
       answers.magnitudes[planned.target_percent.value()].push_back(*response);
     } else if (quantity == PlannedQuantity::kMatch) {
       answers.magnitudes[planned.reference_intensity.value()].push_back(*response);
+    } else if (quantity == PlannedQuantity::kRating) {
+      answers.magnitudes[planned.intensity.value()].push_back(*response);
     } else {
       answers.magnitudes[planned.intensity.value()].push_back(*response * kRatioPerPercent);
     }
@@ -96,11 +99,10 @@ PlannedPerson person_of(const PlannedAnalysis& analysis,
   return person;
 }
 
-/// Magnitudes and comparisons; no practice, no ratings, and none of those that ask whether
-/// anything is there or different.
+/// Magnitudes, matches, ratings and comparisons; no practice, and none of those that ask
+/// whether anything is there or different, or which of three it is.
 bool is_planned_for(const Block& block) {
   if (block.practice) return false;
-  if (procedure_named(block.procedure).measures(block) == Measure::kRating) return false;
   return !block.settings.has("task") || task_of(block) == Task::kReminder ||
          task_of(block) == Task::kTwoInterval;
 }
@@ -138,6 +140,21 @@ std::vector<std::string> left_out_of(const Study& study) {
     }
   }
   return names;
+}
+
+/// Of a study that has no block to plan for.
+std::string unplanned_words(const Study& study) {
+  std::string blocks;
+  for (const std::string& name : left_out_of(study)) {
+    blocks += (blocks.empty() ? "" : ", ") + name;
+  }
+  return study.name +
+         ": expected a block to plan for, one that estimates, produces, matches or rates, or "
+         "compares by the task `reminder` or `two_interval`, found " +
+         (blocks.empty() ? "no block at all; add one"
+                         : "only " + blocks +
+                               "; simulate the study with several numbers of people, and look "
+                               "how wide the intervals of `jnd results` are");
 }
 
 const Block& block_of(const Stage& stage) { return std::get<Block>(stage.content); }
@@ -255,8 +272,8 @@ std::vector<PlannedDuration> durations_of(const Study& study, const Laboratory& 
 }
 
 std::string contrast_meaning(const PlannedContrast& plan) {
-  std::string meaning = std::string(plan.primary ? "primary" : "secondary") + ", in the " +
-                        measure_words(plan.measure);
+  std::string meaning =
+      std::string(plan.primary ? "primary" : "secondary") + ", in the " + measure_words(plan);
   if (plan.direction != ContrastDirection::kEither) meaning += ", one-sided";
   if (plan.correction != Correction::kNone) {
     meaning += ", p by " +
@@ -273,9 +290,13 @@ std::vector<analysis::PowerContrast> contrasts_of(const Study& study,
   std::vector<analysis::PowerContrast> contrasts;
   for (const PlannedContrast& plan : study.contrasts) {
     const ContrastConditions found = contrast_conditions(study, plan);
+    if (plan.measure == ContrastMeasure::kQuestion) {
+      left_out.push_back("contrast " + plan.name + " (of a question after the trials)");
+      continue;
+    }
     if (plan.measure == ContrastMeasure::kResponseTime || !found.problem.empty()) {
       left_out.push_back("contrast " + plan.name + " (simulated people have no " +
-                         measure_words(plan.measure) + ")");
+                         measure_words(plan) + ")");
       continue;
     }
     analysis::PowerContrast one{.name = plan.name,
@@ -354,10 +375,7 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
     : study_(study), laboratory_(laboratory) {
   const std::vector<const Stage*> blocks = blocks_of(study);
   if (blocks.empty()) {
-    throw UsageError(
-        "FILE: expected a study with a block of magnitudes or comparisons, "
-        "found none in " +
-        study.name);
+    throw UsageError(unplanned_words(study));
   }
   const std::unique_ptr<const core::ForceMap> map = force_map_of(study.device);
   PlannedAnalysis planned{.sizes = request.sizes,

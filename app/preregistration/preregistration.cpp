@@ -26,16 +26,18 @@ Json contrast_json(const Study& study, const PlannedContrast& plan) {
   for (const auto& [factor, weights] : plan.weights) {
     for (const auto& [level, weight] : weights) of[factor][level] = weight;
   }
-  return {{"name", plan.name},
-          {"hypothesis", shown(plan.hypothesis, study)},
-          {"measure", to_string(plan.measure)},
-          {"of", std::move(of)},
-          {"role", plan.primary ? "primary" : "secondary"},
-          {"direction", to_string(plan.direction)},
-          {"smallest_effect", plan.smallest_effect ? Json(*plan.smallest_effect) : Json()},
-          {"alpha", plan.alpha},
-          {"family", plan.family},
-          {"correction", to_string(plan.correction)}};
+  Json json = {{"name", plan.name},
+               {"hypothesis", shown(plan.hypothesis, study)},
+               {"measure", to_string(plan.measure)}};
+  if (!plan.question.empty()) json["question"] = plan.question;
+  json.update({{"of", std::move(of)},
+               {"role", plan.primary ? "primary" : "secondary"},
+               {"direction", to_string(plan.direction)},
+               {"smallest_effect", plan.smallest_effect ? Json(*plan.smallest_effect) : Json()},
+               {"alpha", plan.alpha},
+               {"family", plan.family},
+               {"correction", to_string(plan.correction)}});
+  return json;
 }
 
 Json sequential_json(const SequentialPlan& plan) {

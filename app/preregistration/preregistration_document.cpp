@@ -54,8 +54,9 @@ std::string weights_words(const Json& of) {
 
 std::string contrast_words(const Json& contrast) {
   std::string words =
-      fmt::format("{} ({}): {} of {}, ", spaced(contrast.at("name")),
+      fmt::format("{} ({}): {}{} of {}, ", spaced(contrast.at("name")),
                   contrast.at("role").get<std::string>(), spaced(contrast.at("measure")),
+                  contrast.contains("question") ? " " + spaced(contrast.at("question")) : "",
                   weights_words(contrast.at("of")));
   const std::string direction = contrast.at("direction");
   words += direction == "either" ? "two-sided" : "one-sided (" + direction + ")";

@@ -118,6 +118,7 @@ json contrast_json(const analysis::ContrastResult& one) {
                    {"excluded", std::move(excluded)},
                    {"cautions", one.cautions},
                    {"sentence", one.sentence}});
+  if (!plan.question.empty()) contrast["question"] = plan.question;
   if (one.sequential) {
     contrast["sequential"] = {{"looks", one.sequential->looks},
                               {"nominal_levels", one.sequential->nominal_levels},

@@ -7,6 +7,7 @@
 
 #include "experiments/order/cell.h"
 #include "experiments/procedures/procedure_registry.h"
+#include "experiments/study/question_answer.h"
 #include "experiments/study/stage_walk.h"
 
 namespace jnd::experiments {
@@ -22,22 +23,98 @@ Weights scaled(Weights weights) {
   return weights;
 }
 
-/// A block with the measure, and its levels, its own name as that of `block`.
+/// A block of the study, and its levels, its own name as that of `block`.
 struct LevelledBlock {
   std::string name;
   Levels levels;
+  const Block* block = nullptr;
 };
 
-std::vector<LevelledBlock> blocks_with(const Study& study, ContrastMeasure measure) {
+std::vector<LevelledBlock> blocks_of(const Study& study) {
   std::vector<LevelledBlock> found;
   for_each_stage(study.stages, [&](const Stage& stage) {
     const auto* block = std::get_if<Block>(&stage.content);
-    if (block == nullptr || !has_measure(*block, measure)) return;
+    if (block == nullptr) return;
     Levels levels = block->levels;
     levels[kBlockFactor] = stage.name;
-    found.push_back({stage.name, std::move(levels)});
+    found.push_back({stage.name, std::move(levels), block});
   });
   return found;
+}
+
+bool measures_a(const Block& block, ContrastMeasure measure) {
+  const Procedure& procedure = procedure_named(block.procedure);
+  const Measure measures = procedure.measures(block);
+  switch (measure) {
+    case ContrastMeasure::kWeberFraction:
+      return measures == Measure::kComparison;
+    case ContrastMeasure::kPse:
+      return measures == Measure::kComparison && !procedure.form(block).order_is_drawn;
+    case ContrastMeasure::kExponent:
+      return measures == Measure::kMagnitude || measures == Measure::kProducedMagnitude;
+    case ContrastMeasure::kMagnitude:
+      return measures == Measure::kMagnitude;
+    case ContrastMeasure::kMatch:
+      return measures == Measure::kMatch;
+    case ContrastMeasure::kRating:
+      return measures == Measure::kRating;
+    case ContrastMeasure::kQuestion:
+      return std::ranges::any_of(block.questions, has_value);
+    case ContrastMeasure::kResponseTime:
+      return true;
+  }
+  return false;
+}
+
+/// "`a`, `b` and `c`", of very many the first and how many more there are.
+std::string and_words(const std::vector<std::string>& words) {
+  constexpr std::size_t kMost = 6;
+  const std::size_t num_told = words.size() > kMost ? kMost - 1 : words.size();
+  std::string all;
+  for (std::size_t i = 0; i < num_told; ++i) {
+    if (i > 0) all += i + 1 == words.size() ? " and " : ", ";
+    all += '`' + words[i] + '`';
+  }
+  if (num_told < words.size()) {
+    all += " and " + std::to_string(words.size() - num_told) + " more";
+  }
+  return all;
+}
+
+/// "have the measure `x`", "ask the question `y`": what the blocks of a contrast have to.
+std::string wanted_words(const PlannedContrast& contrast) {
+  if (contrast.measure != ContrastMeasure::kQuestion) {
+    return "have the measure `" + to_string(contrast.measure) + "`";
+  }
+  return "ask the question `" + contrast.question + "` (a `scale`, a `number` or `yes_no`)";
+}
+
+/// What all of these blocks can be compared in but for `other`: "`response_time` alone".
+std::string measures_words(const std::vector<LevelledBlock>& blocks, ContrastMeasure other) {
+  std::vector<std::string> names;
+  for (const ContrastMeasure measure : contrast_measures()) {
+    if (measure == other) continue;  // Blocks may ask another question.
+    const bool all_have_it = std::ranges::all_of(
+        blocks, [&](const LevelledBlock& one) { return measures_a(*one.block, measure); });
+    if (all_have_it) names.push_back(to_string(measure));
+  }
+  return names.size() == 1 ? and_words(names) + " alone" : and_words(names);
+}
+
+/// "`one` and `two` have `response_time` alone": why blocks that are there cannot be compared.
+std::string lack_words(const std::vector<LevelledBlock>& blocks, ContrastMeasure measure) {
+  std::vector<LevelledBlock> data;
+  std::vector<std::string> names, practice;
+  for (const LevelledBlock& one : blocks) {
+    (one.block->practice ? practice : names).push_back(one.name);
+    if (!one.block->practice) data.push_back(one);
+  }
+  if (data.empty()) {
+    return and_words(practice) + (practice.size() == 1 ? " is" : " are") +
+           " practice, which is no data";
+  }
+  return and_words(names) + (names.size() == 1 ? " has " : " have ") +
+         measures_words(data, measure);
 }
 
 /// The weight that a factor gives what has these levels: 0 for what has none of its levels.
@@ -71,6 +148,34 @@ std::vector<ContrastGroup> groups_of(const std::vector<const DesignFactor*>& fac
   return groups;
 }
 
+/// Every combination of levels with a weight, of the factors that blocks differ in.
+std::vector<Levels> wanted_levels(const Study& study,
+                                  const std::map<std::string, Weights>& by_factor) {
+  std::vector<Levels> wanted = {{}};
+  for (const auto& [factor, weights] : by_factor) {
+    if (is_between_people(study, factor)) continue;
+    std::vector<Levels> crossed;
+    for (const Levels& levels : wanted) {
+      for (const auto& [level, weight] : weights) {
+        if (weight == 0.0) continue;
+        crossed.push_back(levels);
+        crossed.back()[factor] = level;
+      }
+    }
+    wanted = std::move(crossed);
+  }
+  return wanted;
+}
+
+/// "`fluid` `thin` and `vision` `on`".
+std::string levels_words(const Levels& levels) {
+  std::string words;
+  for (const auto& [factor, level] : levels) {
+    words += (words.empty() ? "`" : " and `") + factor + "` `" + level + '`';
+  }
+  return words;
+}
+
 }  // namespace
 
 bool is_between_people(const Study& study, const std::string& factor) {
@@ -82,25 +187,14 @@ bool is_between_people(const Study& study, const std::string& factor) {
   });
 }
 
-bool has_measure(const Block& block, ContrastMeasure measure) {
+bool has_measure(const Block& block, const PlannedContrast& contrast) {
   if (block.practice) return false;
-  const Procedure& procedure = procedure_named(block.procedure);
-  const Measure measures = procedure.measures(block);
-  switch (measure) {
-    case ContrastMeasure::kWeberFraction:
-      return measures == Measure::kComparison;
-    case ContrastMeasure::kPse:
-      return measures == Measure::kComparison && !procedure.form(block).order_is_drawn;
-    case ContrastMeasure::kExponent:
-      return measures == Measure::kMagnitude || measures == Measure::kProducedMagnitude;
-    case ContrastMeasure::kMagnitude:
-      return measures == Measure::kMagnitude;
-    case ContrastMeasure::kMatch:
-      return measures == Measure::kMatch;
-    case ContrastMeasure::kResponseTime:
-      return true;
+  if (contrast.measure != ContrastMeasure::kQuestion) {
+    return measures_a(block, contrast.measure);
   }
-  return false;
+  return std::ranges::any_of(block.questions, [&](const QuestionnaireItem& item) {
+    return item.name == contrast.question && has_value(item);
+  });
 }
 
 ContrastConditions contrast_conditions(const Study& study, const PlannedContrast& contrast) {
@@ -130,7 +224,8 @@ ContrastConditions contrast_conditions(const Study& study, const PlannedContrast
   std::map<Levels, std::size_t> place_of;
   std::vector<Levels> levels_of;
   std::vector<double> condition_weights;
-  for (const LevelledBlock& block : blocks_with(study, contrast.measure)) {
+  std::map<Levels, std::vector<LevelledBlock>> without;  // The measure, by their levels.
+  for (const LevelledBlock& block : blocks_of(study)) {
     double weight = 1.0;
     Levels own, named;
     for (const std::string& factor : within) {
@@ -145,6 +240,10 @@ ContrastConditions contrast_conditions(const Study& study, const PlannedContrast
       if (level != block.levels.end()) named[factor] = level->second;
     }
     if (weight == 0.0) continue;
+    if (!has_measure(*block.block, contrast)) {
+      without[named].push_back(block);
+      continue;
+    }
     const auto [place, is_new] = place_of.emplace(own, found.conditions.size());
     if (is_new) {
       found.conditions.push_back(
@@ -155,8 +254,16 @@ ContrastConditions contrast_conditions(const Study& study, const PlannedContrast
     found.conditions[place->second].blocks.push_back(block.name);
   }
   if (found.conditions.empty()) {
-    found.problem = "expected blocks with these levels that have the measure `" +
-                    to_string(contrast.measure) + "`, found none";
+    std::vector<LevelledBlock> all;
+    for (const auto& [levels, blocks] : without) {
+      all.insert(all.end(), blocks.begin(), blocks.end());
+    }
+    found.problem =
+        "expected blocks with these levels that " + wanted_words(contrast) + ", found none: " +
+        (all.empty() ? "no block has these levels; state them in the `levels` of blocks"
+                     : lack_words(all, contrast.measure) +
+                           "; compare in what they have, or compare other "
+                           "blocks");
     return found;
   }
   // What is not named is averaged: conditions that the named levels do not tell apart share
@@ -167,17 +274,22 @@ ContrastConditions contrast_conditions(const Study& study, const PlannedContrast
     condition_weights[i] /= num_alike[levels_of[i]];
   }
   // Every combination of the levels that have a weight has to be there.
-  std::size_t num_wanted = 1;
-  for (const auto& [factor, weights] : by_factor) {
-    if (is_between_people(study, factor)) continue;
-    num_wanted *= static_cast<std::size_t>(
-        std::ranges::count_if(weights, [](const auto& one) { return one.second != 0.0; }));
-  }
-  if (num_alike.size() != num_wanted) {
-    found.problem = "expected a block that has the measure `" + to_string(contrast.measure) +
-                    "` for each of the " + std::to_string(num_wanted) +
-                    " combinations of these levels, found blocks for " +
-                    std::to_string(num_alike.size());
+  std::vector<Levels> missing = wanted_levels(study, by_factor);
+  const std::size_t num_wanted = missing.size();
+  std::erase_if(missing, [&](const Levels& levels) { return num_alike.contains(levels); });
+  if (!missing.empty()) {
+    const auto blocks = without.find(missing.front());
+    found.problem =
+        "expected blocks that " + wanted_words(contrast) + " for each of the " +
+        std::to_string(num_wanted) + " combinations of these levels, found none for " +
+        levels_words(missing.front()) +
+        (missing.size() > 1 ? " and " + std::to_string(missing.size() - 1) + " more" : "") +
+        ": " +
+        (blocks == without.end()
+             ? "no block has these levels; add one, or leave them out of the contrast"
+             : lack_words(blocks->second, contrast.measure) +
+                   "; compare in what all have, or leave these levels "
+                   "out of the contrast");
     return found;
   }
 

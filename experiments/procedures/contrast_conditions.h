@@ -33,8 +33,8 @@ struct ContrastConditions {
 /// participant field of that name.
 [[nodiscard]] bool is_between_people(const Study& study, const std::string& factor);
 
-/// Whether a block's answers can be compared in this.
-[[nodiscard]] bool has_measure(const Block& block, ContrastMeasure measure);
+/// Whether a block's answers can be compared in what the contrast compares. Not of practice.
+[[nodiscard]] bool has_measure(const Block& block, const PlannedContrast& contrast);
 
 /// The study's blocks that have the measure, taken together where all levels that they state
 /// are the same, with the weights that the contrast gives them. A factor that it does not name

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "experiments/procedures/contrast_conditions.h"
+#include "experiments/procedures/rating.h"
 #include "experiments/protocol/structure_check.h"
 #include "experiments/protocol/study_check.h"
 #include "experiments/study/rule_values.h"
@@ -57,7 +58,10 @@ class DesignRules : StudyCheck {
       }
     }
     for_each_written_stage(file_.root(), [&](const json& stage, const std::string&) {
-      if (word(stage, "kind") == "block") blocks_.push_back(word(stage, "name"));
+      if (word(stage, "kind") == "block") {
+        blocks_.push_back(word(stage, "name"));
+        collect_questions(stage);
+      }
       if (word(stage, "kind") != "counterbalance" || word(stage, "method") != "one_of") return;
       Names& arms = of_people_[word(stage, "name")];
       for (const json& arm : list(stage, "arms")) {
@@ -69,6 +73,13 @@ class DesignRules : StudyCheck {
       const std::string name = word(factor, "name");
       levels_[name] = strings_of(list(factor, "levels"));
       if (!of_people_.contains(name) && name != kBlockFactor) within_.push_back(name);
+    }
+  }
+
+  void collect_questions(const json& block) {
+    for (const json& item : list(block, "questions")) {
+      const std::string name = item.is_object() ? word(item, "name") : "";
+      if (!name.empty() && !contains(questions_, name)) questions_.push_back(name);
     }
   }
 
@@ -192,14 +203,28 @@ class DesignRules : StudyCheck {
       check_weights(object_at(contrast, "of"), at + "/of");
       const json* smallest = number(contrast, "smallest_effect");
       const std::string measure = word(contrast, "measure");
-      if (smallest != nullptr && !measure.empty() && measure != "exponent" &&
-          !(smallest->get<double>() > 1.0)) {
+      if (measure == to_string(ContrastMeasure::kQuestion)) {
+        check_question(word(contrast, "question"), at + "/question");
+      }
+      const bool is_of_ratios =
+          std::ranges::any_of(contrast_measures(), [&](ContrastMeasure known) {
+            return to_string(known) == measure && is_ratio(known);
+          });
+      if (smallest != nullptr && is_of_ratios && !(smallest->get<double>() > 1.0)) {
         report(at + "/smallest_effect",
                "expected a ratio above 1, as 1.25 for a quarter more or a fifth less, found " +
                    smallest->dump());
       }
       check_correction(contrast, at, corrections);
     }
+  }
+
+  void check_question(const std::string& name, const std::string& at) {
+    if (name.empty() || contains(questions_, name)) return;
+    report(at, "expected the name of one of the `questions` after the trials of a block" +
+                   (questions_.empty() ? std::string(", of which there is none")
+                                       : ": " + names_words(questions_)) +
+                   ", found `" + shown_text(name) + "`" + did_you_mean(name, questions_));
   }
 
   void check_correction(const json& contrast, const std::string& at,
@@ -282,6 +307,7 @@ class DesignRules : StudyCheck {
   std::map<std::string, Names> levels_;     ///< Of the study's factors.
   Names within_;                            ///< Of these, those that blocks differ in.
   Names blocks_;
+  Names questions_;  ///< That any block asks after its trials.
   std::set<std::pair<std::string, std::string>> used_;  ///< Levels that some block has.
 };
 
@@ -306,6 +332,7 @@ class ContrastRules : StudyCheck {
         check_alike(condition, blocks, at);
       }
       check_one_quantity(contrast, found, blocks, at);
+      check_one_scale(contrast, found, blocks, at);
     }
   }
 
@@ -348,6 +375,39 @@ class ContrastRules : StudyCheck {
                      condition.name + "`");
       return;
     }
+  }
+
+  /// Steps of different scales, and numbers in different units, have no difference.
+  void check_one_scale(const PlannedContrast& contrast, const ContrastConditions& found,
+                       const Blocks& blocks, const std::string& at) {
+    if (contrast.measure != ContrastMeasure::kRating &&
+        contrast.measure != ContrastMeasure::kQuestion) {
+      return;
+    }
+    const std::string first = found.conditions.front().blocks.front();
+    const std::string scale = scale_words(contrast, *blocks.at(first));
+    for (const ContrastCondition& condition : found.conditions) {
+      for (const std::string& name : condition.blocks) {
+        const std::string other = scale_words(contrast, *blocks.at(name));
+        if (other == scale) continue;
+        report(at, "expected the answers of all blocks on one scale, found " + scale + " in `" +
+                       first + "` and " + other + " in `" + name +
+                       "`; give them the same scale, or compare them in `response_time`");
+        return;
+      }
+    }
+  }
+
+  /// "7 steps", "a number in s", "yes or no".
+  static std::string scale_words(const PlannedContrast& contrast, const Block& block) {
+    if (contrast.measure == ContrastMeasure::kRating) {
+      return std::to_string(num_steps_of(block)) + " steps";
+    }
+    const auto item =
+        std::ranges::find(block.questions, contrast.question, &QuestionnaireItem::name);
+    if (item->kind == "scale") return std::to_string(item->num_steps) + " steps";
+    if (item->kind == "yes_no") return "yes or no";
+    return item->unit.empty() ? "a number" : "a number in " + shown_text(item->unit);
   }
 };
 

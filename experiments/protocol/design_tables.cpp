@@ -56,12 +56,25 @@ const ParameterTable& contrast_table() {
           {.key = "measure",
            .kind = ValueKind::kString,
            .meaning =
-               "What the conditions are compared in. `weber_fraction` and `pse` (point of "
-               "subjective equality: a bias, priming, an aftereffect) are of comparisons with "
-               "a "
-               "reference. `exponent` and `magnitude` are of estimated or produced magnitudes, "
-               "`match` is of matching. `response_time` is of any block.",
+               "What the conditions are compared in. `weber_fraction`: blocks whose `task` is "
+               "`reminder` or `two_interval`. `pse`, the point of subjective equality (a bias, "
+               "priming, an aftereffect): blocks whose `task` is `reminder`. `exponent`: "
+               "blocks "
+               "of `magnitude_estimation` or `magnitude_production`. `magnitude`: blocks of "
+               "`magnitude_estimation`. `match`: blocks of `matching`. `rating`, the mean "
+               "step: "
+               "blocks of `rating`. `question`, the mean answer to one of the `questions` "
+               "after "
+               "the trials, such as how sure somebody is: blocks that ask it, whatever their "
+               "procedure. `response_time`: any blocks. Blocks of other tasks, such as "
+               "`yes_no` "
+               "and `oddity`, can be compared in `response_time` and `question` alone.",
            .allowed = measure_names()},
+          {.key = "question",
+           .kind = ValueKind::kName,
+           .meaning = "Which question is compared: the `name` of one of the `questions` of the "
+                      "blocks, of kind `scale`, `number` or `yes_no` (yes counts 1 and no 0).",
+           .only_where = {{"measure", {"question"}}}},
           {.key = "of",
            .kind = ValueKind::kWeights,
            .meaning =
@@ -90,8 +103,9 @@ const ParameterTable& contrast_table() {
           {.key = "smallest_effect",
            .kind = ValueKind::kNumber,
            .meaning =
-               "Smallest effect of interest: of an `exponent` a difference, of every other "
-               "measure a ratio above 1 (1.25 stands for a quarter more and for a fifth less). "
+               "Smallest effect of interest: of an `exponent`, a `rating` or a `question` a "
+               "difference, of every other measure a ratio above 1 (1.25 stands for a quarter "
+               "more and for a fifth less). "
                "With it, two one-sided tests tell whether the effect is smaller than that. "
                "Absent: nothing is said about equivalence.",
            .required = false,

@@ -446,6 +446,7 @@ DeviceNeeds device_needs(const ObjectReader& in) {
 PlannedContrast planned_contrast(const ObjectReader& in) {
   PlannedContrast contrast{.name = in.string("name"),
                            .hypothesis = in.text("hypothesis"),
+                           .question = in.string("question"),
                            .weights = in.weights("of"),
                            .primary = in.string("role") == "primary",
                            .smallest_effect = in.optional_number("smallest_effect"),

@@ -17,6 +17,8 @@ constexpr MeasureWords kMeasures[] = {
     {ContrastMeasure::kExponent, "exponent", "exponent"},
     {ContrastMeasure::kMagnitude, "magnitude", "magnitude"},
     {ContrastMeasure::kMatch, "match", "match"},
+    {ContrastMeasure::kRating, "rating", "rating"},
+    {ContrastMeasure::kQuestion, "question", "answer to the question"},
     {ContrastMeasure::kResponseTime, "response_time", "response time"}};
 
 const MeasureWords& words_of(ContrastMeasure measure) {
@@ -27,7 +29,10 @@ const MeasureWords& words_of(ContrastMeasure measure) {
 
 std::string to_string(ContrastMeasure measure) { return words_of(measure).key; }
 
-std::string measure_words(ContrastMeasure measure) { return words_of(measure).words; }
+std::string measure_words(const PlannedContrast& plan) {
+  const std::string words = words_of(plan.measure).words;
+  return plan.question.empty() ? words : words + " " + plan.question;
+}
 
 const std::vector<ContrastMeasure>& contrast_measures() {
   static const std::vector<ContrastMeasure> kAll = [] {
@@ -59,7 +64,8 @@ std::string spending_words(AlphaSpending spending) {
 }
 
 bool is_ratio(ContrastMeasure measure) noexcept {
-  return measure != ContrastMeasure::kExponent;
+  return measure != ContrastMeasure::kExponent && measure != ContrastMeasure::kRating &&
+         measure != ContrastMeasure::kQuestion;
 }
 
 }  // namespace jnd::experiments

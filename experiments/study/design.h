@@ -29,14 +29,16 @@ enum class Correction { kHolm, kBonferroni, kNone };
 /// What a contrast is expected to be; which of its sides a test looks at.
 enum class ContrastDirection { kEither, kGreater, kLess };
 
-/// What a contrast compares conditions in. Of an exponent the effect is a difference, of all
-/// others a ratio.
+/// What a contrast compares conditions in. Of an exponent, a rating and the answers to a
+/// question the effect is a difference, of all others a ratio.
 enum class ContrastMeasure {
   kWeberFraction,
   kPse,
   kExponent,
   kMagnitude,
   kMatch,
+  kRating,
+  kQuestion,  ///< One of the questions after the trials of a block.
   kResponseTime
 };
 
@@ -45,11 +47,12 @@ struct PlannedContrast {
   std::string name;
   Text hypothesis;  ///< What is expected, in words; may be empty.
   ContrastMeasure measure = ContrastMeasure::kWeberFraction;
+  std::string question{};  ///< Of `kQuestion`: name of the question; else "".
   /// Factor to its levels to their weights, as written.
   std::map<std::string, std::map<std::string, double>> weights;
   bool primary = false;
   ContrastDirection direction = ContrastDirection::kEither;
-  /// Smallest effect of interest: a ratio > 1 or, of an exponent, a difference > 0.
+  /// Smallest effect of interest: a ratio > 1 or, where the effect is one, a difference > 0.
   std::optional<double> smallest_effect;
   double alpha = 0.05;
   std::string family;  ///< Contrasts that are adjusted together.
@@ -75,8 +78,8 @@ struct SequentialPlan {
 [[nodiscard]] std::string to_string(AlphaSpending spending);
 /// As a sentence has it: "O'Brien-Fleming".
 [[nodiscard]] std::string spending_words(AlphaSpending spending);
-/// As a sentence has it: "Weber fraction".
-[[nodiscard]] std::string measure_words(ContrastMeasure measure);
+/// As a sentence has it: "Weber fraction", "answer to the question confidence".
+[[nodiscard]] std::string measure_words(const PlannedContrast& plan);
 /// In the order of `ContrastMeasure`.
 [[nodiscard]] const std::vector<ContrastMeasure>& contrast_measures();
 /// Whether an effect is a ratio, tested on its logarithm; else it is a difference.

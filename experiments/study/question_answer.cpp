@@ -33,6 +33,15 @@ std::optional<double> number_in(const std::string& text) {
   return is_number ? std::optional(value) : std::nullopt;
 }
 
+std::optional<double> value_of_answer(const std::string& answer) {
+  if (answer == "yes") return 1.0;
+  return answer == "no" ? std::optional(0.0) : number_in(answer);
+}
+
+bool has_value(const QuestionnaireItem& item) {
+  return item.kind == "scale" || item.kind == "number" || item.kind == "yes_no";
+}
+
 std::string expected_answer(const QuestionnaireItem& item, const std::string& answer) {
   if (!item.required && answer == kNoAnswer) return "";
   const bool has_words = answer.find_first_not_of(' ') != std::string::npos;

@@ -242,6 +242,119 @@ TEST(HierarchicalContrast, HasTheErrorOfTheSlopesByTheDeltaMethod) {
   EXPECT_NEAR(contrast->degrees_of_freedom, 3.0, 1e-9);
 }
 
+// Two blocks that rate, loud and quiet, with a question after each trial.
+std::string rated_study(const std::string& contrasts) {
+  const auto block = [](const std::string& name) {
+    return R"({"kind": "block", "name": ")" + name + R"(", "levels": {"noise": ")" + name +
+           R"("}, "procedure": "rating", "medium": "viscous", "viscosity_pa_s": [1, 4],
+      "repetitions": 2, "num_steps": 7, "low_label": {"en": "thin"},
+      "high_label": {"en": "thick"}, "instruction": {"en": "Rate."},
+      "question": {"en": "How thick?"}, "expected_trial_s": 10, "questions": [
+        {"name": "sure", "kind": "scale", "num_steps": 5, "question": {"en": "Sure?"},
+         "low_label": {"en": "no"}, "high_label": {"en": "yes"}},
+        {"name": "heard", "kind": "yes_no", "required": false,
+         "question": {"en": "Heard anything?"}}]})";
+  };
+  return R"({"format": 1, "name": "rated", "languages": ["en"], "title": {"en": "R"},
+    "authors": ["A"], "factors": [{"name": "noise", "levels": ["loud", "quiet"]}],
+    "contrasts": [)" +
+         contrasts + R"(], "stages": [)" + block("loud") + "," + block("quiet") + "]}";
+}
+
+std::string noise_contrast(const std::string& name, const std::string& measure,
+                           const std::string& more = "") {
+  return R"({"name": ")" + name + R"(", "role": "primary", "family": ")" + name + "\"," +
+         measure + R"(, "of": {"noise": {"loud": 1, "quiet": -1}})" + more + "}";
+}
+
+/// Steps of the thin and of the thick fluid, how sure, and whether anything was heard.
+void add_ratings(HandMadeStudy& study, const std::string& block,
+                 const std::vector<std::pair<double, double>>& rated, const std::string& sure,
+                 const std::string& heard) {
+  for (const auto& [intensity, step] : rated) {
+    (void)study.answer({.block = block,
+                        .procedure = "rating",
+                        .medium = "viscous",
+                        .quantity = "viscosity_pa_s",
+                        .repetition = 1,
+                        .intensity = intensity,
+                        .response = step});
+    study.say_after_trial(block, "sure", sure);
+    study.say_after_trial(block, "heard", heard);
+  }
+}
+
+TEST(PlannedContrasts, OfRatingsAreDifferencesOfMeanSteps) {
+  HandMadeStudy study(rated_study(
+      noise_contrast("steps", R"("measure": "rating")", R"(, "smallest_effect": 3)") + ", " +
+      noise_contrast("how_sure", R"("measure": "question", "question": "sure")") + ", " +
+      noise_contrast("what_was_heard", R"("measure": "question", "question": "heard")")));
+  study.add("P01");
+  // The thin one was rated twice: the mean is that of the means, 0.5 * (2 + 6).
+  add_ratings(study, "loud", {{1.0, 1.0}, {1.0, 3.0}, {4.0, 6.0}}, "2", "yes");
+  add_ratings(study, "quiet", {{1.0, 2.0}, {4.0, 4.0}}, "4", "no");
+  study.add("P02");
+  add_ratings(study, "loud", {{1.0, 3.0}, {4.0, 7.0}}, "1", "yes");
+  add_ratings(study, "quiet", {{1.0, 2.0}, {4.0, 4.0}}, "4", "no");
+  study.add("P03");
+  add_ratings(study, "loud", {{1.0, 4.0}, {4.0, 5.0}}, "3", "no");
+  add_ratings(study, "quiet", {{1.0, 4.0}, {4.0, 4.0}}, "3", "no_answer");
+  const std::vector<ContrastResult> all = planned_contrasts(load_study(study.store()));
+  ASSERT_EQ(all.size(), 3U);
+  const Comparison steps = paired_t_test({4.0, 5.0, 4.5}, {3.0, 3.0, 4.0});
+  EXPECT_DOUBLE_EQ(all[0].test.effect.value(), 3.5 / 3.0);
+  EXPECT_NEAR(all[0].test.ci95.low.value(), *steps.ci95.low, 1e-12);
+  EXPECT_NEAR(all[0].test.p_value.value(), *steps.p_value, 1e-12);
+  EXPECT_TRUE(
+      all[0].sentence.starts_with("The rating was 1.17 higher in loud than in quiet, "
+                                  "95 % CI ["))
+      << all[0].sentence;
+  EXPECT_NE(all[0].sentence.find("within the margin of -3.00 to 3.00"), std::string::npos)
+      << "a margin is a difference, too: " << all[0].sentence;
+  const Comparison sure = paired_t_test({2.0, 1.0, 3.0}, {4.0, 4.0, 3.0});
+  EXPECT_DOUBLE_EQ(all[1].test.effect.value(), -5.0 / 3.0);
+  EXPECT_NEAR(all[1].test.p_value.value(), *sure.p_value, 1e-12);
+  EXPECT_TRUE(
+      all[1].sentence.starts_with("The answer to the question sure was 1.67 lower in "
+                                  "loud than in quiet, "))
+      << all[1].sentence;
+  // Yes counts 1 and no 0; who left a question out everywhere has no number there.
+  EXPECT_EQ(all[2].test.num_participants, 2);
+  EXPECT_FALSE(all[2].test.p_value) << "both differ by the same";
+  ASSERT_EQ(all[2].excluded.size(), 1U);
+  EXPECT_EQ(all[2].excluded[0].reason, "no answer to the question heard of their own in quiet");
+}
+
+TEST(PlannedContrasts, OfTimesOfSimulatedPeopleSayThatTheySayNothing) {
+  const auto sentences_of = [](const std::string& laboratory) {
+    HandMadeStudy study(rated_study(noise_contrast("time", R"("measure": "response_time")") +
+                                    ", " + noise_contrast("steps", R"("measure": "rating")")));
+    double time_s = 1.0;
+    for (const char* name : {"P01", "P02", "P03"}) {
+      study.add(name, false, laboratory);
+      for (const char* block : {"loud", "quiet"}) {
+        (void)study.answer({.block = block,
+                            .procedure = "rating",
+                            .quantity = "viscosity_pa_s",
+                            .repetition = 1,
+                            .intensity = 1.0,
+                            .response = 2.0 + time_s,
+                            .measures = {.response_time_s = time_s}});
+        time_s = 1.4 * time_s + 0.3;
+      }
+    }
+    const std::vector<ContrastResult> all = planned_contrasts(load_study(study.store()));
+    return std::pair(all.at(0).sentence, all.at(1).sentence);
+  };
+  constexpr char kCaution[] =
+      " The people are SIMULATED: how long they take says nothing about people.";
+  const auto [simulated, steps] = sentences_of("{}");
+  ASSERT_TRUE(simulated.starts_with("The response time was ")) << simulated;
+  EXPECT_TRUE(simulated.ends_with(kCaution)) << simulated;
+  EXPECT_EQ(steps.find("SIMULATED"), std::string::npos) << "ratings are theirs";
+  EXPECT_EQ(sentences_of("").first.find("SIMULATED"), std::string::npos);
+}
+
 TEST(PlannedContrasts, WhoLacksAConditionIsNamed) {
   HandMadeStudy study(designed_study(time_contrast(kFluids)));
   add_person(study, "P01", "primed", 7, 9, 2.0, 1.0);

@@ -197,7 +197,12 @@ TEST_F(PowerCommandTest, BadInputIsToldInOneSentence) {
       {{"power", "tiny.json", "--participants", "6", "--compare", "comparison,estimation"},
        "magnitude_estimation"},
       {{"power", "tiny.json", "--participants", "6", "--null"}, "--null"},
-      {{"power", "empty.json", "--participants", "6"}, "a block of magnitudes or comparisons"},
+      {{"power", "empty.json", "--participants", "6"},
+       "empty: expected a block to plan for, one that estimates, produces, matches or rates, "
+       "or "
+       "compares by the task `reminder` or `two_interval`, found no block at all; add one"},
+      {{"power", "viscosity_threshold", "--participants", "6"},
+       "found only threshold_staircase (staircase, yes_no)"},
       {{"power", study, "--participants", "6", "--shard", "3/2", "--out", "x"}, "`3/2`"},
       {{"power", study, "--participants", "6", "--shard", "0/2", "--out", "x"}, "`0/2`"},
       {{"power", study, "--participants", "6", "--shard", "two", "--out", "x"}, "`two`"},

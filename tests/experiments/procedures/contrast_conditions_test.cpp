@@ -87,13 +87,63 @@ TEST(ContrastConditions, BlocksCanBeComparedByName) {
   EXPECT_EQ(found.weights[0], (std::vector<double>{0.25, 0.25, -0.5}));
 }
 
-TEST(ContrastConditions, WhatIsNotMeasuredIsAProblem) {
+TEST(ContrastConditions, WhatIsNotMeasuredIsAProblemThatNamesWhatIs) {
   const Study study = read_study_text(designed_study(fluid_contrast()), "x.json");
   PlannedContrast plan = study.contrasts.front();
   plan.measure = ContrastMeasure::kMatch;
-  EXPECT_NE(contrast_conditions(study, plan).problem, "");
+  EXPECT_EQ(
+      contrast_conditions(study, plan).problem,
+      "expected blocks with these levels that have the measure `match`, found none: "
+      "`thick_b`, `thin_a` and `thin_c` have `weber_fraction`, `pse` and `response_time`; "
+      "compare in what they have, or compare other blocks");
+  plan.measure = ContrastMeasure::kQuestion;
+  plan.question = "confidence";
+  EXPECT_NE(contrast_conditions(study, plan).problem.find("ask the question `confidence`"),
+            std::string::npos);
   plan.measure = ContrastMeasure::kResponseTime;
   EXPECT_EQ(contrast_conditions(study, plan).problem, "");
+}
+
+TEST(ContrastConditions, ABlockThatCannotBeComparedIsNamedWithWhatItHas) {
+  std::string text = designed_study(
+      fluid_contrast("", "one", R"({"fluid": {"thin": 1, "thick": -1}})", "response_time"));
+  const std::string thick = R"("name": "thick_b", "procedure": "constant_stimuli",)";
+  text.replace(text.find(thick), thick.size(), thick + R"( "task": "two_interval",)");
+  const Study study = read_study_text(text, "x.json");
+  PlannedContrast plan = study.contrasts.front();
+  plan.measure = ContrastMeasure::kPse;
+  EXPECT_EQ(
+      contrast_conditions(study, plan).problem,
+      "expected blocks that have the measure `pse` for each of the 2 combinations of these "
+      "levels, found none for `fluid` `thick`: `thick_b` has `weber_fraction` and "
+      "`response_time`; compare in what all have, or leave these levels out of the "
+      "contrast");
+}
+
+// Every measure of the study format has blocks that it is of.
+TEST(ContrastConditions, ARatingAndAnAnswerToAQuestionAreMeasures) {
+  Block rates, compares;
+  rates.procedure = "rating";
+  compares.procedure = "constant_stimuli";
+  for (const auto& [name, kind] : {std::pair("confidence", "scale"), {"remark", "text"}}) {
+    QuestionnaireItem& item = compares.questions.emplace_back();
+    item.name = name;
+    item.kind = kind;
+  }
+  PlannedContrast plan;
+  plan.measure = ContrastMeasure::kRating;
+  EXPECT_TRUE(has_measure(rates, plan));
+  EXPECT_FALSE(has_measure(compares, plan));
+  const auto asks = [&](const std::string& question) {
+    plan.measure = ContrastMeasure::kQuestion;
+    plan.question = question;
+    return has_measure(compares, plan);
+  };
+  EXPECT_TRUE(asks("confidence"));
+  EXPECT_FALSE(asks("remark")) << "words have no mean";
+  EXPECT_FALSE(asks("pleasure"));
+  EXPECT_FALSE(is_ratio(ContrastMeasure::kRating));
+  EXPECT_FALSE(is_ratio(ContrastMeasure::kQuestion));
 }
 
 }  // namespace contrast_conditions_test
