@@ -17,6 +17,7 @@
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
 #include "core/error.h"
+#include "experiments/participants/abilities.h"
 #include "experiments/protocol/study_reader.h"
 
 namespace jnd::app {
@@ -50,6 +51,7 @@ int run_simulate(const SimulateOptions& options) {
   const experiments::Laboratory laboratory = laboratory_with_effects(
       options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
       options.effects);
+  experiments::require_abilities(laboratory, study);  // Before there is a folder.
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);
   const std::size_t num_before = store.sessions().size();
