@@ -64,8 +64,10 @@ Eigen::VectorXd LapseProfile::expected_at(double lapse_rate) const {
     }
   }
   Eigen::VectorXd expected = nearest->second.parameters;
-  // Along the line through both, unless it would lead far, or a spread away from 0.
-  if (next != nullptr && distance(next) < 4.0 * std::fabs(next->first - nearest->first)) {
+  // Of many people along the line through both, unless it would lead far, or a spread away
+  // from 0.
+  if (likelihood_.reads_a_table() && next != nullptr &&
+      distance(next) < 4.0 * std::fabs(next->first - nearest->first)) {
     const double share = (lapse_rate - nearest->first) / (nearest->first - next->first);
     expected += share * (nearest->second.parameters - next->second.parameters);
     for (const int spread : structure_.even_parameters()) {

@@ -177,13 +177,16 @@ void learn(Eigen::MatrixXd& inverse, const Eigen::VectorXd& step, const Eigen::V
 }
 
 /// Newton's method from a start near by, one parameter held or none (-1). `inverse`: of the
-/// information there by what moves, or empty. It learns of each step, and is computed anew
-/// where the steps do not get smaller. Without covariance.
+/// information there by what moves, or empty. Of many people it learns of each step. It is
+/// computed anew where the steps do not get smaller; of few people and without one held, as
+/// long as they are large. Without covariance.
 HierarchicalOptimum climbed(const HierarchicalLikelihood& likelihood,
                             const Eigen::VectorXd& start, Eigen::Index held,
                             Eigen::MatrixXd& inverse) {
-  constexpr int kMaxSteps = 40;
-  constexpr double kSmallStep = 1e-8, kLargestStep = 0.5, kSlowly = 0.3;
+  constexpr double kSmallStep = 1e-8, kLargeStep = 1e-3, kLargestStep = 0.5, kSlowly = 0.3;
+  const int most_steps = held < 0 ? 30 : 40;
+  const bool learns = likelihood.reads_a_table();
+  const bool goes_by_size = !learns && held < 0;
   HierarchicalOptimum found;
   found.parameters = start;
   found.status = FitStatus::kNotConverged;
@@ -191,7 +194,7 @@ HierarchicalOptimum climbed(const HierarchicalLikelihood& likelihood,
   Eigen::VectorXd& at = found.parameters;
   double last_size = kLargestStep;
   Eigen::VectorXd last_step, last_rise;
-  for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
+  for (int step_number = 0; step_number < most_steps; ++step_number) {
     if (!(at.cwiseAbs().maxCoeff() < kRunAway)) {
       found.status = FitStatus::kDegenerate;
       found.is_separated = true;
@@ -206,12 +209,12 @@ HierarchicalOptimum climbed(const HierarchicalLikelihood& likelihood,
     };
     if (is_new) {
       renew();
-    } else if (last_step.size() > 0) {
+    } else if (learns && last_step.size() > 0) {
       learn(inverse, last_step, last_rise - rise);
     }
     Eigen::VectorXd step = inverse * rise;
     double size = step.cwiseAbs().maxCoeff();
-    if (!is_new && size > kSmallStep && size > kSlowly * last_size) {
+    if (!is_new && !goes_by_size && size > kSmallStep && size > kSlowly * last_size) {
       renew();
       step = inverse * rise;
       size = step.cwiseAbs().maxCoeff();
@@ -228,6 +231,7 @@ HierarchicalOptimum climbed(const HierarchicalLikelihood& likelihood,
     last_size = size;
     last_step = step;
     last_rise = rise;
+    if (goes_by_size && size > kLargeStep) inverse.resize(0, 0);
   }
   return found;
 }
