@@ -1,5 +1,7 @@
 #include "analysis/export/bids_sourcedata.h"
 
+#include <algorithm>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -23,11 +25,19 @@ std::vector<std::pair<std::string, std::string>> guards(core::Database& database
   return all;
 }
 
-bool has_table(core::Database& database, const std::string& name) {
-  core::Statement rows(database,
-                       "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?");
-  rows.bind(name);
-  return rows.step();
+std::vector<std::string> first_column(core::Database& database, const std::string& query) {
+  core::Statement rows(database, query);
+  std::vector<std::string> all;
+  while (rows.step()) all.push_back(rows.text(0));
+  return all;
+}
+
+/// The tables that have this column, of whatever layout.
+std::vector<std::string> tables_with(core::Database& database, const std::string& column) {
+  return first_column(database,
+                      "SELECT t.name FROM sqlite_master AS t, pragma_table_info(t.name) AS c "
+                      "WHERE t.type = 'table' AND c.name = '" +
+                          column + "' ORDER BY t.name");
 }
 
 std::string numbers_of(const std::vector<core::SessionRow>& sessions) {
@@ -42,16 +52,22 @@ void delete_rows(core::Database& database, const std::vector<core::SessionRow>& 
   core::Transaction transaction(database);
   const auto all_guards = guards(database);
   for (const auto& [name, sql] : all_guards) database.execute("DROP TRIGGER " + name);
-  for (const char* table :
-       {"question_answer", "answer", "presentation", "trial", "design", "event", "session"}) {
-    if (!has_table(database, table)) continue;  // Of an older layout.
-    database.execute(std::string("DELETE FROM ") + table + " WHERE session NOT IN " +
-                     numbers_of(kept));
+  // What is said of people beside their sessions, and of places on this machine.
+  std::set<std::string> emptied = {"withdrawal", "backup", "export_session", "export"};
+  const std::vector<std::string> of_sessions = tables_with(database, "session");
+  for (const std::string& table : tables_with(database, "participant")) {
+    if (std::ranges::find(of_sessions, table) == of_sessions.end()) emptied.insert(table);
   }
-  for (const char* table :
-       {"withdrawal", "withdrawal_step", "backup", "export_session", "export"}) {
-    if (has_table(database, table)) database.execute(std::string("DELETE FROM ") + table);
+  for (const std::string& table :
+       first_column(database, "SELECT name FROM sqlite_master WHERE type = 'table'")) {
+    if (emptied.contains(table)) database.execute("DELETE FROM " + table);
   }
+  // Last the sessions themselves, which the other rows point at.
+  for (const std::string& table : of_sessions) {
+    if (table == "session" || emptied.contains(table)) continue;
+    database.execute("DELETE FROM " + table + " WHERE session NOT IN " + numbers_of(kept));
+  }
+  database.execute("DELETE FROM session WHERE session NOT IN " + numbers_of(kept));
   for (const auto& [name, sql] : all_guards) database.execute(sql);
   transaction.commit();
 }

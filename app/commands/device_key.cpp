@@ -32,9 +32,8 @@ int run_device_key(const std::string& name, bool json) {
   }
   fmt::print(
       "{}\nCopy this file to the same place on the machine of the device, by a way that nobody "
-      "else reads; whoever has it may command the device.\nThere: jnd device-simulator "
-      "--listen "
-      "ADDRESS --key {}\nHere:  --device network:HOST:PORT,key={}\n",
+      "else reads; whoever has it may command the device.\nThere: jnd device-server --device "
+      "plugin:PATH:real --listen ADDRESS --key {}\nHere:  --device network:HOST:PORT,key={}\n",
       file.string(), name, name);
   return kDone;
 }

@@ -51,6 +51,10 @@ class HandMadeStudy {
     return profile_hash;
   }
 
+  void report_adverse_event(std::int64_t session, const std::string& text) {
+    store_.add_adverse_event(session, 0, text);
+  }
+
   /// An event of this kind without anything but its data; its sequence.
   std::int64_t happens(const std::string& kind, const std::string& data = "{}") {
     core::Commit happened = event(kind.c_str());

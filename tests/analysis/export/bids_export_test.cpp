@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/sample_table.h"
 #include "core/storage/recording.h"
+#include "core/storage/schedule.h"
 #include "support/files.h"
 
 namespace jnd::analysis {
@@ -402,6 +403,23 @@ TEST_F(BidsExportTest, TheSourceIsAStudyThatOpensAndIsStillAppendOnly) {
             std::string::npos);
   EXPECT_EQ(read_file(out("sourcedata/study_files/by_hand.json")),
             source.protocols().front().text);
+}
+
+TEST_F(BidsExportTest, TheSourceKnowsNobodyWhoWasNotAskedFor) {
+  const std::int64_t other = study_.add("P_77", /*pilot=*/false, R"({"name": "made"})");
+  study_.report_adverse_event(other, "a pinched finger of another person");
+  study_.happens("note_added", R"({"text": "a secret of P_77"})");
+  // The first one is open for writing.
+  const fs::path copy = temporary_.path() / "copy.study";
+  fs::copy(study_.folder(), copy, fs::copy_options::recursive);
+  (void)core::add_appointment(copy, "P_77", 1, 1);
+  (void)export_bids(core::StudyStore(copy, core::StudyStore::Mode::kReadOnly), out(""),
+                    {.selection = {.participants = {"P_01"}}}, R"({"study": "x"})");
+  const std::string bytes = read_file(out("sourcedata/jnd.study/study.sqlite"));
+  for (const char* told : {"P_77", "pinched", "secret"}) {
+    EXPECT_EQ(bytes.find(told), std::string::npos) << told;
+  }
+  EXPECT_NE(bytes.find("P_01"), std::string::npos);
 }
 
 TEST_F(BidsExportTest, WhatWasMeasuredOfADeviceIsAmongItsSources) {
