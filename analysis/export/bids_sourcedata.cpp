@@ -50,6 +50,8 @@ std::string numbers_of(const std::vector<core::SessionRow>& sessions) {
 
 void delete_rows(core::Database& database, const std::vector<core::SessionRow>& kept) {
   core::Transaction transaction(database);
+  // Rows that others point at may go first; all of it is judged at the end.
+  database.execute("PRAGMA defer_foreign_keys = ON");
   const auto all_guards = guards(database);
   for (const auto& [name, sql] : all_guards) database.execute("DROP TRIGGER " + name);
   // What is said of people beside their sessions, and of places on this machine.

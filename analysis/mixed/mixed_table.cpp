@@ -199,7 +199,7 @@ std::vector<EffectOfAll> effects_of_all(const MixedFormulas& formulas,
       if (std::ranges::find(columns, nullptr) != columns.end()) continue;
       if (!varies_within(*column, columns)) continue;
       random.insert(variable.column);
-      found.push_back({.column = variable.column, .group = group});
+      found.push_back({.effect = variable.name, .column = variable.column, .group = group});
     }
   }
   return found;

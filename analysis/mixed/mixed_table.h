@@ -36,7 +36,7 @@ std::size_t add_history(TrialTable& table, const std::string& stimulus,
 
 /// A fixed effect that people could differ in, and may not in this model.
 struct EffectOfAll {
-  std::string column, group;  ///< `group`: as R names it.
+  std::string effect, column, group;  ///< `effect` and `group`: as R names them.
 };
 
 /// Columns of the fixed effects that have several values within a group of a random term, and

@@ -225,16 +225,17 @@ void add_derived(const FitGlmmOptions& options, const analysis::MixedOptions& ho
 /// What makes standard errors too small, whatever the fit.
 void add_cautions(GlmmResult& result) {
   std::map<std::string, std::vector<std::string>> same_for_all;
-  for (const auto& [column, group] : analysis::effects_of_all(result.formulas, result.table)) {
-    if (!column.starts_with("previous_")) same_for_all[group].push_back(column);
+  for (const analysis::EffectOfAll& one :
+       analysis::effects_of_all(result.formulas, result.table)) {
+    if (!one.column.starts_with("previous_")) same_for_all[one.group].push_back(one.effect);
   }
-  for (const auto& [group, columns] : same_for_all) {
+  for (const auto& [group, effects] : same_for_all) {
     result.notes.push_back(fmt::format(
         "the model takes the effect of {} as the same in each {}, within which it differs: "
         "where "
         "the effects are not the same, their standard errors and p are far too small; --random "
         "\"1 + {} | {}\" lets them differ",
-        fmt::join(columns, " and of "), group, fmt::join(columns, " + "), group));
+        fmt::join(effects, " and of "), group, fmt::join(effects, " + "), group));
   }
   constexpr std::size_t kFewGroups = 20;
   for (const auto& [name, number] : result.groups) {

@@ -70,13 +70,13 @@ TEST(MixedTables, EffectsThatAreTheSameForAllAreNamedWherePeopleCouldDiffer) {
                                   "p,sex,c,u,y\na,f,x,1,1\na,f,z,2,0\nb,m,x,1,1\nb,m,z,2,0\n");
   const auto named = [&table](const char* random) {
     std::string names;
-    for (const EffectOfAll& one :
-         effects_of_all({parse_formula("u * c * sex"), parse_random_terms(random)}, table)) {
-      names += one.column + "|" + one.group + " ";
+    for (const EffectOfAll& one : effects_of_all(
+             {parse_formula("log(u) * c * sex"), parse_random_terms(random)}, table)) {
+      names += one.effect + "|" + one.group + " ";
     }
     return names;
   };
-  EXPECT_EQ(named("1 | p"), "u|p c|p ");
+  EXPECT_EQ(named("1 | p"), "log(u)|p c|p ");
   EXPECT_EQ(named("1 + log(u) | p"), "c|p ");
   EXPECT_EQ(named("(1 + u | p) + (0 + c | p)"), "");
   EXPECT_EQ(named("1 + u | p:c"), "") << "within a person's condition it does not vary";
