@@ -41,7 +41,9 @@ class AnswerTable {
     // Just below the upper end the sum may be rounded up onto it.
     const int number = std::min(static_cast<int>(place), kNumIntervals - 1);
     const double t = place - number;
-    const Interval& of = (is_no && has_no_ ? no_intervals_ : yes_intervals_).data()[number];
+    const Interval* const intervals =
+        (is_no && has_no_ ? no_intervals_ : yes_intervals_).data();
+    const Interval& of = intervals[number];
     const std::array<double, 6>& c = of.log;
     const double rest = t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
     Side found{.log = c[0] + rest};

@@ -54,11 +54,13 @@ double HierarchicalLikelihood::tabled_log_likelihood(const HierarchicalCell& cel
   const auto add = [&]<bool kIsNo>(const std::vector<double>& counts) {
     const std::size_t num_levels = counts.size();
     const double* const count_of = counts.data();
+    const double* const log_ratio_of = cell.log_ratio.data();
+    const double* const order_of = cell.order.data();
     for (std::size_t level = 0; level < num_levels; ++level) {
       const double count = count_of[level];
       if (!(count > 0.0)) continue;
-      const double u = cell.log_ratio.data()[level];
-      const double order = has_orders_ ? cell.order.data()[level] : 0.0;
+      const double u = log_ratio_of[level];
+      const double order = has_orders_ ? order_of[level] : 0.0;
       const double place = numbers.place + numbers.by_interval * order;
       const double z = is_linear ? slope * u + place : slope * (u - place);
       const AnswerTable::Side side = table.side<kHasScores>(kIsNo, z);

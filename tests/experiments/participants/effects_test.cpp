@@ -191,7 +191,7 @@ std::map<std::string, std::vector<std::optional<double>>> answers_with(
     const Study& study, const Laboratory& laboratory) {
   std::map<std::string, std::vector<std::optional<double>>> answers;
   const AnswerSimulator simulator(study, laboratory);
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     // Each by itself: what is drawn goes by the number of a trial in the session.
     for (const StageInstance& alone : stages_of(study, cells_of(study).front())) {
       for (const AnsweredBlock& block : simulator.answers({alone}, seed)) {
