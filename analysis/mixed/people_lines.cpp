@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "analysis/fits/ceres_descent.h"
 #include "analysis/fits/profile_crossing.h"
@@ -91,7 +92,7 @@ struct Held {
 class LinesDeviance {
  public:
   LinesDeviance(const PeopleSums& sums, Likelihood kind, std::optional<Held> held = {})
-      : sums_(sums), kind_(kind), held_(held), parts_(sums.people.size()) {}
+      : sums_(sums), kind_(kind), held_(std::move(held)), parts_(sums.people.size()) {}
 
   /// L is lower triangular with `theta` column by column. False out of the range of numbers.
   bool evaluate(std::span<const double> theta) {
