@@ -442,9 +442,11 @@ def commands_page(program):
     lines = ["# Commands", "",
              "This page is made by `tests/docs/check_docs.py build/jnd --renew` from the help of every subcommand. Do not edit it.",
              "",
-             "`jnd` alone opens the window. Every command takes `--help`; those that print results take `--json`. Exit codes: 0 done,",
-             "1 the thing asked about has problems, 2 wrong usage, 3 the environment lacks something (a device, a right, somebody who",
-             "reads the output), 4 a mistake of the program.", ""]
+             "`jnd` alone opens the window. Every command takes `--help`. The commands that print results take `--json`.", "",
+             "| exit code | meaning |", "| --- | --- |", "| 0 | The command did what you asked. |",
+             "| 1 | What you asked about has problems. |", "| 2 | The command was used wrongly. |",
+             "| 3 | Something is missing around the program: a device, a right, or somebody who reads the output. |",
+             "| 4 | The program made a mistake. |", ""]
     for words, text in every_help(program).items():
         text = re.sub(r"(--jobs INT:1 to \d+)=\d+", r"\1=PROCESSORS", text)
         depth = "###" if len(words) == 2 else "##"
@@ -482,7 +484,7 @@ def tables_page(program):
     lines = ["# Tables and database", "",
              "This page is made by `tests/docs/check_docs.py build/jnd --renew` from the codebook of an export and from the database of "
              "a study. Do not", "edit it.", "",
-             "What of it stays as it is: [what stays stable](what_stays_stable.md).", "",
+             "[What stays stable](what_stays_stable.md) says how these tables may change.", "",
              "## Exported tables", "",
              "`jnd export csv` writes these files. BIDS and HDF5 have the same columns. An empty cell means that the value does not apply or "
              "was not", "measured.", ""]
@@ -540,15 +542,15 @@ def json_page(program):
     """docs/reference/json.md: the keys that commands print with --json, from what they print of an example."""
     lines = ["# JSON of the commands", "",
              "This page is made by `tests/docs/check_docs.py build/jnd --renew` from what the commands print. Do not edit it.", "",
-             "Commands that print results take `--json` and then print one document on stdout. Where a command fails, the document is "
-             "`{\"error\": \"...\"}`,", "and the exit code says of which kind the failure is. Numbers are in SI units, as the ends of their "
-             "names say.", "",
+             "Commands that print results take `--json`, and then print one document on stdout. If a command fails, the document is "
+             "`{\"error\": \"...\"}`,", "and the exit code says what kind of failure it is. Numbers are in SI units, and the ends of their "
+             "names say which.", "",
              "- A value that is missing is `null`, and `reason` beside it says why.",
              "- `ci95` is a list of two numbers, the ends of the 95 % interval. An end that is not bounded by the data is `null`.",
              "- `cautions` and `warnings` are sentences. Read them before you use the number.",
              "- `primary` marks the values that answer what the block asked.", "",
-             "The keys below are those of an example; `or null` means that the example had both. What of it stays as it is:",
-             "[what stays stable](what_stays_stable.md).", ""]
+             "The lists below show the keys of an example of each command. `or null` means that the example has a value in some places and "
+             "`null` in others.", "[What stays stable](what_stays_stable.md) says how these keys may change.", ""]
     with tempfile.TemporaryDirectory(prefix="check_docs_") as temporary:
         work, environment = make_place(pathlib.Path(temporary), program)
         (work / "answers.csv").write_text("intensity,num_yes,num_trials\n5,1,40\n6.5,4,40\n8.5,13,40\n11.5,28,40\n15,36,40\n")
