@@ -38,6 +38,20 @@ Likelihood likelihood_at(const Eigen::MatrixXd& design, const Eigen::VectorXd& n
   return here;
 }
 
+/// Whether some column has next to no information left beside those before it. The columns do
+/// not depend on one another, so the answers that tell them apart lie far out on the curve, as
+/// separated ones do; what is left is rounding, which must not decide whether there is a fit.
+bool is_of_rounding(const Eigen::LLT<Eigen::MatrixXd>& cholesky,
+                    const Eigen::MatrixXd& information) {
+  constexpr double kLeast = 1e-12;
+  const Eigen::MatrixXd lower = cholesky.matrixL();
+  for (Eigen::Index column = 0; column < lower.cols(); ++column) {
+    const double left = lower(column, column) * lower(column, column);
+    if (!(left > kLeast * information(column, column))) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd& num_yes,
@@ -69,7 +83,7 @@ ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd
   double largest = 0.0;
   for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
     const Eigen::LLT<Eigen::MatrixXd> cholesky(here.information);
-    if (cholesky.info() != Eigen::Success) break;
+    if (cholesky.info() != Eigen::Success || is_of_rounding(cholesky, here.information)) break;
     Eigen::VectorXd step = cholesky.solve(here.gradient);
     largest = (design * step).cwiseAbs().maxCoeff();
     if (largest <= kSmallStep) {

@@ -65,7 +65,13 @@ one_study() {
   mkdir "$name"
   # What was refused or warned of belongs to the output; that some commands have nothing to say of some
   # studies (exit 1) does as well.
-  said() { local into=$1; shift; "$@" >"$name/$into" 2>"$name/$into.stderr" || echo "exit $?" >>"$name/$into.stderr"; }
+  said() {
+    local into=$1
+    shift
+    "$@" >"$name/$into" 2>"$name/$into.stderr" || echo "exit $?" >>"$name/$into.stderr"
+    # How far it was after some seconds is of the machine.
+    sed -i '/ % done, about /d' "$name/$into.stderr"
+  }
   said plan.json "$jnd" plan "studies/$name.json" --participants $participants --seed $seed --json
   said simulate.txt "$jnd" simulate "studies/$name.json" --participants $participants --seed $seed --jobs 1 \
     --laboratory studies/laboratory.json.given --study "$name/study"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.h"
 #include "core/psychometric_function.h"
@@ -73,6 +74,45 @@ TEST(IntervalOrderFit, AnOrderWithEveryAnswerAlikeLeavesTheSlopeToTheOther) {
   EXPECT_EQ(
       fit_psychometric(rows, {.reference = 1.0, .free_pse = true, .by_order = true}).status,
       FitStatus::kDegenerate);
+}
+
+TEST(IntervalOrderFit, AnOrderWithEveryAnswerAlikeIsFoundWhateverTheRounding) {
+  // Levels of a staircase, as exact as they are drawn. Far out the order's own part of the
+  // information is less than the rounding of the rest.
+  std::vector<AnswerCount> rows = {{12.24, 1, 3, kTestFirst},
+                                   {13.612797239431485, 0, 1, kTestFirst},
+                                   {13.708800000000002, 0, 1, kTestFirst},
+                                   {15.246332908163263, 2, 6, kTestFirst},
+                                   {15.3, 0, 1, kTestFirst},
+                                   {15.353856000000004, 1, 2, kTestFirst},
+                                   {17.075892857142858, 5, 7, kTestFirst},
+                                   {17.28, 1, 1, kTestFirst},
+                                   {19.125, 3, 3, kTestFirst},
+                                   {21.6, 2, 2, kTestFirst}};
+  for (const auto& [intensity, num] : {std::pair{12.24, 3},
+                                       {13.612797239431485, 2},
+                                       {13.708800000000002, 1},
+                                       {13.824000000000003, 2},
+                                       {15.246332908163263, 5},
+                                       {17.075892857142858, 6},
+                                       {17.28, 1},
+                                       {19.125, 3}}) {
+    rows.push_back({intensity, num, num, kTestSecond});
+  }
+  // The same whatever rounds otherwise: the unit of the intensities, and the order of the rows.
+  for (int turn = 0; turn < 200; ++turn) {
+    const double unit = 1.0 + 0.01 * turn;
+    std::vector<AnswerCount> scaled = rows;
+    for (AnswerCount& row : scaled) row.intensity *= unit;
+    const PsychometricFit fit = fit_psychometric(
+        scaled,
+        {.reference = 12.0 * unit, .free_pse = true, .by_order = true, .intervals = false});
+    EXPECT_FALSE(fit.pse) << unit;
+    EXPECT_FALSE(fit.order_effect_ln) << unit;
+    ASSERT_FALSE(fit.warnings.empty()) << unit;
+    EXPECT_NE(fit.warnings.back().find("with the test second every answer is the same"),
+              std::string::npos);
+  }
 }
 
 TEST(IntervalOrderFit, FewAnswersAreWarnedOfAsInOtherFits) {
