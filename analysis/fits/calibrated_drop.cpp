@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "analysis/fits/normal_tail.h"
@@ -45,13 +46,13 @@ class ProbitRefit {
 
   /// `line`: what the answers are drawn from. `offset`: as of `fit_probit`.
   ProbitRefit(const Eigen::MatrixXd& design, const Eigen::VectorXd& num_trials,
-              const Eigen::VectorXd& line, const Eigen::VectorXd& offset = {})
+              Eigen::VectorXd line, Eigen::VectorXd offset = {})
       : design_(design),
         num_trials_(num_trials),
-        offset_(offset),
+        offset_(std::move(offset)),
         num_all_(num_trials.sum()),
         rows_(design.transpose()),
-        line_(line) {}
+        line_(std::move(line)) {}
 
   [[nodiscard]] Found find(const Eigen::VectorXd& num_yes) const {
     constexpr int kMaxSteps = 60;
