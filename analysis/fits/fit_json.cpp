@@ -146,9 +146,22 @@ Json to_json(const OmnibusTest& test) {
   };
   add("greenhouse_geisser", test.greenhouse_geisser);
   add("huynh_feldt", test.huynh_feldt);
+  json["mauchly_w"] = test.mauchly ? Json(test.mauchly->w) : Json(nullptr);
+  json["mauchly_p_value"] = test.mauchly ? Json(test.mauchly->p_value) : Json(nullptr);
   json["partial_eta_squared"] = number(test.partial_eta_squared);
   json["generalized_eta_squared"] = number(test.generalized_eta_squared);
   return json;
+}
+
+Json to_json(const std::vector<PairwiseTest>& tests) {
+  Json pairs = Json::array();
+  for (const PairwiseTest& test : tests) {
+    Json json = {{"a", test.a}, {"b", test.b}};
+    json.update(to_json(test.comparison));
+    json["p_value_holm"] = number(test.p_value_holm);
+    pairs.push_back(std::move(json));
+  }
+  return pairs;
 }
 
 Json to_json(const EquivalenceTest& test) {

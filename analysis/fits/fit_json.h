@@ -8,6 +8,7 @@
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/equivalence_test.h"
 #include "analysis/statistics/omnibus_test.h"
+#include "analysis/statistics/pairwise_tests.h"
 
 namespace jnd::analysis {
 
@@ -19,5 +20,6 @@ namespace jnd::analysis {
 [[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
 [[nodiscard]] nlohmann::ordered_json to_json(const EquivalenceTest& test);
 [[nodiscard]] nlohmann::ordered_json to_json(const OmnibusTest& test);
+[[nodiscard]] nlohmann::ordered_json to_json(const std::vector<PairwiseTest>& tests);
 
 }  // namespace jnd::analysis

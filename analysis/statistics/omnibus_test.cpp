@@ -1,6 +1,7 @@
 #include "analysis/statistics/omnibus_test.h"
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -67,6 +68,34 @@ void correct_for_sphericity(OmnibusTest& test, const Eigen::MatrixXd& rest) {
       corrected(below > 0.0 ? std::clamp(above / below, epsilon, 1.0) : 1.0, test);
 }
 
+/// Mauchly's W from the eigenvalues of the covariance of all contrasts, the smallest of which
+/// is that of the mean and 0. The p value follows Anderson (2003, section 10.7) to second
+/// order.
+void test_sphericity(OmnibusTest& test, const Eigen::MatrixXd& rest) {
+  const double p = *test.degrees_of_freedom, n = test.num_people - 1.0;
+  if (p < 2.0 || n < p) return;
+  const Eigen::MatrixXd covariance = rest.transpose() * rest;
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance, Eigen::EigenvaluesOnly)
+          .eigenvalues()
+          .tail(covariance.cols() - 1);
+  if (!(values.minCoeff() > 0.0)) return;
+  const double log_w = values.array().log().sum() - p * std::log(values.sum() / p);
+  const double factor = 1.0 - (2.0 * p * p + p + 2.0) / (6.0 * p * n);
+  SphericityTest sphericity;
+  sphericity.w = std::exp(log_w);
+  sphericity.degrees_of_freedom = p * (p + 1.0) / 2.0 - 1.0;
+  sphericity.chi_squared = std::max(0.0, -n * factor * log_w);
+  const double first = chi_squared_above(sphericity.chi_squared, sphericity.degrees_of_freedom);
+  const double second =
+      chi_squared_above(sphericity.chi_squared, sphericity.degrees_of_freedom + 4.0);
+  const double weight = (p + 2.0) * (p - 1.0) * (p - 2.0) *
+                        (2.0 * p * p * p + 6.0 * p * p + 3.0 * p + 2.0) /
+                        (288.0 * std::pow(n * p * factor, 2.0));
+  sphericity.p_value = std::clamp(first + weight * (second - first), 0.0, 1.0);
+  test.mauchly = sphericity;
+}
+
 }  // namespace
 
 OmnibusTest repeated_measures_anova(const RepeatedMeasures& data) {
@@ -95,6 +124,7 @@ OmnibusTest repeated_measures_anova(const RepeatedMeasures& data) {
   test.partial_eta_squared = of_conditions / (of_conditions + of_errors);
   test.generalized_eta_squared = of_conditions / (of_conditions + of_people + of_errors);
   correct_for_sphericity(test, rest);
+  test_sphericity(test, rest);
   test.status = FitStatus::kOk;
   return test;
 }

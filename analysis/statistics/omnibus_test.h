@@ -20,6 +20,14 @@ struct SphericityCorrection {
   double p_value = 1.0;
 };
 
+/// Mauchly's test (1940) of whether the differences between conditions all vary alike.
+struct SphericityTest {
+  double w = 1.0;            ///< It is 1 if they do, and approaches 0 as they differ.
+  double chi_squared = 0.0;  ///< Box's approximation (1949) of the distribution of ln W.
+  double degrees_of_freedom = 0.0;
+  double p_value = 1.0;  ///< With the second-order term, as R's `mauchly.test` has it.
+};
+
 /// Whether any of several conditions differs from any other.
 struct OmnibusTest {
   FitStatus status = FitStatus::kNotRun;
@@ -33,6 +41,9 @@ struct OmnibusTest {
   std::optional<double> p_value;                   ///< Without a correction.
   std::optional<SphericityCorrection> greenhouse_geisser,
       huynh_feldt;  ///< Analysis of variance.
+  /// Analysis of variance of three or more conditions. It is absent if there are no more people
+  /// than contrasts, because W is then 0 whatever the conditions do.
+  std::optional<SphericityTest> mauchly;
   /// Analysis of variance: of the variation within people, and of all of it (Olejnik and Algina
   /// 2003), the part that goes with the conditions.
   std::optional<double> partial_eta_squared, generalized_eta_squared;

@@ -17,6 +17,7 @@
 #include "analysis/statistics/long_table.h"
 #include "analysis/statistics/multiplicity.h"
 #include "analysis/statistics/omnibus_test.h"
+#include "analysis/statistics/pairwise_tests.h"
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/commands/comparison_words.h"
@@ -37,7 +38,8 @@ struct CompareOptions {
   std::string value, by, pair;  ///< Long format: one value a row; "" for the columns a and b.
   std::vector<std::string> levels;
   std::optional<double> margin, margin_ratio;
-  std::string figure;  ///< "" for none.
+  std::string figure;     ///< "" for none.
+  bool pairwise = false;  ///< Whether every pair of conditions is tested as well.
   bool json = false;
 };
 
@@ -118,6 +120,10 @@ analysis::LongColumns long_columns(const CompareOptions& options) {
 /// Throws `UsageError` where the options of long format do not fit the test.
 void require_long_format(const CompareOptions& options) {
   const bool needs_pair = is_paired(options.test);
+  if (options.pairwise && !is_omnibus(options.test)) {
+    throw UsageError("--pairwise: expected --test anova or friedman, found --test " +
+                     options.test + "; it compares two conditions already");
+  }
   if (options.value.empty() != options.by.empty()) {
     throw UsageError(
         "--value and --by: expected both or neither, found one; --value names the "
@@ -285,9 +291,17 @@ int run_omnibus(const CompareOptions& options) {
   const std::vector<std::optional<double>> adjusted = analysis::holm_adjusted(p_values);
   Json groups = Json::array();
   for (std::size_t i = 0; i < tests.size(); ++i) {
+    std::vector<analysis::PairwiseTest> pairs;
+    if (options.pairwise && tests[i].num_people >= 2) {
+      pairs = analysis::pairwise_tests(table.groups[i].complete,
+                                       options.test == "anova"
+                                           ? analysis::PairwiseMethod::kPairedT
+                                           : analysis::PairwiseMethod::kWilcoxon);
+    }
     if (!options.json) {
       print_group(table.groups[i].key);
       print_omnibus_test(tests[i], table.groups[i].conditions);
+      if (!pairs.empty()) print_pairwise_tests(pairs);
       print_rows(table.groups[i]);
       if (tests.size() > 1)
         fmt::print("  {:<24} {}\n", "p adjusted by Holm", p_words(adjusted[i]));
@@ -296,6 +310,7 @@ int run_omnibus(const CompareOptions& options) {
     Json json;
     for (const auto& [column, value] : table.groups[i].key) json["group"][column] = value;
     json.update(analysis::to_json(tests[i]));
+    if (options.pairwise) json["pairwise"] = analysis::to_json(pairs);
     add_rows(json, table, i);
     if (tests.size() > 1)
       json["p_value_holm"] = adjusted[i] ? Json(*adjusted[i]) : Json(nullptr);
@@ -401,6 +416,9 @@ void add_compare(CLI::App& program, Invocation& invocation) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("A,B[,..]");
+  compare.add_flag("--pairwise", options->pairwise,
+                   "with anova or friedman: also test every pair of conditions, by paired t or "
+                   "Wilcoxon's signed ranks, p adjusted by Holm over the pairs");
   CLI::Option* const difference =
       compare
           .add_option(

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "app/curves/fit_words.h"
 #include "app/results/statistic_words.h"
 
@@ -104,11 +106,37 @@ void print_omnibus_test(const analysis::OmnibusTest& test,
   fmt::print("  {:<24} {}{}\n", "degrees of freedom", defined(test.degrees_of_freedom),
              is_f ? " and " + defined(test.error_degrees_of_freedom) : "");
   fmt::print("  {:<24} {}\n", "p", p_words(test.p_value));
+  if (test.mauchly) {
+    fmt::print("  {:<24} {:.4g}, p {}\n", "Mauchly's W (sphericity)", test.mauchly->w,
+               p_words(test.mauchly->p_value));
+  }
   print_correction("p, Greenhouse-Geisser", test.greenhouse_geisser);
   print_correction("p, Huynh-Feldt", test.huynh_feldt);
   print_effect("partial eta squared", test.partial_eta_squared, {});
   print_effect("generalized eta squared", test.generalized_eta_squared, {});
   print_effect("Kendall's W", test.concordance, {});
+}
+
+void print_pairwise_tests(const std::vector<analysis::PairwiseTest>& tests) {
+  std::size_t width = 0;
+  for (const analysis::PairwiseTest& test : tests) {
+    width = std::max(width, test.a.size() + test.b.size() + 3);
+  }
+  fmt::print("  pairs of conditions by {}, p adjusted by Holm over {} pairs\n",
+             tests.front().comparison.method, tests.size());
+  for (const analysis::PairwiseTest& test : tests) {
+    const Comparison& comparison = test.comparison;
+    const analysis::Interval& ci95 = comparison.ci95;
+    fmt::print("    {:<{}}  ", test.a + " - " + test.b, width);
+    if (!comparison.p_value) {
+      fmt::print("{}\n", comparison.reason);
+      continue;
+    }
+    fmt::print("{}", defined(comparison.estimate));
+    if (ci95.low && ci95.high) fmt::print(" [{:.4g}, {:.4g}]", *ci95.low, *ci95.high);
+    fmt::print("  {}  p {}  adjusted {}\n", statistic_words(comparison),
+               p_words(comparison.p_value), p_words(test.p_value_holm));
+  }
 }
 
 }  // namespace jnd::app

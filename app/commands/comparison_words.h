@@ -7,6 +7,7 @@
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/equivalence_test.h"
 #include "analysis/statistics/omnibus_test.h"
+#include "analysis/statistics/pairwise_tests.h"
 
 namespace jnd::app {
 
@@ -19,5 +20,8 @@ void print_comparison(const analysis::Comparison& result);
 void print_equivalence(const analysis::EquivalenceTest& test);
 void print_omnibus_test(const analysis::OmnibusTest& test,
                         const std::vector<std::string>& conditions);
+
+/// One row for each pair of conditions. `tests` is not empty.
+void print_pairwise_tests(const std::vector<analysis::PairwiseTest>& tests);
 
 }  // namespace jnd::app

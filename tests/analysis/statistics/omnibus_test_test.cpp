@@ -46,6 +46,23 @@ TEST(RepeatedMeasuresAnova, OfThreeConditionsIsWhatRSays) {
   EXPECT_EQ(test.huynh_feldt->epsilon, 1.0) << "1.0269, and no more than 1";
 }
 
+TEST(RepeatedMeasuresAnova, MauchlysTestOfSphericityIsWhatRSays) {
+  // R 4.2.2: mauchly.test(lm(values ~ 1), X = ~1), of three and of four conditions.
+  const OmnibusTest three = repeated_measures_anova(kFive);
+  ASSERT_TRUE(three.mauchly);
+  EXPECT_NEAR(three.mauchly->w, 0.618977258062, 1e-11);
+  EXPECT_NEAR(three.mauchly->p_value, 0.486981024774, 1e-11);
+  RepeatedMeasures more = kFive;
+  const double fourth[] = {5.0, 7.2, 6.6, 7.1, 5.0};
+  for (std::size_t i = 0; i < 5; ++i) more.values[i].push_back(fourth[i]);
+  const OmnibusTest four = repeated_measures_anova(more);
+  ASSERT_TRUE(four.mauchly);
+  EXPECT_NEAR(four.mauchly->w, 0.371824027289, 1e-11);
+  EXPECT_NEAR(four.mauchly->p_value, 0.761645850298, 1e-11);
+  EXPECT_FALSE(repeated_measures_anova(measured({{1, 0}, {3, 1}, {4, 3}})).mauchly)
+      << "two conditions have one difference";
+}
+
 TEST(RepeatedMeasuresAnova, PeopleWhoDifferAndConditionsThatDoNotAreNoEffect) {
   RepeatedMeasures far_apart = kFive;
   for (std::size_t person = 0; person < 5; ++person) {

@@ -77,6 +77,28 @@ TEST(CompareCommand, ATableInLongFormatGivesWhatItsColumnsWouldAndNamesWhoIsLeft
   EXPECT_NE(told.out.find("a cell is empty or NA: 1"), std::string::npos) << told.out;
 }
 
+TEST(CompareCommand, PairwiseTestsFollowTheTestOfAllConditions) {
+  const std::string table =
+      "who,fluid,w\nP1,thin,4.1\nP1,thick,5.2\nP1,solid,6.9\nP2,thin,3.0\nP2,thick,3.8\n"
+      "P2,solid,6.1\nP3,thin,5.5\nP3,thick,5.0\nP3,solid,7.7\nP4,thin,4.4\nP4,thick,6.1\n"
+      "P4,solid,6.0\nP5,thin,2.9\nP5,thick,4.0\nP5,solid,5.8\n";
+  Words words = {"--value", "w", "--by", "fluid", "--pair", "who", "--pairwise"};
+  const ProgramOutcome told = compared(table, "anova", words);
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_NE(told.out.find("p adjusted by Holm over 3 pairs"), std::string::npos) << told.out;
+  EXPECT_NE(told.out.find("thin - thick"), std::string::npos) << told.out;
+  words.emplace_back("--json");
+  const auto json = document(compared(table, "anova", words).out);
+  ASSERT_EQ(json["pairwise"].size(), 3u);
+  EXPECT_EQ(json["pairwise"][2]["a"], "thick");
+  EXPECT_EQ(json["pairwise"][2]["b"], "solid");
+  EXPECT_NEAR(json["pairwise"][2]["p_value_holm"].get<double>(), 0.04979232692045, 1e-9);
+  EXPECT_NEAR(json["mauchly_w"].get<double>(), 0.618977258062, 1e-9);
+  const ProgramOutcome two = compared(kPairs, "paired", {"--pairwise"});
+  EXPECT_EQ(two.exit_code, 2);
+  EXPECT_NE(two.err.find("expected --test anova or friedman"), std::string::npos) << two.err;
+}
+
 TEST(CompareCommand, OptionsOfLongFormatThatDoNotFitAreToldInASentence) {
   for (const auto& [test, more, found] :
        {std::tuple{"anova", Words{}, "expected a table in long format, found no --value"},
