@@ -75,6 +75,12 @@ void require_options(const FitPsychometricOptions& options) {
       1) {
     throw UsageError("--json, --as-csv, --script: expected one of them at most, found several");
   }
+  if (options.compare && (options.as_csv || !options.script.empty())) {
+    throw UsageError(fmt::format(
+        "--compare: expected a table for people or --json beside it, found {}, which holds the "
+        "fits alone; run it once with --compare --json and once without --compare",
+        options.as_csv ? "--as-csv" : "--script"));
+  }
   if (!options.figure.empty()) analysis::require_figure_file(options.figure);
 }
 

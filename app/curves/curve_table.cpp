@@ -25,6 +25,48 @@ std::string csv_value(const CurveValue& value) {
   return csv_number(value.value) + csv_number(value.ci95.low) + csv_number(value.ci95.high);
 }
 
+/// Which columns stand after those that every table has.
+struct AskedColumns {
+  bool bootstrap = false, posterior = false;
+};
+
+AskedColumns columns_asked_for(const std::vector<CurveFit>& fits) {
+  AskedColumns asked;
+  for (const CurveFit& fit : fits) {
+    asked.bootstrap = asked.bootstrap || fit.num_bootstrap > 0;
+    asked.posterior = asked.posterior || !fit.posterior_priors.empty();
+  }
+  return asked;
+}
+
+std::string csv_header_of(const AskedColumns& asked) {
+  std::string names;
+  for (const char* of : {"pse", "jnd", "threshold", "slope"}) {
+    if (asked.bootstrap) {
+      names +=
+          fmt::format(",{0}_bootstrap_low,{0}_bootstrap_high,{0}_bca_low,{0}_bca_high", of);
+    }
+    if (asked.posterior) {
+      names += fmt::format(",{0}_posterior_median,{0}_posterior_low,{0}_posterior_high", of);
+    }
+  }
+  return names;
+}
+
+std::string csv_value_of(const AskedColumns& asked, const CurveValue& value) {
+  std::string cells;
+  if (asked.bootstrap) {
+    for (const analysis::Interval* interval : {&value.bootstrap_ci95, &value.bca_ci95}) {
+      cells += csv_number(interval->low) + csv_number(interval->high);
+    }
+  }
+  if (asked.posterior) {
+    cells += csv_number(value.posterior_median) + csv_number(value.posterior_ci95.low) +
+             csv_number(value.posterior_ci95.high);
+  }
+  return cells;
+}
+
 }  // namespace
 
 std::string curves_as_csv(const std::vector<analysis::AnswerGroup>& groups,
@@ -38,7 +80,9 @@ std::string curves_as_csv(const std::vector<analysis::AnswerGroup>& groups,
       "scale_high,guess_rate,guess_rate_low,guess_rate_high,lapse_rate,lapse_rate_low,"
       "lapse_rate_high,pse,pse_low,pse_high,jnd,jnd_low,jnd_high,log_likelihood,deviance,aic,"
       "bic,overdispersion,at,proportion,threshold,threshold_low,threshold_high,slope,slope_low,"
-      "slope_high\n";
+      "slope_high";
+  const AskedColumns asked = columns_asked_for(fits);
+  text += csv_header_of(asked) + "\n";
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const CurveFit& fit = fits[i];
     std::string before;
@@ -58,7 +102,11 @@ std::string curves_as_csv(const std::vector<analysis::AnswerGroup>& groups,
       const bool has_level = std::isfinite(one.at);
       text += before + csv_number(has_level ? std::optional(one.at) : std::nullopt) +
               csv_number(is_ok ? std::optional(one.proportion) : std::nullopt) +
-              csv_value(one.intensity) + csv_value(one.slope) + "\n";
+              csv_value(one.intensity) + csv_value(one.slope);
+      for (const CurveValue* value : {&fit.pse, &fit.jnd, &one.intensity, &one.slope}) {
+        text += csv_value_of(asked, *value);
+      }
+      text += "\n";
     }
   }
   return text;

@@ -191,6 +191,35 @@ TEST_F(FitPsychometric, PrintsATableWithARowForEachThreshold) {
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 5);
 }
 
+TEST_F(FitPsychometric, ATableHasTheIntervalsThatWereAskedFor) {
+  table("a.csv", kSigned);
+  const std::string plain = psychometric(with({"--as-csv"}), false).out;
+  EXPECT_EQ(plain.find("bootstrap"), std::string::npos);
+  const std::string all =
+      psychometric(with({"--as-csv", "--bootstrap", "200", "--posterior"}), false).out;
+  const std::size_t end = all.find('\n');
+  const std::string header = all.substr(0, end);
+  for (const char* name : {"pse_bootstrap_low", "threshold_bca_high", "jnd_posterior_median"}) {
+    EXPECT_NE(header.find(name), std::string::npos) << header;
+  }
+  const std::string row = all.substr(end + 1);
+  EXPECT_EQ(std::ranges::count(header, ','), std::ranges::count(row, ',')) << all;
+  EXPECT_EQ(row.find(",,\n"), std::string::npos) << "the posterior of the slope is there";
+}
+
+TEST_F(FitPsychometric, AComparisonThatATableCannotHoldIsRefusedInASentence) {
+  table("a.csv", kSigned);
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"--as-csv"}, {"--script", "r"}}) {
+    std::vector<std::string> words = {"--group-by", "condition", "--compare"};
+    words.insert(words.end(), wrong.begin(), wrong.end());
+    const ProgramOutcome outcome = psychometric(with(words), false);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+    EXPECT_NE(outcome.err.find("run it once with --compare --json"), std::string::npos)
+        << outcome.err;
+  }
+}
+
 TEST_F(FitPsychometric, DrawsANewFileAndOverwritesNone) {
   if (test_support::installed_program("gnuplot").empty())
     GTEST_SKIP() << "gnuplot is not installed";
