@@ -75,6 +75,7 @@ class AnswerCollector final : public RowSink {
     for (const auto& [name, cell] : columns_.where)
       where_.push_back(problems().place_of(name, file_.columns, line));
     problems().throw_problems();
+    find_response_of_jspsych();
     elsewhere_.resize(where_.size());
     for (std::size_t i = 0; i < file_.columns.size(); ++i) {
       const auto is_at = [i](std::size_t place) { return place == i; };
@@ -102,6 +103,7 @@ class AnswerCollector final : public RowSink {
     }
     if (skips(cell(intensity_), columns_.intensity) || skips(cell(yes_), columns_.yes)) return;
     if (trials_ && skips(cell(*trials_), *columns_.trials)) return;
+    if (response_ && skips(cell(*response_), file_.columns[*response_])) return;
     for (std::size_t i = 0; i < group_by_.size(); ++i) {
       if (skips_name(cell(group_by_[i]), columns_.group_by[i])) return;
     }
@@ -151,6 +153,19 @@ class AnswerCollector final : public RowSink {
   }
 
  private:
+  /// jsPsych writes `"response": null` for a trial that was not answered in time, and most
+  /// experiments then store `correct` as false. Such a trial is missing and no wrong answer.
+  void find_response_of_jspsych() {
+    const auto place_of = [this](std::string_view name) -> std::optional<std::size_t> {
+      const auto found = std::ranges::find(file_.columns, name);
+      if (found == file_.columns.end()) return std::nullopt;
+      return static_cast<std::size_t>(found - file_.columns.begin());
+    };
+    if (!place_of("trial_type") || !place_of("trial_index") || !place_of("rt")) return;
+    response_ = place_of("response");
+    if (response_ == yes_) response_.reset();
+  }
+
   /// A cell that no row has is a slip: another case of letters, or another language.
   void require_some_rows() {
     if (file_.num_rows == 0 || file_.num_elsewhere < file_.num_rows) return;
@@ -205,6 +220,7 @@ class AnswerCollector final : public RowSink {
   AnswerFile file_;
   std::size_t intensity_ = 0, yes_ = 0;
   std::optional<std::size_t> trials_;
+  std::optional<std::size_t> response_;  ///< Of jsPsych, if another column says what is a yes.
   std::vector<std::size_t> group_by_, where_, pooled_;
   std::vector<std::set<std::string>> pooled_cells_;
   std::vector<std::set<std::string>> elsewhere_;  ///< Other cells of each of `where_`.

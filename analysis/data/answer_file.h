@@ -63,7 +63,8 @@ struct AnswerFile {
 /// header has most of; quotes as RFC 4180 has them. Decimals have a point, or a comma where
 /// that does not separate. Rows may be shorter than the header, and longer by empty cells, as
 /// PsychoPy writes them; its lines from `extraInfo` on are no rows. JSON: a list of objects, as
-/// jsPsych writes it; `a.b` names what is within an object.
+/// jsPsych writes it; `a.b` names what is within an object. A trial of jsPsych that has no
+/// `response` was not answered in time; it is left out and counted as missing.
 ///
 /// A yes is 1, true or yes, a no is 0, -1, false or no, in any case of letters. Throws
 /// `core::Error` with every problem (at most 20), each "FILE:LINE: column: expected this, found

@@ -162,6 +162,22 @@ TEST(AnswerFile, TakesWhatJsPsychWrites) {
   EXPECT_EQ(table.num_missing.at("offset"), 1);
 }
 
+TEST(AnswerFile, ATrialOfJsPsychThatWasMissedIsNoWrongAnswer) {
+  const std::string header = "rt,response,trial_type,trial_index,offset,correct\n";
+  const std::string rows =
+      "612,f,html-keyboard-response,1,20,true\nnull,null,html-keyboard-response,2,20,false\n"
+      "455,j,html-keyboard-response,3,20,false\n,,html-keyboard-response,4,20,false\n";
+  const AnswerFile file =
+      parse_answers(header + rows, "t.csv", {.intensity = "offset", .yes = "correct"});
+  EXPECT_EQ(file.groups[0].tallies[0].num_trials, 2);
+  EXPECT_EQ(file.groups[0].tallies[0].num_yes, 1);
+  EXPECT_EQ(file.num_missing.at("response"), 2);
+  // A column of that name in another program's table means nothing.
+  const AnswerFile other = parse_answers("response,offset,correct\n,20,false\n", "t.csv",
+                                         {.intensity = "offset", .yes = "correct"});
+  EXPECT_EQ(other.groups[0].tallies[0].num_trials, 1);
+}
+
 TEST(AnswerFile, SaysWhereWhatIsWrong) {
   EXPECT_EQ(problem("x,r\n1,maybe\n", kTrials),
             "t.csv:2: r: expected 0 or 1, true or false, or -1 or 1; --yes-value names what is "
