@@ -37,6 +37,34 @@ double largest_in(const FigureTable& table, const std::string& column) {
   return largest;
 }
 
+std::size_t num_letters_of(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char letter) { return (static_cast<unsigned char>(letter) & 0xC0U) != 0x80U; }));
+}
+
+std::string shortened(const std::string& text, std::size_t most_letters) {
+  if (num_letters_of(text) <= most_letters) return text;
+  std::string kept;
+  std::size_t num = 0;
+  for (const char letter : text) {
+    if ((static_cast<unsigned char>(letter) & 0xC0U) != 0x80U && ++num >= most_letters) break;
+    kept += letter;
+  }
+  while (kept.ends_with(' ')) kept.pop_back();
+  return kept + "\u2026";
+}
+
+std::string on_two_lines(const std::string& text, std::size_t most_letters) {
+  if (num_letters_of(text) <= most_letters || text.find('\n') != std::string::npos) return text;
+  std::size_t end = std::string::npos;
+  for (std::size_t at = text.find(' '); at != std::string::npos; at = text.find(' ', at + 1)) {
+    if (num_letters_of(text.substr(0, at)) > most_letters) break;
+    end = at;
+  }
+  if (end == std::string::npos) return shortened(text, most_letters);
+  return text.substr(0, end) + '\n' + shortened(text.substr(end + 1), most_letters);
+}
+
 double grid_height_in(const PanelGrid& grid, std::size_t num_panels, double panel_in) {
   const auto columns = static_cast<std::size_t>(grid.num_columns);
   const std::size_t num_rows = (num_panels + columns - 1) / columns;
@@ -62,6 +90,8 @@ std::string grid_plot(const PanelGrid& grid, const std::vector<Panel>& panels, d
       "," + plot_number(0.14 / height_in) + " center\n  set label 2 " +
       gnuplot_quoted(grid.y_title) + " at screen " + plot_number(0.12 / width_in) +
       ",0.5 center rotate by 90\n";
+  const auto most_letters = static_cast<std::size_t>(
+      std::max(8.0, (panel_width + 0.8 * grid.gap_x_in) / kSmallLetterIn));
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const auto column = static_cast<double>(i % static_cast<std::size_t>(places));
     const std::size_t num_above = i / static_cast<std::size_t>(places);
@@ -72,7 +102,7 @@ std::string grid_plot(const PanelGrid& grid, const std::vector<Panel>& panels, d
               "\n  set rmargin at screen " + plot_number((left + panel_width) / width_in) +
               "\n  set tmargin at screen " + plot_number(top / height_in) +
               "\n  set bmargin at screen " + plot_number((top - panel_height) / height_in) +
-              "\n  set title " + gnuplot_quoted(panels[i].title) +
+              "\n  set title " + gnuplot_quoted(on_two_lines(panels[i].title, most_letters)) +
               " font small offset 0,-0.7\n";
     script += panels[i].before;
     script += "  " + panels[i].plot + "\n";

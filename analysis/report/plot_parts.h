@@ -31,7 +31,21 @@ struct Panel {
   std::string plot;    ///< "plot ...", one line.
 };
 
-/// Lays panels out in rows of `num_columns`, titles above, axis names outside.
+/// How wide a letter of the small font is on average.
+inline constexpr double kSmallLetterIn = 0.065;
+
+/// A text of one line as up to two lines of at most so many letters, broken between words. What
+/// is longer ends with an ellipsis. A text that has line breaks already is left alone.
+[[nodiscard]] std::string on_two_lines(const std::string& text, std::size_t most_letters);
+
+/// At most so many letters; what is longer ends with an ellipsis.
+[[nodiscard]] std::string shortened(const std::string& text, std::size_t most_letters);
+
+/// How many letters (code points) a text of UTF-8 has.
+[[nodiscard]] std::size_t num_letters_of(const std::string& text);
+
+/// Lays panels out in rows of `num_columns`, titles above, axis names outside. A title that is
+/// wider than its panel stands on two lines.
 struct PanelGrid {
   int num_columns = 4;
   std::string x_title, y_title;

@@ -115,27 +115,69 @@ std::vector<double> all_values(const std::vector<ComparedValues>& groups, std::s
   return all;
 }
 
-/// One plot, or a panel for each group.
+constexpr double kPanelsWidthIn = 6.6, kPlotWidthIn = 4.6;
+constexpr int kNumPanelColumns = 4;
+
+/// How the names of conditions stand below a plot: each on its line if there is room, else
+/// aslant and at most as long as `kMostNameLetters`.
+class NamesBelow {
+ public:
+  NamesBelow(const std::vector<std::string>& names, bool small) : names_(names) {
+    const PanelGrid grid;
+    const double width_in =
+        small
+            ? (kPanelsWidthIn - grid.left_in - grid.right_in) / kNumPanelColumns - grid.gap_x_in
+            : kPlotWidthIn - 1.0;
+    const double letter_in = small ? kSmallLetterIn : 1.3 * kSmallLetterIn;
+    std::size_t longest = 0;
+    for (std::string& name : names_) {
+      name = shortened(name, kMostNameLetters);
+      longest = std::max(longest, num_letters_of(name));
+    }
+    const double longest_in = static_cast<double>(longest) * letter_in;
+    are_aslant_ = longest_in > width_in / static_cast<double>(names_.size());
+    if (are_aslant_) extra_in_ = std::max(0.0, 0.6 * longest_in - 0.1);
+  }
+
+  [[nodiscard]] std::string tics() const {
+    std::string tics = named_tics("x", names_, /*upright=*/false);
+    if (are_aslant_) tics.insert(tics.size() - 1, " rotate by 35 right");
+    return tics;
+  }
+  /// Room that the names need beyond that of one line.
+  [[nodiscard]] double extra_in() const noexcept { return extra_in_; }
+
+ private:
+  static constexpr std::size_t kMostNameLetters = 16;
+  std::vector<std::string> names_;
+  bool are_aslant_ = false;
+  double extra_in_ = 0.0;
+};
+
+/// One plot, or a panel for each group. `below_in`: what is written below a plot needs so much
+/// more room than one line.
 void lay_out(Figure& figure, const std::vector<ComparedValues>& groups,
-             const std::string& x_title, const std::string& y_title,
+             const std::string& x_title, const std::string& y_title, double below_in,
              const std::function<std::string(bool small)>& axes,
              const std::function<std::string(int series)>& plot) {
   if (groups.size() == 1) {
-    figure.width_in = 4.6;
-    figure.height_in = 3.6;
+    figure.width_in = kPlotWidthIn;
+    figure.height_in = 3.6 + below_in;
     figure.plot = (x_title.empty() ? "" : "  set xlabel " + gnuplot_quoted(x_title) + "\n") +
                   "  set ylabel " + gnuplot_quoted(y_title) + "\n" + axes(/*small=*/false) +
                   "  plot " + plot(1) + "\n";
     return;
   }
-  const PanelGrid grid{.num_columns = 4, .x_title = x_title, .y_title = y_title};
+  PanelGrid grid{.num_columns = kNumPanelColumns, .x_title = x_title, .y_title = y_title};
+  grid.bottom_in += below_in;
+  grid.gap_y_in += below_in;
   std::vector<Panel> panels;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     panels.push_back({.title = groups[i].name,
                       .before = axes(/*small=*/true),
                       .plot = "plot " + plot(static_cast<int>(i) + 1)});
   }
-  figure.width_in = 6.6;
+  figure.width_in = kPanelsWidthIn;
   figure.height_in = grid_height_in(grid, panels.size(), 1.2);
   figure.plot = grid_plot(grid, panels, figure.width_in, figure.height_in);
 }
@@ -159,7 +201,7 @@ Figure value_figure(const std::vector<ComparedValues>& groups, const std::string
   const AxisRange y = axis_range(drawn);
   const std::vector<std::string>& conditions = shown.front().conditions;
   const auto axes = [&](bool small) {
-    std::string tics = named_tics("x", conditions, conditions.size() > 6);
+    std::string tics = NamesBelow(conditions, small).tics();
     if (small) tics.insert(tics.size() - 1, " font small");
     return "  set xrange [0.5:" + plot_number(static_cast<double>(conditions.size()) + 0.5) +
            "]\n" + tics + "  set yrange " + range_words(y) + "\n" +
@@ -177,7 +219,8 @@ Figure value_figure(const std::vector<ComparedValues>& groups, const std::string
            "'place':" + if_series(series, "mean") +
            ":'low':'high' with yerrorbars lt 1 lw 2 pt 7 ps 0.8";
   };
-  lay_out(figure, shown, "", value_name, axes, plot);
+  const double below_in = NamesBelow(conditions, shown.size() > 1).extra_in();
+  lay_out(figure, shown, "", value_name, below_in, axes, plot);
   return figure;
 }
 
@@ -224,7 +267,8 @@ Figure scatter_figure(const std::vector<ComparedValues>& groups, bool has_line) 
                               if_series(series, "second") + " with lines lt 1 lw 1.5"
                         : "");
   };
-  lay_out(figure, shown, shown.front().conditions[0], shown.front().conditions[1], axes, plot);
+  lay_out(figure, shown, shown.front().conditions[0], shown.front().conditions[1], 0.0, axes,
+          plot);
   return figure;
 }
 

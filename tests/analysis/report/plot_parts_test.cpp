@@ -37,4 +37,21 @@ TEST(LogTics, OfARangeThatIsNoneAreLeftToGnuplot) {
 }
 
 }  // namespace plot_parts_test
+TEST(PanelTitle, ThatIsTooLongStandsOnTwoLinesBrokenBetweenWords) {
+  EXPECT_EQ(on_two_lines("P01", 20), "P01");
+  EXPECT_EQ(on_two_lines("participant P01, condition thin", 20),
+            "participant P01,\ncondition thin");
+  EXPECT_EQ(on_two_lines("a\nb that is broken already by hand", 10),
+            "a\nb that is broken already by hand");
+  EXPECT_EQ(on_two_lines("participant P01, condition with priming before", 20),
+            "participant P01,\ncondition with prim\u2026");
+  EXPECT_EQ(on_two_lines("Donaudampfschifffahrt", 10), "Donaudamp\u2026");
+}
+
+TEST(PanelTitle, CountsLettersAndNotBytes) {
+  EXPECT_EQ(num_letters_of("Z\u00e4higkeit"), 9U);
+  EXPECT_EQ(shortened("\u00e4\u00f6\u00fc\u00df", 3), "\u00e4\u00f6\u2026");
+  EXPECT_EQ(shortened("\u00e4\u00f6\u00fc", 3), "\u00e4\u00f6\u00fc");
+}
+
 }  // namespace jnd::analysis
