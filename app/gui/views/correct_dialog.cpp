@@ -36,7 +36,8 @@ std::string problem_of_correction(const AnswerForm& form, const std::string& typ
 
 class CorrectDialog {
  public:
-  CorrectDialog(Ui& ui, CorrectState& state) : ui_(ui), state_(state), form_(state.line.form) {}
+  CorrectDialog(Ui& ui, CorrectState& state, ScaleTyping& scale)
+      : ui_(ui), state_(state), scale_(scale), form_(state.line.form) {}
 
   /// Of what it draws in a dialog of this width.
   [[nodiscard]] float height(float width) const {
@@ -53,8 +54,14 @@ class CorrectDialog {
     if (form_.kind == AnswerKind::kStep) {
       const int selected =
           state_.has_choice && state_.value ? static_cast<int>(std::lround(*state_.value)) : 0;
-      const int step = draw_scale(ui_, inside.take_top(kCorrectScale, 14), "correct_step_",
-                                  form_.num_steps, form_.low_label, form_.high_label, selected);
+      const int step = draw_scale(ui_, inside.take_top(kCorrectScale, 14),
+                                  {.name = "correct_step_",
+                                   .of = "correct " + std::to_string(state_.line.trial),
+                                   .num_steps = form_.num_steps,
+                                   .low_label = form_.low_label,
+                                   .high_label = form_.high_label,
+                                   .selected = selected},
+                                  scale_);
       if (step > 0) choose(step);
       return;
     }
@@ -132,6 +139,7 @@ class CorrectDialog {
 
   Ui& ui_;
   CorrectState& state_;
+  ScaleTyping& scale_;
   const AnswerForm& form_;
 };
 
@@ -140,7 +148,7 @@ class CorrectDialog {
 void draw_correct_dialog(Ui& ui, RunViewState& run, RunViewResult& result) {
   CorrectState& state = run.correct;
   const AnswerLine& line = state.line;
-  CorrectDialog dialog(ui, state);
+  CorrectDialog dialog(ui, state, run.scale);
   constexpr float kWidth = 680, kInside = kWidth - 2 * 28;
   const TextStyle strong{.font = Font::kStrong, .wrap = true};
   const std::string which =

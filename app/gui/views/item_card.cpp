@@ -205,7 +205,8 @@ class ItemCard {
       stack.add(46, 8, [this, width, i](const Rect& strip) {
         const ItemView::Option& option = item_.options[i];
         ButtonStyle style;
-        if (i < 9) style.key = {static_cast<Key>('1' + i)};
+        // The digits as they stand on a keyboard: 0 is the tenth.
+        if (i < 10) style.key = {static_cast<Key>('0' + (i + 1) % 10)};
         const std::string name = "option_" + option.value;
         if (ui_.button(name, strip.middle(std::min(width, 460.0f), 46), option.label, style)) {
           give(option.value);
@@ -215,9 +216,14 @@ class ItemCard {
   }
 
   void draw_steps(const Rect& strip, float width) {
-    const int step =
-        draw_scale(ui_, strip.middle(width, strip.height), "scale_", item_.num_steps,
-                   item_.low_label, item_.high_label, std::atoi(item_.answer.c_str()));
+    const int step = draw_scale(ui_, strip.middle(width, strip.height),
+                                {.name = "scale_",
+                                 .of = item_.name,
+                                 .num_steps = item_.num_steps,
+                                 .low_label = item_.low_label,
+                                 .high_label = item_.high_label,
+                                 .selected = std::atoi(item_.answer.c_str())},
+                                state_.scale);
     if (step > 0) give(std::to_string(step));
   }
 
@@ -259,23 +265,65 @@ void draw_answered(Ui& ui, const Rect& place, const SessionView& view, RunViewSt
   }
 }
 
+/// Takes the digits that were typed; returns the step that they name so far, or 0.
+int type_step(Ui& ui, const ScaleForm& form, ScaleTyping& typing) {
+  if (typing.of != form.of) typing = {.of = form.of, .digits = ""};
+  const std::size_t most_digits = std::to_string(form.num_steps).size();
+  for (const char typed : ui.typed_digits()) {
+    if (typed != '.' && typing.digits.size() < most_digits) typing.digits += typed;
+  }
+  if (!typing.digits.empty() && ui.typed_backspace()) typing.digits.pop_back();
+  const int step = std::atoi(typing.digits.c_str());
+  return step <= form.num_steps ? step : 0;
+}
+
 }  // namespace
 
-int draw_scale(Ui& ui, const Rect& place, const std::string& name, int num_steps,
-               const std::string& low_label, const std::string& high_label, int selected) {
+int draw_scale(Ui& ui, const Rect& place, const ScaleForm& form, ScaleTyping& typing) {
+  constexpr int kMostDigitKeys = 10;
+  constexpr float kLeastButton = 30;
   int chosen = 0;
   Rect area = place;
-  Rect labels = area.take_bottom(34);
-  const float step = area.width / static_cast<float>(num_steps);
-  for (int i = 1; i <= num_steps; ++i) {
-    const Rect box{area.x + step * static_cast<float>(i - 1) + 4, area.y, step - 8,
-                   area.height - 8};
-    const std::string number = std::to_string(i);
-    const bool typed = i <= 10 && ui.pressed({static_cast<Key>('0' + i % 10)});
-    if (ui.button(name + number, box, number, {.selected = i == selected}) || typed) chosen = i;
+  draw_name_and_value(ui, area.take_bottom(34), form.low_label,
+                      {.colour = Colour::kSoft, .any_length = true}, form.high_label,
+                      {.colour = Colour::kSoft, .any_length = true});
+  const bool is_typed = form.num_steps > kMostDigitKeys;
+  int selected = form.selected;
+  if (is_typed) {
+    const int typed = type_step(ui, form, typing);
+    if (typed > 0) selected = typed;
+    const std::string hint =
+        typing.digits.empty() ? tr("type a number from 1 to {}, then Enter", form.num_steps)
+        : typed > 0           ? tr("{}, Enter stores it", typed)
+                    : tr("{} is no step: expected 1 to {}", typing.digits, form.num_steps);
+    ui.text(area.take_bottom(24), hint,
+            {.font = Font::kSmall,
+             .colour = typing.digits.empty() || typed > 0 ? Colour::kSoft : Colour::kAmber,
+             .align = Align::kCentre});
+    if (typed > 0 && ui.pressed({Key::kEnter})) chosen = typed;
   }
-  draw_name_and_value(ui, labels, low_label, {.colour = Colour::kSoft, .any_length = true},
-                      high_label, {.colour = Colour::kSoft, .any_length = true});
+  const float step = area.width / static_cast<float>(form.num_steps);
+  if (step - 8 < kLeastButton && is_typed) {
+    const Rect field = area.middle(std::min(220.0f, area.width), area.height - 8);
+    ui.fill(field, Colour::kGround, 9);
+    ui.outline(field, selected > 0 ? Colour::kBlue : Colour::kLine, 9, selected > 0 ? 2 : 1);
+    ui.text(field.middle(field.width - 16, ui.line_height(Font::kLarge)),
+            !typing.digits.empty() ? typing.digits
+            : selected > 0         ? std::to_string(selected)
+                                   : "",
+            {.font = Font::kLarge, .align = Align::kCentre});
+  } else {
+    for (int i = 1; i <= form.num_steps; ++i) {
+      const Rect box{area.x + step * static_cast<float>(i - 1) + 4, area.y, step - 8,
+                     area.height - 8};
+      const std::string number = std::to_string(i);
+      const bool has_key = !is_typed && ui.pressed({static_cast<Key>('0' + i % 10)});
+      if (ui.button(form.name + number, box, number, {.selected = i == selected}) || has_key) {
+        chosen = i;
+      }
+    }
+  }
+  if (chosen > 0) typing.digits.clear();
   return chosen;
 }
 

@@ -45,12 +45,20 @@ void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSe
 void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
               const std::vector<TracePoint>& trace, RunViewState& state);
 
-/// A scale as on paper: a row of steps from 1 between two words. The keys are the numbers
-/// themselves, 0 for ten. `selected`: the step that stands; 0 for none. `name`: what the names
-/// of its buttons begin with. Returns the step that was chosen in this frame, or 0.
-[[nodiscard]] int draw_scale(Ui& ui, const Rect& place, const std::string& name, int num_steps,
-                             const std::string& low_label, const std::string& high_label,
-                             int selected = 0);
+/// A scale as on paper: a row of steps from 1 between two words.
+struct ScaleForm {
+  std::string name;  ///< What the names of its buttons begin with: "step_".
+  std::string of;    ///< Tells it from the scales before it: trial and attempt, or the item.
+  int num_steps = 10;
+  std::string low_label, high_label;
+  int selected = 0;  ///< The step that stands; 0 for none.
+};
+
+/// Returns the step that was chosen in this frame, or 0. Up to ten steps are chosen by one key
+/// each, the digit itself and 0 for ten. Of more steps the number is typed and Enter chooses
+/// it; steps that have no room for a button each are typed alone.
+[[nodiscard]] int draw_scale(Ui& ui, const Rect& place, const ScaleForm& form,
+                             ScaleTyping& typing);
 
 /// How high the row is that "Store as adverse event" needs of its own above the buttons of a
 /// dialog with so much room: 0 where it stands beside them.

@@ -24,6 +24,12 @@ struct CorrectState {
 };
 
 /// What the window remembers of a running session: words being typed, nothing that counts.
+/// What was typed of a step on a scale of more than ten steps.
+struct ScaleTyping {
+  std::string of;      ///< Which scale it was typed for; another one begins anew.
+  std::string digits;  ///< "14"
+};
+
 struct RunViewState {
   enum class Dialog {
     kNone,
@@ -48,6 +54,7 @@ struct RunViewState {
 
   std::string percent;                                  ///< Typed so far.
   std::int64_t percent_trial = 0, percent_attempt = 0;  ///< What it was typed for.
+  ScaleTyping scale;
   std::string item;  ///< Name of the item that `typed` belongs to.
   std::string typed;
   bool says_yes = false;  ///< Of "yes, which?".

@@ -140,8 +140,14 @@ class TrialCard {
     } else if (trial_.answer == AnswerKind::kStep && trial_.can_answer) {
       stack.add(104, 12, [this](const Rect& place) {
         const Rect scale = place.middle(std::min(760.0f, place.width - 32), place.height);
-        const int step = draw_scale(ui_, scale, "step_", trial_.num_steps, trial_.low_label,
-                                    trial_.high_label);
+        const int step = draw_scale(
+            ui_, scale,
+            {.name = "step_",
+             .of = std::to_string(trial_.trial) + "/" + std::to_string(trial_.attempt),
+             .num_steps = trial_.num_steps,
+             .low_label = trial_.low_label,
+             .high_label = trial_.high_label},
+            state_.scale);
         if (step > 0) answer(step);
       });
     } else if (is_typed(trial_.answer) && trial_.can_answer) {

@@ -120,6 +120,30 @@ TEST_F(RunView, AStepOfARatingIsChosenByItsNumber) {
   EXPECT_TRUE(ui_.drawn().shows("very thick"));
 }
 
+TEST_F(RunView, AStepOfALongScaleIsTypedAndStoredByEnter) {
+  for (const int num_steps : {11, 20, 100}) {
+    SessionView view = comparison();
+    view.trial->answer = AnswerKind::kStep;
+    view.trial->num_steps = num_steps;
+    draw(view);
+    EXPECT_TRUE(ui_.drawn().shows("then Enter")) << num_steps;
+    for (const char* digit : {"1", "1"}) {
+      ui_.type(digit);
+      EXPECT_TRUE(draw(view).empty()) << "a digit alone stores nothing";
+    }
+    EXPECT_EQ(after_key<operate::Answer>(view, {Key::kEnter}).value, 11.0) << num_steps;
+  }
+  SessionView view = comparison();
+  view.trial->answer = AnswerKind::kStep;
+  view.trial->num_steps = 11;
+  view.trial->trial = 24;
+  ui_.type("99");
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("99 is no step"));
+  ui_.press(Key::kEnter);
+  EXPECT_TRUE(draw(view).empty());
+}
+
 TEST_F(RunView, CannotTellIsAnAnswerWithAKeyWhereTheStudyHasIt) {
   for (SessionView view : {comparison(), two_intervals(), three_intervals()}) {
     view.trial->can_answer = true;
