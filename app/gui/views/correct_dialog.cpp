@@ -143,11 +143,22 @@ class CorrectDialog {
   const AnswerForm& form_;
 };
 
+/// The answer before that of a trial; of the oldest, the newest. Nothing without another.
+const AnswerLine* earlier_answer(const std::vector<AnswerLine>& answers, std::int64_t trial) {
+  if (answers.size() < 2) return nullptr;
+  for (std::size_t i = 0; i + 1 < answers.size(); ++i) {
+    if (answers[i].trial == trial) return &answers[i + 1];
+  }
+  return &answers.front();
+}
+
 }  // namespace
 
-void draw_correct_dialog(Ui& ui, RunViewState& run, RunViewResult& result) {
+void draw_correct_dialog(Ui& ui, RunViewState& run, const std::vector<AnswerLine>& answers,
+                         RunViewResult& result) {
   CorrectState& state = run.correct;
   const AnswerLine& line = state.line;
+  bool turns_to_earlier = false;
   CorrectDialog dialog(ui, state, run.scale);
   constexpr float kWidth = 680, kInside = kWidth - 2 * 28;
   const TextStyle strong{.font = Font::kStrong, .wrap = true};
@@ -168,7 +179,15 @@ void draw_correct_dialog(Ui& ui, RunViewState& run, RunViewResult& result) {
   Rect inside = ui.begin_dialog(
       "dialog", kWidth,
       2 * 28 + 38 + of_words + dialog.height(kInside) + 46 + 14 + 20 + 48 + above);
-  ui.text(inside.take_top(34, 4), tr("Set an answer right"), {.font = Font::kLarge});
+  Rect head = inside.take_top(34, 4);
+  const AnswerLine* const earlier = earlier_answer(answers, line.trial);
+  if (earlier != nullptr) {
+    const ButtonStyle style{.tone = Tone::kQuiet, .key = {Key::kF3}};
+    const char* const label = tr("The answer before");
+    turns_to_earlier = ui.button(
+        "correct_earlier", head.take_right(ui.button_width(label, style), 12), label, style);
+  }
+  ui.text(head, tr("Set an answer right"), {.font = Font::kLarge});
   ui.text(inside.take_top(ui.text_height(inside.width, which, strong), 4), which, strong);
   ui.text(inside.take_top(ui.text_height(inside.width, words, soft), 14), words, soft);
   dialog.draw_answer(inside);
@@ -204,6 +223,11 @@ void draw_correct_dialog(Ui& ui, RunViewState& run, RunViewResult& result) {
         operate::Correct{.trial = line.trial, .value = state.value, .reason = run.reason});
   }
   if (done || cancelled) run.dialog = RunViewState::Dialog::kNone;
+  // Last, for everything above is of the answer that was shown.
+  if (turns_to_earlier && !done && !cancelled) {
+    run.correct = {.line = *earlier};
+    run.reason.clear();
+  }
 }
 
 void draw_doubt_dialog(Ui& ui, const DoubtView& doubt, RunViewResult& result) {

@@ -27,6 +27,7 @@ std::vector<Line> lines_of(std::vector<Drawn::Widget> widgets) {
       {printed_words(dark), tr("Dark or light")},
       {printed_words({Key::kF9}), tr("The participant's screen")},
       {printed_words({Key::kF2}), tr("Leave a dialog")},
+      {printed_words({Key::kF3}), tr("Set an answer right, in a session")},
       {printed_words(leave), tr("Leave the program")}};
   std::set<std::string> known = {"", words({Key::kEscape}), words({Key::kF1}), words(dark),
                                  words(larger)};

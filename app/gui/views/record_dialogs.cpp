@@ -106,7 +106,7 @@ void ask_for_it(const SessionRecord& record, const RecordViewState& state,
 
 void draw_correction(Ui& ui, RecordViewState& state, RecordViewResult& result) {
   RunViewResult asked;
-  draw_correct_dialog(ui, state.correcting, asked);
+  draw_correct_dialog(ui, state.correcting, {}, asked);
   for (const OperatorRequest& request : asked.requests) {
     if (const auto* correct = std::get_if<operate::Correct>(&request)) {
       result.correct = {correct->trial, correct->value, correct->reason};

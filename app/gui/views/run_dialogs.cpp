@@ -148,7 +148,8 @@ float adverse_row(const Ui& ui, float room, std::string_view verb, std::string_v
 
 void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
                      RunViewResult& result) {
-  if (state.dialog == Dialog::kCorrect) return draw_correct_dialog(ui, state, result);
+  if (state.dialog == Dialog::kCorrect)
+    return draw_correct_dialog(ui, state, view.answers, result);
   const DialogWords words = words_of(state.dialog);
   const bool has_reasons = !reasons_of(state.dialog).empty() && !state.writes_reason;
   const float rows = static_cast<float>(reasons_of(state.dialog).size() + 1);

@@ -408,17 +408,24 @@ void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewSta
   }
   ui.line(inside.x, inside.y, inside.right(), inside.y, Colour::kLine);
   constexpr float kLine = 34;
+  const auto correct = [&state](const AnswerLine& answer) {
+    open_dialog(state, RunViewState::Dialog::kCorrect);
+    state.correct = {.line = answer};
+  };
   const bool may_correct = view.step != Step::kFinished && view.step != Step::kFailed &&
                            view.step != Step::kFault && view.step != Step::kBegin;
+  if (may_correct && !view.answers.empty()) {
+    const Chord key{Key::kF3};
+    ui.text(cells[3], printed_words(key),
+            {.font = Font::kSmall, .colour = Colour::kSoft, .align = Align::kRight});
+    if (ui.pressed(key)) correct(view.answers.front());
+  }
   for (const AnswerLine& answer : view.answers) {
     if (inside.height < kLine) break;
     Rect line = inside.take_top(kLine);
     const std::string name = "answer_" + std::to_string(answer.trial);
     const std::string label = tr("{}, trial {}", answer.block, answer.in_block);
-    if (ui.row(name, line, label) && may_correct) {
-      open_dialog(state, RunViewState::Dialog::kCorrect);
-      state.correct = {.line = answer};
-    }
+    if (ui.row(name, line, label) && may_correct) correct(answer);
     line.x += 8;
     line.width -= 16;
     cells = cells_of(line, columns, 10);

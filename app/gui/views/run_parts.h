@@ -21,7 +21,9 @@ void draw_progress_card(Ui& ui, const Rect& place, const SessionView& view);
 void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state);
 void draw_live_panel(Ui& ui, const Rect& place, const SessionView& view,
                      const std::vector<TracePoint>& trace);
-void draw_correct_dialog(Ui& ui, RunViewState& run, RunViewResult& result);
+/// `answers`: those that it can be turned to, the newest first; none turns it to no other.
+void draw_correct_dialog(Ui& ui, RunViewState& run, const std::vector<AnswerLine>& answers,
+                         RunViewResult& result);
 /// Over everything while it waits: the answer is stored or not, by S and F2.
 void draw_doubt_dialog(Ui& ui, const DoubtView& doubt, RunViewResult& result);
 void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,

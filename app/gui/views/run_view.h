@@ -23,13 +23,13 @@ struct CorrectState {
   bool asks_why = false;        ///< The field for the reason takes the keyboard.
 };
 
-/// What the window remembers of a running session: words being typed, nothing that counts.
 /// What was typed of a step on a scale of more than ten steps.
 struct ScaleTyping {
   std::string of;      ///< Which scale it was typed for; another one begins anew.
   std::string digits;  ///< "14"
 };
 
+/// What the window remembers of a running session: words being typed, nothing that counts.
 struct RunViewState {
   enum class Dialog {
     kNone,

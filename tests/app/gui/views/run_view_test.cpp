@@ -120,6 +120,26 @@ TEST_F(RunView, AStepOfARatingIsChosenByItsNumber) {
   EXPECT_TRUE(ui_.drawn().shows("very thick"));
 }
 
+TEST_F(RunView, AnAnswerIsSetRightByKeysAlone) {
+  const SessionView view = comparison();
+  draw(view);
+  ui_.press(Key::kF3);
+  draw(view);
+  draw(view);
+  ASSERT_EQ(state_.dialog, RunViewState::Dialog::kCorrect);
+  EXPECT_EQ(state_.correct.line.trial, 22) << "the newest";
+  ui_.press(Key::kF3);
+  draw(view);
+  draw(view);
+  EXPECT_EQ(state_.correct.line.trial, 21);
+  for (int i = 0; i < 9; ++i) {
+    ui_.press(Key::kF3);
+    draw(view);
+  }
+  draw(view);
+  EXPECT_EQ(state_.correct.line.trial, 22) << "after the oldest comes the newest again";
+}
+
 TEST_F(RunView, AStepOfALongScaleIsTypedAndStoredByEnter) {
   for (const int num_steps : {11, 20, 100}) {
     SessionView view = comparison();
