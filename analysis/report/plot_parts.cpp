@@ -65,6 +65,18 @@ std::string on_two_lines(const std::string& text, std::size_t most_letters) {
   return text.substr(0, end) + '\n' + shortened(text.substr(end + 1), most_letters);
 }
 
+namespace {
+
+/// Lines as one text of gnuplot. Each stands in single quotes, within which nothing is run.
+std::string quoted_lines(const std::string& lines) {
+  const std::size_t end = lines.find('\n');
+  if (end == std::string::npos) return gnuplot_quoted(lines);
+  return gnuplot_quoted(lines.substr(0, end)) + ".\"\\n\"." +
+         gnuplot_quoted(lines.substr(end + 1));
+}
+
+}  // namespace
+
 double grid_height_in(const PanelGrid& grid, std::size_t num_panels, double panel_in) {
   const auto columns = static_cast<std::size_t>(grid.num_columns);
   const std::size_t num_rows = (num_panels + columns - 1) / columns;
@@ -102,7 +114,7 @@ std::string grid_plot(const PanelGrid& grid, const std::vector<Panel>& panels, d
               "\n  set rmargin at screen " + plot_number((left + panel_width) / width_in) +
               "\n  set tmargin at screen " + plot_number(top / height_in) +
               "\n  set bmargin at screen " + plot_number((top - panel_height) / height_in) +
-              "\n  set title " + gnuplot_quoted(on_two_lines(panels[i].title, most_letters)) +
+              "\n  set title " + quoted_lines(on_two_lines(panels[i].title, most_letters)) +
               " font small offset 0,-0.7\n";
     script += panels[i].before;
     script += "  " + panels[i].plot + "\n";

@@ -119,7 +119,7 @@ constexpr double kPanelsWidthIn = 6.6, kPlotWidthIn = 4.6;
 constexpr int kNumPanelColumns = 4;
 
 /// How the names of conditions stand below a plot: each on its line if there is room, else
-/// aslant and at most as long as `kMostNameLetters`.
+/// aslant and cut where they are very long.
 class NamesBelow {
  public:
   NamesBelow(const std::vector<std::string>& names, bool small) : names_(names) {
@@ -129,9 +129,10 @@ class NamesBelow {
             ? (kPanelsWidthIn - grid.left_in - grid.right_in) / kNumPanelColumns - grid.gap_x_in
             : kPlotWidthIn - 1.0;
     const double letter_in = small ? kSmallLetterIn : 1.3 * kSmallLetterIn;
+    const std::size_t most_letters = small ? 16 : 24;
     std::size_t longest = 0;
     for (std::string& name : names_) {
-      name = shortened(name, kMostNameLetters);
+      name = shortened(name, most_letters);
       longest = std::max(longest, num_letters_of(name));
     }
     const double longest_in = static_cast<double>(longest) * letter_in;
@@ -148,7 +149,6 @@ class NamesBelow {
   [[nodiscard]] double extra_in() const noexcept { return extra_in_; }
 
  private:
-  static constexpr std::size_t kMostNameLetters = 16;
   std::vector<std::string> names_;
   bool are_aslant_ = false;
   double extra_in_ = 0.0;

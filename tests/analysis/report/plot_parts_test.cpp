@@ -54,4 +54,18 @@ TEST(PanelTitle, CountsLettersAndNotBytes) {
   EXPECT_EQ(shortened("\u00e4\u00f6\u00fc", 3), "\u00e4\u00f6\u00fc");
 }
 
+TEST(PanelTitle, OfTwoLinesRunsNothingOfWhatSomebodyCalledAGroup) {
+  const PanelGrid grid{.num_columns = 4};
+  const std::string script =
+      grid_plot(grid,
+                {{.title = "group `touch here`, another very long condition",
+                  .before = "",
+                  .plot = "plot x"}},
+                6.6, 2.0);
+  EXPECT_NE(
+      script.find("set title 'group `touch here`,'.\"\\n\".'another very long condition'"),
+      std::string::npos)
+      << script;
+}
+
 }  // namespace jnd::analysis
