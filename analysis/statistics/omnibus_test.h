@@ -25,7 +25,7 @@ struct SphericityTest {
   double w = 1.0;            ///< It is 1 if they do, and approaches 0 as they differ.
   double chi_squared = 0.0;  ///< Box's approximation (1949) of the distribution of ln W.
   double degrees_of_freedom = 0.0;
-  double p_value = 1.0;  ///< With the second-order term, as R's `mauchly.test` has it.
+  double p_value = 1.0;  ///< With the term of second order (Anderson 2003, section 10.7).
 };
 
 /// Whether any of several conditions differs from any other.
