@@ -38,8 +38,6 @@ namespace {
     said_later("trials"),
     said_later("value"),
     said_later("values"),
-    said_later("viscosity"),
-    said_later("stiffness"),
     said_later("density"),
     said_later("method of constant stimuli"),
     said_later("method of limits"),

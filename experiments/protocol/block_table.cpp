@@ -30,22 +30,11 @@ Parameter procedure_parameter() {
 }
 
 Parameter medium_parameter() {
-  Parameter parameter{
-      .key = "medium",
-      .kind = ValueKind::kString,
-      .meaning =
-          "What is felt. `water`: drag that grows with the square of speed, varied by `scale`. "
-          "`viscous`: drag that grows with speed, varied by `viscosity_pa_s`. "
-          "`viscous_stokes`: the same with the constant of a sphere. `viscous_sphere`: the "
-          "drag "
-          "of a sphere of `sphere_radius_m`, for a tool with one point. `water_map`: water "
-          "with "
-          "the drag and lift of the study's `force_map`. `viscous_schiller_naumann`: viscous "
-          "with the fluid's inertia, up to a Reynolds number (100 speed / viscosity, SI units) "
-          "of 800. `viscous_ellipsoid`: viscous about an ellipsoid that turns with the hand. "
-          "`solid`: a flat surface at the height of a fluid's, pressed instead of stroked, "
-          "varied by `stiffness_n_per_m`."};
-  for (const Medium& one : block_media()) parameter.allowed.push_back(one.name);
+  Parameter parameter{.key = "medium", .kind = ValueKind::kString, .meaning = "What is felt."};
+  for (const Medium& one : block_media()) {
+    parameter.allowed.push_back(one.name);
+    parameter.meaning += " `" + one.name + "`: " + one.about;
+  }
   return parameter;
 }
 
@@ -96,7 +85,7 @@ std::vector<Parameter> procedure_parameters() {
       }
     }
   }
-  for (Parameter& detail : medium_details()) of_quantities.push_back(std::move(detail));
+  for (const Parameter& detail : medium_details()) of_quantities.push_back(detail);
   of_quantities.insert(of_quantities.end(), others.begin(), others.end());
   return of_quantities;
 }
