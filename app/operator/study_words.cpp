@@ -10,6 +10,7 @@
 #include "app/language/words.h"
 #include "app/operator/session_words.h"
 #include "experiments/order/block_turns.h"
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/study/media.h"
 #include "experiments/study/stage_walk.h"
 
@@ -17,17 +18,6 @@ namespace jnd::app {
 namespace {
 
 using namespace experiments;
-
-/// Names of procedures as `procedure_words` looks them up: for the catalogue alone, which a
-/// test holds to the names that there are.
-[[maybe_unused]] constexpr const char* kLookedUp[] = {tr_later("Constant stimuli"),
-                                                      tr_later("Limits"),
-                                                      tr_later("Magnitude estimation"),
-                                                      tr_later("Magnitude production"),
-                                                      tr_later("Matching"),
-                                                      tr_later("Quest plus"),
-                                                      tr_later("Rating"),
-                                                      tr_later("Staircase")};
 
 const Stage* block_named(const Study& study, const std::string& name) {
   const Stage* found = nullptr;
@@ -119,7 +109,10 @@ std::string medium_words(const std::string& medium) {
 }
 
 std::string procedure_words(const std::string& procedure) {
-  return tr(name_words(procedure, /*as_title=*/true).c_str());
+  for (const Procedure* known : procedures()) {
+    if (known->name() == procedure) return tr(known->title().c_str());
+  }
+  return name_words(procedure, /*as_title=*/true);
 }
 
 std::string words_of(const MediumSetting& setting) {

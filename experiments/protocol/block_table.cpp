@@ -186,12 +186,7 @@ const ParameterTable& block_table() {
             "One procedure over one varied quantity: the part of a study that gives "
             "data. The keys that name the quantity carry its unit: `scale` for water, "
             "`viscosity_pa_s` for viscous fluids, `stiffness_n_per_m` for solids.",
-        .example = R"json({"kind": "block", "name": "thick_fluids",
-  "procedure": "constant_stimuli", "medium": "viscous",
-  "viscosity_pa_s": [10, 12, 14, 18, 20, 24], "reference_viscosity_pa_s": 16, "repetitions": 5,
-  "instruction": {"en": "First comes the reference, then the test."},
-  "question": {"en": "Was the test thicker than the reference?"},
-  "free_space_between_s": 2, "expected_trial_s": 15})json",
+        .example = procedure_named("constant_stimuli").examples().front(),
         .parameters = stage_parameters("block", std::move(own))};
   }();
   return kTable;
