@@ -52,6 +52,10 @@ int invoke(int argc, char** argv) {
   program.set_version_flag("--version", JND_VERSION);
   program.require_subcommand(0, 1);
   app::Invocation invocation;
+  invocation.examples[&program] = {
+      {"jnd", "opens the window"},
+      {"jnd demo --fast", "runs both studies of the thesis in a few seconds"},
+      {"jnd doctor", "tells what this machine lacks"}};
   try {
     for (const app::Registration add : app::registrations()) add(program, invocation);
     program.parse(argc, argv);

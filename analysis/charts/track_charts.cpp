@@ -4,6 +4,7 @@
 #include "analysis/charts/charts.h"
 #include "analysis/results/number_words.h"
 #include "analysis/words/said.h"
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -52,26 +53,13 @@ void add_rows(FigureTable& table, const AdaptiveRun& run, int first_series) {
   }
 }
 
-std::string title_of(const BlockDesign& block) {
-  if (block.rule == AdaptiveRule::kStaircase) return said("Staircases");
-  if (block.rule == AdaptiveRule::kLimits) return said("Series of the method of limits");
-  return said("Stimuli of QUEST+");
+experiments::RuleWords rule_words_of(const BlockDesign& block) {
+  return experiments::procedure_named(block.procedure).rule_words();
 }
 
 std::string caption_of(const AdaptiveRun& run, const BlockDesign& block) {
-  std::string words = said("Level of every trial. ");
-  if (block.rule == AdaptiveRule::kStaircase) {
-    words += said(
-        "A line is a staircase ({}), circles are its reversals; the horizontal line is the "
-        "mean of the last reversals of all staircases, whose value stands in the title",
-        run.rule);
-  } else if (block.rule == AdaptiveRule::kLimits) {
-    words += said(
-        "A line is a series; the horizontal line is the mean of all transitions, whose value "
-        "stands in the title");
-  } else {
-    words += said("In the title: mean of the posterior at the end");
-  }
+  std::string words =
+      said("Level of every trial. ") + said_with(rule_words_of(block).caption, {run.rule});
   if (block.reference_intensity) words += said(". Dashed: the reference");
   return words + ".";
 }
@@ -111,20 +99,21 @@ ChartSet set_of(const FigureSource& source, const BlockDesign& block,
   const std::string name = file_word(block.block) + "_tracks";
   const RuleEstimate estimate = estimate_of(block);
   const std::string title = source.titles.title_of(block.block);
-  ChartSet set{.section = estimate.section,
-               .heading = title,
-               .panels = PanelFigures{.name = name,
-                                      .title = title_of(block) + ", " + title,
-                                      .caption = caption_of(*runs.front(), block),
-                                      .num_columns = 3,
-                                      .most_panels = 12,
-                                      .panel_in = 1.3},
-               .x = {.title = said("Trial"), .label = "trial"},
-               .y = quantity_chart_axis(block.quantity, "test"),
-               .tables = {{.name = name,
-                           .columns = {"series", "participant", "track", "trial", "level",
-                                       "yes", "reversal", "averaged"}}},
-               .everybody = Chart{.who = kEverybody}};
+  ChartSet set{
+      .section = estimate.section,
+      .heading = title,
+      .panels = PanelFigures{.name = name,
+                             .title = said_of(rule_words_of(block).tracks) + ", " + title,
+                             .caption = caption_of(*runs.front(), block),
+                             .num_columns = 3,
+                             .most_panels = 12,
+                             .panel_in = 1.3},
+      .x = {.title = said("Trial"), .label = "trial"},
+      .y = quantity_chart_axis(block.quantity, "test"),
+      .tables = {{.name = name,
+                  .columns = {"series", "participant", "track", "trial", "level", "yes",
+                              "reversal", "averaged"}}},
+      .everybody = Chart{.who = kEverybody}};
   std::vector<double> levels;
   std::int64_t last_trial = 1;
   int num_series = 0;

@@ -13,18 +13,11 @@ constexpr double kClassWidthMPerS = 0.02;
 constexpr std::size_t kNumClasses = 100;  // Up to 2 m/s; whatever is faster joins the last one.
 constexpr double kMinTicks = 20.0;
 
-/// Drag that needs no more than the hand's motion: no lift, no force map, no surface.
-bool is_drag_alone(core::MediumAmounts amounts) {
-  amounts.quadratic_kg_per_m = amounts.damping_n_s_per_m = amounts.inertial_n = 0.0;
-  return std::ranges::all_of(core::kAmounts,
-                             [&](const auto amount) { return amounts.*amount == 0.0; });
-}
-
 std::optional<core::MediumAmounts> known_amounts(const std::string& medium, double intensity) {
   if (!(intensity >= 0.0) || !std::isfinite(intensity)) return std::nullopt;
   try {
     const core::MediumAmounts amounts = experiments::amounts_of(medium, intensity);
-    if (is_drag_alone(amounts)) return amounts;
+    if (amounts.is_drag_of_motion()) return amounts;
   } catch (const core::Error&) {
     // A medium that is not known to this version.
   }

@@ -5,10 +5,14 @@
 #include "analysis/results/block_words.h"
 #include "analysis/results/threshold_results.h"
 #include "analysis/words/said.h"
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
 namespace {
+
+using experiments::Procedure;
+using experiments::RuleWords;
 
 bool any(const StudyData& data, const std::function<bool(const BlockDesign&)>& holds) {
   return std::ranges::any_of(data.blocks, holds);
@@ -26,9 +30,6 @@ bool has_catch_trials(const StudyData& data, const std::string& block) {
 void add_threshold_methods(
     const StudyData& data, const std::function<std::string(const std::string&)>& cite,
     const std::function<void(const std::string&, const std::string&)>& add) {
-  const auto has = [&](AdaptiveRule rule) {
-    return any(data, [&](const BlockDesign& block) { return block.rule == rule; });
-  };
   if (any(data, &BlockDesign::detects)) {
     std::string text = said(
         "The test was presented alone and “is it felt?” was asked. P(yes) = Φ(ln(x / "
@@ -108,36 +109,17 @@ void add_threshold_methods(
     add(said("Levels of {}", block.block),
         adaptive_design_words(block.written, experiments::quantity_unit(block.quantity)) + ".");
   }
-  if (has(AdaptiveRule::kStaircase)) {
-    add(said("Staircases"),
-        said("The level fell after “yes” and rose after “no” by the rule given with each "
-             "estimate (transformed up-down, {}; weighted, {}). The threshold is the mean of "
-             "the last reversals, an even number of them, in the scale of the steps; "
-             "interleaved staircases are averaged. It estimates the level answered “yes” with "
-             "the probability p at which steps up and down balance. Where there is a "
-             "reference, w = (threshold / reference)^(1 / Φ⁻¹(p)) − 1, which takes the point "
-             "of subjective equality to be at the reference: the same definition of w as that "
-             "of the psychometric function.",
-             cite("Levitt 1971"), cite("Kaernbach 1991")));
-  }
-  if (has(AdaptiveRule::kLimits)) {
-    add(said("Method of limits"),
-        said(
-            "Levels rose or fell until the answer changed; a transition lies half way, in the "
-            "scale of the levels, between the last level before and the first one after ({}). "
-            "Thresholds are means of transitions. Rising less falling series: above 0 people "
-            "stay with their answer (habituation), below 0 they change it early (expectation).",
-            cite("Gescheider 1997")));
-  }
-  if (has(AdaptiveRule::kQuestPlus)) {
-    add(said("QUEST+"),
-        said("Each stimulus was the one whose answer was expected to tell the most ({}). "
-             "Values are means of the posterior after the last answer, of ratios in ln, with "
-             "its central 95 %; the prior is even over a grid in ln, given in the study file. "
-             "Where the posterior reaches an end of a grid (it is at least as high there, seen "
-             "from its highest, as a normal density is at the end of its central 95 %), the "
-             "grid decides about the values: they have no interval, and a caution.",
-             cite("Watson 2017")));
+  std::vector<const Procedure*> by_rule = experiments::procedures();
+  std::ranges::stable_sort(by_rule, {}, &Procedure::rule);
+  for (const Procedure* procedure : by_rule) {
+    const RuleWords words = procedure->rule_words();
+    const bool is_used = any(data, [&](const BlockDesign& block) {
+      return block.is_adaptive() && block.procedure == procedure->name();
+    });
+    if (!is_used || *words.method == '\0') continue;
+    std::vector<std::string> cited;
+    for (const char* source : words.cited) cited.push_back(cite(source));
+    add(said(words.heading), said_with(words.method, cited));
   }
   if (any(data, &BlockDesign::is_adaptive) && any(data, &BlockDesign::compares)) {
     add(said("Raw answers of adaptive blocks"),

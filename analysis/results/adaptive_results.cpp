@@ -6,6 +6,7 @@
 #include "analysis/results/threshold_results.h"
 #include "analysis/words/said.h"
 #include "core/psychometric_function.h"
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -61,6 +62,7 @@ class AdaptiveWriter {
   void write_staircase();
   void write_limits();
   void write_quest_plus();
+  void write_other();
 
  private:
   /// Runs with something to say; the others are named.
@@ -279,6 +281,20 @@ void AdaptiveWriter::write_quest_plus() {
   }
 }
 
+void AdaptiveWriter::write_other() {
+  const std::string name = block_.procedure + "_threshold";
+  OwnNumbers thresholds;
+  for (const AdaptiveRun* run : runs()) {
+    tell(*run, name, run->threshold,
+         run->threshold ? "" : said("the answers come to no level"));
+    if (run->threshold) thresholds[run->participant] = *run->threshold;
+  }
+  add_level(name,
+            said("level that the answers come to: {}; geometric mean over participants",
+                 said_of(experiments::procedure_named(block_.procedure).words())),
+            thresholds);
+}
+
 void AdaptiveWriter::caution_group(std::size_t first, int num_at_edge, int num_runs) {
   const std::string other = block_.compares() ? "weber_fraction_median_person" : "threshold";
   for (std::size_t i = first; i < section_.estimates.size(); ++i) {
@@ -298,6 +314,7 @@ ResultsSection adaptive_results(const StudyData& data, const BlockDesign& block)
   if (block.rule == AdaptiveRule::kStaircase) writer.write_staircase();
   if (block.rule == AdaptiveRule::kLimits) writer.write_limits();
   if (block.rule == AdaptiveRule::kQuestPlus) writer.write_quest_plus();
+  if (block.rule == AdaptiveRule::kOther) writer.write_other();
   return std::move(writer).finish();
 }
 

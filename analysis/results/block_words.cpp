@@ -61,7 +61,11 @@ std::string adaptive_words(const Block& block) {
     return said("{} series over {}", block.settings.integer("num_series"),
                 counted_words(num_levels, "level"));
   }
-  return said("QUEST+ over {}", counted_words(num_levels, "level"));
+  if (block.procedure == "quest_plus") {
+    return said("QUEST+ over {}", counted_words(num_levels, "level"));
+  }
+  return said("{} over {}", said_of(experiments::procedure_named(block.procedure).words()),
+              counted_words(num_levels, "level"));
 }
 
 std::vector<std::string> adaptive_level_words(const Block& block, const std::string& unit) {

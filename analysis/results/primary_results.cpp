@@ -24,11 +24,9 @@ std::vector<std::string> primary_names(const BlockDesign& block) {
   if (block.rule == AdaptiveRule::kLimits && block.compares()) {
     return {".limits_threshold", ".weber_fraction_median_person"};
   }
-  if (block.rule == AdaptiveRule::kLimits) return {".limits_threshold"};
   // Of any procedure the same, as the tests between blocks have it.
   if (block.compares()) return {".weber_fraction_median_person"};
-  if (block.rule == AdaptiveRule::kQuestPlus) return {".quest_plus_threshold"};
-  if (block.rule == AdaptiveRule::kStaircase) return {".staircase_threshold"};
+  if (block.is_adaptive()) return {"." + block.procedure + "_threshold"};
   if (block.detects()) return {".threshold"};
   if (block.tells_apart()) return {".weber_fraction"};
   return {};

@@ -1,5 +1,6 @@
 #include "analysis/words/said.h"
 
+#include <fmt/args.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,14 +39,7 @@ namespace {
     said_later("trials"),
     said_later("value"),
     said_later("values"),
-    said_later("viscosity"),
-    said_later("stiffness"),
     said_later("density"),
-    said_later("method of constant stimuli"),
-    said_later("method of limits"),
-    said_later("magnitude estimation"),
-    said_later("magnitude production"),
-    said_later("rating on a scale"),
     said_later("Weber fraction"),
     said_later("Weber fraction, median person"),
     said_later("PSE"),
@@ -78,6 +72,12 @@ std::string with_decimal_sign(std::string digits) {
 }
 
 const char* between_numbers() { return spoken().decimal_comma ? "; " : ", "; }
+
+std::string said_with(const char* english, const std::vector<std::string>& words) {
+  fmt::dynamic_format_arg_store<fmt::format_context> values;
+  for (const std::string& word : words) values.push_back(word);
+  return said_details::filled(english, values);
+}
 
 std::string said_details::filled(fmt::string_view english, fmt::format_args values) {
   const char* const words = said(english.data());

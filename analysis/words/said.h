@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <string>
+#include <vector>
 
 namespace jnd::analysis {
 
@@ -30,6 +31,8 @@ void speak(const SpokenLanguage& language);
 [[nodiscard]] const char* said(const char* english);
 /// Of words that are put together or come from a lower layer, where the catalogue has them.
 [[nodiscard]] std::string said_of(const std::string& english);
+/// A sentence of a lower layer with the words for its holes.
+[[nodiscard]] std::string said_with(const char* english, const std::vector<std::string>& words);
 /// Words of a table, which `said` gets when they are shown.
 [[nodiscard]] constexpr const char* said_later(const char* english) noexcept { return english; }
 

@@ -57,10 +57,15 @@ int run_adverse_event(const AdverseEventOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_adverse_event() { return {HelpGroup::kKeeping, 70}; }
+
 void add_adverse_event(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "adverse-event",
       "Reports what must not happen to a participant and did, or lists what was reported");
+  invocation.examples[command] = {
+      {"jnd adverse-event my_study.study --session 1 --text \"a pinched finger\"",
+       "is kept for good; without --text it lists them"}};
   const auto options = std::make_shared<AdverseEventOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()

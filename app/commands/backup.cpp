@@ -88,9 +88,13 @@ int run_restore(const BackupOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_backup() { return {HelpGroup::kKeeping, 20}; }
+
 void add_backup(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "backup", "Copies a study, also while a session runs; again, copies what is new");
+  invocation.examples[command] = {{"jnd backup my_study.study --to /media/disk/my_study",
+                                   "copies what is new and reads it back"}};
   const auto options = std::make_shared<BackupOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()
@@ -104,9 +108,13 @@ void add_backup(CLI::App& program, Invocation& invocation) {
       [&invocation, options] { invocation.run = [options] { return run_backup(*options); }; });
 }
 
+HelpPlace place_of_restore() { return {HelpGroup::kKeeping, 30}; }
+
 void add_restore(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "restore", "Makes a study of a backup, where the study itself is lost");
+  invocation.examples[command] = {{"jnd restore /media/disk/my_study --to my_study.study",
+                                   "a study again, made of its backup"}};
   const auto options = std::make_shared<BackupOptions>();
   command->add_option("DIR", options->folder, "Folder of the backup")
       ->required()

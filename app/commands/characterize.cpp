@@ -227,10 +227,15 @@ int run_characterize(const CharacterizeOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_characterize() { return {HelpGroup::kApparatus, 80}; }
+
 void add_characterize(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "characterize",
       "Measures friction, torque sensors and free-space viscosity of a device with joints");
+  invocation.examples[command] = {
+      {"jnd characterize --device exoskeleton",
+       "break-away forces, errors of the sensors, viscosity in free space"}};
   const auto options = std::make_shared<CharacterizeOptions>();
   command->add_option("--device", options->device, "exoskeleton, or network:HOST:PORT")
       ->capture_default_str();

@@ -263,11 +263,15 @@ int run_commission(const CommissionOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_commission() { return {HelpGroup::kApparatus, 50}; }
+
 void add_commission(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<CommissionOptions>();
   CLI::App* command = program.add_subcommand(
       "commission",
       "Measures a device before a hand is in it, and writes its profile and a report of it");
+  invocation.examples[command] = {{"jnd commission twin:seed=7",
+                                   "measures a simulated device with the faults of real ones"}};
   command->add_option("device", options->device, "As after --device")->required();
   command->add_flag("--daily", options->daily,
                     "Check that the device is still as its profile says, in about two minutes, "

@@ -369,9 +369,13 @@ int run_compare(const CompareOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_compare() { return {HelpGroup::kOtherData, 20}; }
+
 void add_compare(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<CompareOptions>();
   CLI::App& compare = *program.add_subcommand("compare", "Compare two columns of a table");
+  invocation.examples[&compare] = {
+      {"jnd compare --csv pairs.csv --test paired", "columns a and b, a row for each person"}};
   compare
       .add_option("--csv", options->csv,
                   "table with the columns a,b, or in long format, one value a row (--value)")

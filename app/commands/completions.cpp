@@ -40,8 +40,9 @@ CommandWords offered_words() {
   return words;
 }
 
-int print_completions(const CLI::App& program, const std::string& shell) {
-  const ManualCommand root = command_tree(program);
+int print_completions(const CLI::App& program, const CommandExamples& examples,
+                      const std::string& shell) {
+  const ManualCommand root = command_tree(program, examples);
   const CommandWords words = offered_words();
   fmt::print("{}", shell == "bash"  ? bash_completion(root, words)
                    : shell == "zsh" ? zsh_completion(root, words)
@@ -51,15 +52,21 @@ int print_completions(const CLI::App& program, const std::string& shell) {
 
 }  // namespace
 
+HelpPlace place_of_completions() { return {HelpGroup::kProgram, 20}; }
+
 void add_completions(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "completions", "Prints a script by which a shell completes commands and options");
+  invocation.examples[command] = {
+      {"source <(jnd completions bash)", "completes commands and options in this shell"}};
   const auto shell = std::make_shared<std::string>();
   command->add_option("SHELL", *shell, "bash, zsh or fish")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
   command->callback([&program, &invocation, shell] {
-    invocation.run = [&program, shell] { return print_completions(program, *shell); };
+    invocation.run = [&program, &invocation, shell] {
+      return print_completions(program, invocation.examples, *shell);
+    };
   });
 }
 

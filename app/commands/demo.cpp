@@ -155,10 +155,17 @@ int run_demo(const DemoOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_demo() { return {HelpGroup::kFirstLook, 10}; }
+
 void add_demo(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "demo",
       "Both studies of the thesis with simulated participants, beside the published values");
+  invocation.examples[command] = {
+      {"jnd demo --fast --out first_look",
+       "two studies of 13 simulated participants each, in the folder first_look"},
+      {"jnd demo --device exoskeleton",
+       "the same on the whole simulated robot; some twenty minutes"}};
   const auto options = std::make_shared<DemoOptions>();
   command->add_flag("--fast", options->fast,
                     "Same sessions and answers; recordings reduced to summaries of strokes");

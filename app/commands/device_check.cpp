@@ -154,11 +154,15 @@ int run_device_check(const DeviceCheckOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_device_check() { return {HelpGroup::kApparatus, 40}; }
+
 void add_device_check(CLI::App& program, Invocation& invocation) {
   auto options = std::make_shared<DeviceCheckOptions>();
   CLI::App* command = program.add_subcommand(
       "device-check",
       "Tries a device of yours, across the network or by a plug-in, rule by rule");
+  invocation.examples[command] = {
+      {"jnd device-check plugin:./my_driver.so", "does a driver of yours keep the rules?"}};
   command
       ->add_option("device", options->device,
                    "As after --device: network:HOST:PORT,key=NAME or plugin:PATH")

@@ -40,6 +40,8 @@ int run_device_key(const std::string& name, bool json) {
 
 }  // namespace
 
+HelpPlace place_of_device_key() { return {HelpGroup::kApparatus, 110}; }
+
 void add_device_key(CLI::App& program, Invocation& invocation) {
   struct Options {
     std::string name;
@@ -48,6 +50,8 @@ void add_device_key(CLI::App& program, Invocation& invocation) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
       "device-key", "Draws a key that a program and a device on another machine share");
+  invocation.examples[command] = {
+      {"jnd device-key laboratory", "draws the key that both machines get a copy of"}};
   command->add_option("name", options->name, R"(Of the key: letters, digits, "-" and "_")")
       ->required();
   command->add_flag("--json", options->json, "Print one JSON document");

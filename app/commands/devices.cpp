@@ -157,10 +157,13 @@ int run_devices(const DevicesOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_devices() { return {HelpGroup::kApparatus, 30}; }
+
 void add_devices(CLI::App& program, Invocation& invocation) {
   auto options = std::make_shared<DevicesOptions>();
   CLI::App* command = program.add_subcommand(
       "devices", "The devices that can be used here, with the pedals and ports beside them");
+  invocation.examples[command] = {{"jnd devices", "what can be given to --device"}};
   command->add_option("--device", options->device,
                       "plugin:PATH: what its driver says of it, without opening it");
   command->add_flag("--json", options->json, "Print one JSON document");

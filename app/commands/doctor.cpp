@@ -34,9 +34,16 @@ int run_doctor(bool as_json) {
 
 }  // namespace
 
+HelpPlace place_of_doctor() { return {HelpGroup::kApparatus, 60}; }
+
 void add_doctor(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("doctor", "What this machine lacks, and what mends it");
+  invocation.examples[command] = {
+      {"jnd doctor", "tells what is lacking, and changes nothing"},
+      {"sudo jnd doctor --fix",
+       "makes the group jnd, joins whoever called sudo to it and gives it its rights"},
+      {"jnd doctor --fix --dry-run", "prints the commands that it would run"}};
   const auto options = std::make_shared<DoctorFixOptions>();
   const auto fixes = std::make_shared<bool>(false);
   CLI::Option* fix = command->add_flag(

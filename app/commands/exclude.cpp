@@ -74,9 +74,14 @@ int run_exclude(const ExcludeOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_exclude() { return {HelpGroup::kKeeping, 40}; }
+
 void add_exclude(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "exclude", "Leaves trials out of results, with a reason; nothing is deleted");
+  invocation.examples[command] = {
+      {"jnd exclude my_study.study --participant P01 --trial 3 4 --reason \"phone rang\"",
+       "two trials are out of the results, not of the data"}};
   const auto options = std::make_shared<ExcludeOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()

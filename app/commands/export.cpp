@@ -74,9 +74,14 @@ int run_export(ExportOptions options) {
 
 }  // namespace
 
+HelpPlace place_of_export() { return {HelpGroup::kResults, 30}; }
+
 void add_export(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("export", "A study as a data set for other programs");
+  invocation.examples[command] = {
+      {"jnd export csv my_study.study --out my_tables", "tidy tables with a codebook"},
+      {"jnd export hdf5 my_study.study --out my_samples", "every sample of the loop"}};
   const auto options = std::make_shared<ExportOptions>();
   command
       ->add_option("FORMAT", options->format,

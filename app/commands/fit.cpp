@@ -211,9 +211,13 @@ int fit_between(const FitOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_fit() { return {HelpGroup::kOtherData, 10}; }
+
 void add_fit(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<FitOptions>();
   CLI::App& fit = *program.add_subcommand("fit", "Fit a curve to a table of answers");
+  invocation.examples[&fit] = {{"jnd fit weber --csv answers.csv --reference 10",
+                                "the Weber fraction of a table of answers"}};
   fit.require_subcommand(1);
 
   add_fit_psychometric(fit, invocation);
@@ -223,6 +227,10 @@ void add_fit(CLI::App& program, Invocation& invocation) {
   add_fit_detection(fit, invocation);
 
   CLI::App& power = *fit.add_subcommand("power", "Power law from magnitudes");
+  invocation.examples[&power] = {
+      {"jnd fit power --csv magnitudes.csv", "columns intensity and magnitude"},
+      {"jnd fit power --csv magnitudes.csv --participant participant",
+       "the law of a group of people, and everybody's exponent"}};
   add_table_options(power, *options, "intensity,magnitude");
   power.add_option("--method", options->power_method, "nonlinear, or through the logarithms")
       ->check(CLI::IsMember({"nls", "loglog"}))
@@ -245,6 +253,9 @@ void add_fit(CLI::App& program, Invocation& invocation) {
   });
 
   CLI::App& between = *fit.add_subcommand("between", "Power law through two power laws");
+  invocation.examples[&between] = {
+      {"jnd fit between --k1 0.6663 --a1 0.6386 --k2 0.3761 --a2 1.206 --intensities 0.5,1,2",
+       "the power law between an estimation and a production"}};
   between.add_option("--k1", options->k1, "factor of the first")->required();
   between.add_option("--a1", options->a1, "exponent of the first")->required();
   between.add_option("--k2", options->k2, "factor of the second")->required();

@@ -278,6 +278,9 @@ void add_fit_detection(CLI::App& fit, Invocation& invocation) {
   CLI::App& command = *fit.add_subcommand("detection",
                                           "d', criterion and A' of yes and no, with catch "
                                           "trials at intensity 0; and the threshold");
+  invocation.examples[&command] = {
+      {"jnd fit detection --csv answers.csv --intensity level --yes said_yes",
+       "catch trials are those at intensity 0"}};
   add_answer_options(command, *detection);
   add_figure_option(command, detection->figure);
   command.add_flag("--json", detection->json, "print one JSON document");
@@ -298,6 +301,9 @@ void add_fit_detection(CLI::App& fit, Invocation& invocation) {
   CLI::App& pairs = *fit.add_subcommand(
       "same-different",
       R"(Weber fraction and criterion of "same" and "different", a yes being "different")");
+  invocation.examples[&pairs] = {
+      {"jnd fit same-different --csv answers.csv --yes different --reference 10",
+       "every pair has the stimulus 10"}};
   add_answer_options(pairs, *same);
   pairs.add_option("--reference", same->reference, "the other stimulus of every pair, > 0")
       ->required();

@@ -446,6 +446,13 @@ void add_fit_glmm(CLI::App& fit, Invocation& invocation) {
       "glmm",
       "Generalised linear mixed model of yes and no: P(yes) = guess + (1 - guess - lapse) "
       "F(eta), eta being the fixed effects plus random effects, normal between groups");
+  invocation.examples[&command] = {
+      {"jnd fit glmm --csv trials.csv --yes answer --fixed \"u * condition\" --random \"1 + u "
+       "| participant\" --stimulus u",
+       "a mixed model by formula"},
+      {"jnd fit glmm --csv trials.csv --yes answer --fixed u --random \"1 + u || participant\" "
+       "--group-by block",
+       "the linear model of fit hierarchical, a fit for each block"}};
   add_answer_columns(command, *options);
   command
       .add_option("--group-by", options->group_by,

@@ -309,6 +309,8 @@ void add_fit_group(CLI::App& fit, Invocation& invocation) {
   const auto options = std::make_shared<FitGroupOptions>();
   CLI::App& group = *fit.add_subcommand(
       "hierarchical", "Weber fraction of the median person from everybody's yes/no answers");
+  invocation.examples[&group] = {{"jnd fit hierarchical --csv everybody.csv --reference 10",
+                                  "the median person, from everybody's answers"}};
   group
       .add_option("--csv", options->csv,
                   "table with the columns participant,intensity,num_yes,num_trials and, where "
@@ -361,6 +363,8 @@ void add_fit_group(CLI::App& fit, Invocation& invocation) {
                                           "Response bias, interval order, drift and learning "
                                           "(exploratory); fit glmm --fixed \"u * t "
                                           "+ o\" is the same of people who differ");
+  invocation.examples[&effects] = {{"jnd fit effects --csv answers.csv --reference 10",
+                                    "whether people answered otherwise later than at first"}};
   effects
       .add_option("--csv", options->csv,
                   "table with the columns intensity,num_yes,num_trials and, where there are, "

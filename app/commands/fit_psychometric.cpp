@@ -165,6 +165,9 @@ void add_fit_psychometric(CLI::App& fit, Invocation& invocation) {
   const auto options = std::make_shared<FitPsychometricOptions>();
   CLI::App& command =
       *fit.add_subcommand("psychometric", "Psychometric functions from anybody's answers");
+  invocation.examples[&command] = {
+      {"jnd fit psychometric --csv trials.csv --intensity level --yes correct --task mafc:2",
+       "the curve of a forced choice between two"}};
   add_answer_options(command, *options);
   std::vector<std::string> families;
   for (const analysis::CurveFamilyTraits& one : analysis::curve_families()) {

@@ -357,6 +357,9 @@ int fit_weber(const FitWeberOptions& options) {
 void add_fit_weber(CLI::App& fit, Invocation& invocation) {
   const auto options = std::make_shared<FitWeberOptions>();
   CLI::App& weber = *fit.add_subcommand("weber", "Weber fraction from yes/no answers");
+  invocation.examples[&weber] = {
+      {"jnd fit weber --csv answers.csv --reference 10 --group-by participant",
+       "one fit for each participant"}};
   add_table_options(weber, *options, "intensity,num_yes,num_trials");
   weber.add_option("--reference", options->reference, "reference intensity, > 0")->required();
   weber.add_option("--method", options->method, "maximum likelihood or least squares")

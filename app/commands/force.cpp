@@ -227,10 +227,14 @@ int run_force(const ForceOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_force() { return {HelpGroup::kApparatus, 10}; }
+
 void add_force(CLI::App& program, Invocation& invocation) {
   auto options = std::make_shared<ForceOptions>();
   CLI::App* command =
       program.add_subcommand("force", "The force of a law on a moving hand, before any limit");
+  invocation.examples[command] = {{"jnd force water --velocity-m-per-s 1,0,0",
+                                   "the force of water on a hand at 1 m/s, point by point"}};
   command
       ->add_option("law", options->law,
                    "free, water, map or lift (of a force map), viscous, viscous-stokes, "

@@ -70,9 +70,13 @@ int run_look(const LookOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_look() { return {HelpGroup::kRunning, 40}; }
+
 void add_look(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "look", "Whether a study that plans looks goes on or stops, and nothing else");
+  invocation.examples[command] = {
+      {"jnd look my_study.study", "says go on or stop, and nothing else"}};
   const auto options = std::make_shared<LookOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()

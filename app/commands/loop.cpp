@@ -180,10 +180,13 @@ int run_loop(const LoopOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_loop() { return {HelpGroup::kApparatus, 20}; }
+
 void add_loop(CLI::App& program, Invocation& invocation) {
   auto options = std::make_shared<LoopOptions>();
   CLI::App* command =
       program.add_subcommand("loop", "Runs the haptic loop and tells how punctual it is");
+  invocation.examples[command] = {{"jnd loop --seconds 10", "how punctual this machine is"}};
   command->add_option("--rate-hz", options->rate_hz, "Ticks a second (default 1000)");
   command->add_option("--seconds", options->seconds, "How long (default 5)");
   command->add_option("--device", options->device, "As `jnd devices` lists them");

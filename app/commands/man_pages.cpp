@@ -12,8 +12,9 @@
 namespace jnd::app {
 namespace {
 
-int write_man_pages(const CLI::App& program, const std::filesystem::path& folder) {
-  const ManualCommand root = command_tree(program);
+int write_man_pages(const CLI::App& program, const CommandExamples& examples,
+                    const std::filesystem::path& folder) {
+  const ManualCommand root = command_tree(program, examples);
   std::filesystem::create_directories(folder);
   for (const ManualCommand* command : all_commands(root)) {
     const std::filesystem::path path = folder / manual_file_name(*command);
@@ -31,6 +32,8 @@ int write_man_pages(const CLI::App& program, const std::filesystem::path& folder
 
 }  // namespace
 
+HelpPlace place_of_man_pages() { return {HelpGroup::kProgram, 30}; }
+
 /// For whoever makes a package: `--help` does not list it.
 void add_man_pages(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
@@ -38,7 +41,9 @@ void add_man_pages(CLI::App& program, Invocation& invocation) {
   const auto folder = std::make_shared<std::string>();
   command->add_option("DIR", *folder, "Folder to write to, made if absent")->required();
   command->callback([&program, &invocation, folder] {
-    invocation.run = [&program, folder] { return write_man_pages(program, *folder); };
+    invocation.run = [&program, &invocation, folder] {
+      return write_man_pages(program, invocation.examples, *folder);
+    };
   });
 }
 

@@ -77,9 +77,15 @@ int run_manual(const ManualOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_manual() { return {HelpGroup::kProgram, 10}; }
+
 void add_manual(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("manual", "Where a page of the manual is, and opens it");
+  invocation.examples[command] = {
+      {"jnd manual run_a_session --open",
+       "opens the page about sessions, in the browser where the site is there"},
+      {"jnd manual --list", "the names of all pages"}};
   const auto options = std::make_shared<ManualOptions>();
   command->add_option(
       "PAGE", options->page,

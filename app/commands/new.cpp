@@ -111,8 +111,12 @@ int run_new(const NewOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_new() { return {HelpGroup::kWriting, 30}; }
+
 void add_new(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand("new", "Write a commented starter study");
+  invocation.examples[command] = {{"jnd new my_study --from viscosity_staircase",
+                                   "writes my_study.json, which begins as the shipped study"}};
   const auto options = std::make_shared<NewOptions>();
   command
       ->add_option("NAME", options->name,

@@ -474,9 +474,13 @@ int run_plan(const PlanOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_plan() { return {HelpGroup::kWriting, 40}; }
+
 void add_plan(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "plan", "Orders, balance, duration and range of a study before anyone comes");
+  invocation.examples[command] = {{"jnd plan my_study.json --participants 24",
+                                   "orders, balance and length for 24 participants"}};
   const auto options = std::make_shared<PlanOptions>();
   options->device = std::string(device::devices().front().name);
   command->add_option("FILE", options->file, "Study file, or the name of a shipped study")

@@ -101,9 +101,13 @@ int run_power(const PowerOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_power() { return {HelpGroup::kWriting, 50}; }
+
 void add_power(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "power", "Power, precision and duration of a study by number of participants, simulated");
+  invocation.examples[command] = {{"jnd power my_study.json --participants 6,8..40 --runs 1000",
+                                   "how many participants it takes"}};
   const auto options = std::make_shared<PowerOptions>();
   command->add_option("FILE", options->file, "Study file, or the name of a shipped study")
       ->required();

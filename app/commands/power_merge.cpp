@@ -26,9 +26,13 @@ int run_power_merge(const PowerMergeOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_power_merge() { return {HelpGroup::kWriting, 60}; }
+
 void add_power_merge(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "power-merge", "The result of `jnd power` from the shards of several machines");
+  invocation.examples[command] = {{"jnd power-merge shard-*.json --out my_power",
+                                   "joins what several machines have computed"}};
   const auto options = std::make_shared<PowerMergeOptions>();
   command->add_option("FILES", options->files, "Every shard-I-of-N.json")->required();
   command->add_option("--out", options->out, "New folder for power.json and the figure");

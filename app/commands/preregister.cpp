@@ -109,9 +109,14 @@ int run_preregister(const PreregisterOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_preregister() { return {HelpGroup::kWriting, 70}; }
+
 void add_preregister(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "preregister", "Writes what is planned before anybody takes part, to hold the study to");
+  invocation.examples[command] = {
+      {"jnd preregister my_study.json --participants 24 --study my_study.study",
+       "writes the plan and keeps it with the data"}};
   const auto options = std::make_shared<PreregisterOptions>();
   command->add_option("FILE", options->file, "Study file, or the name of a shipped study")
       ->required();

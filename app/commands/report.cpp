@@ -135,11 +135,15 @@ int run_report(const ReportOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_report() { return {HelpGroup::kResults, 20}; }
+
 void add_report(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "report",
       "Everything a study shows, as HTML and PDF with figures, for a paper; or what was "
       "measured of a device");
+  invocation.examples[command] = {
+      {"jnd report my_study.study --out my_report", "what a paper needs, with every figure"}};
   const auto options = std::make_shared<ReportOptions>();
   CLI::Option* const folder =
       command->add_option("DIR", options->folder, "Study folder, NAME.study")

@@ -122,9 +122,13 @@ int run_results(ResultsOptions options) {
 
 }  // namespace
 
+HelpPlace place_of_results() { return {HelpGroup::kResults, 10}; }
+
 void add_results(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "results", "Every fit and comparison that a study's design calls for");
+  invocation.examples[command] = {
+      {"jnd results my_study.study --json", "every fit and comparison as one JSON document"}};
   const auto options = std::make_shared<ResultsOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()

@@ -455,8 +455,15 @@ void add_headless_options(CLI::App& command, RunOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_run() { return {HelpGroup::kRunning, 10}; }
+
 void add_run(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand("run", "Run a session");
+  invocation.examples[command] = {
+      {"jnd run my_study.json --study my_study.study --participant P01",
+       "opens the window at the preparation of this session"},
+      {"jnd run short_tour --study tour.study --participant P01 --headless",
+       "one session without a window, the participant simulated"}};
   const auto options = std::make_shared<RunOptions>();
   command->add_option("FILE", options->file, "Study file, or the name of a shipped study")
       ->required();
@@ -492,9 +499,13 @@ void add_run(CLI::App& program, Invocation& invocation) {
       [&invocation, options] { invocation.run = [options] { return run_run(*options); }; });
 }
 
+HelpPlace place_of_resume() { return {HelpGroup::kRunning, 30}; }
+
 void add_resume(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("resume", "Go on with a session that was interrupted");
+  invocation.examples[command] = {
+      {"jnd resume my_study.study", "goes on with the trial that was interrupted"}};
   const auto options = std::make_shared<RunOptions>();
   options->laboratory.clear();
   options->wait_s = 60.0;

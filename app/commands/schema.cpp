@@ -10,9 +10,13 @@
 
 namespace jnd::app {
 
+HelpPlace place_of_schema() { return {HelpGroup::kWriting, 20}; }
+
 void add_schema(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "schema", "Print the JSON Schema (draft 7) of study files, or of device profiles");
+  invocation.examples[command] = {
+      {"jnd schema --markdown", "every key of a study file, to read"}};
   const auto json = std::make_shared<bool>(false);
   const auto markdown = std::make_shared<bool>(false);
   const auto profile = std::make_shared<bool>(false);

@@ -107,9 +107,14 @@ int run_simulate(const SimulateOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_simulate() { return {HelpGroup::kRunning, 20}; }
+
 void add_simulate(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("simulate", "Whole sessions with simulated participants");
+  invocation.examples[command] = {
+      {"jnd simulate my_study.json --participants 8 --study my_study.study",
+       "eight whole sessions, faster than real time"}};
   const auto options = std::make_shared<SimulateOptions>();
   command->add_option("FILE", options->file, "Study file, or the name of a shipped study")
       ->required();

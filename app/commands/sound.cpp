@@ -208,11 +208,17 @@ int run_sound(const SoundOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_sound() { return {HelpGroup::kApparatus, 120}; }
+
 void add_sound(CLI::App& program, Invocation& invocation) {
   const auto options = std::make_shared<SoundOptions>();
   CLI::App* command = program.add_subcommand(
       "sound",
       "Lists outputs of sound, plays masking noise and cues, and keeps how loud they are");
+  invocation.examples[command] = {
+      {"jnd sound", "outputs of this machine, and which are calibrated"},
+      {"jnd sound --play noise --level-dbfs -50 --seconds 60",
+       "a minute of pink noise for the meter, and how many gaps it had"}};
   CLI::Option* play =
       command
           ->add_option("--play", options->play,

@@ -101,9 +101,14 @@ int run_stability(const StabilityOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_stability() { return {HelpGroup::kApparatus, 70}; }
+
 void add_stability(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "stability", "Up to which viscosity and stiffness a simulated device is stable");
+  invocation.examples[command] = {
+      {"jnd stability --device exoskeleton",
+       "the thickest fluid and the stiffest plane that stay stable"}};
   const auto options = std::make_shared<StabilityOptions>();
   command->add_option("--device", options->device, "exoskeleton")->capture_default_str();
   command->add_option("--rate-hz", options->rates_hz, "Rates of the loop, R,...")

@@ -24,9 +24,14 @@ int run_unblind(const UnblindOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_unblind() { return {HelpGroup::kKeeping, 50}; }
+
 void add_unblind(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "unblind", "Lets the levels of a double-blind study be seen, and leaves a record");
+  invocation.examples[command] = {
+      {"jnd unblind my_study.study --reason \"data are complete\"",
+       "the levels of a double-blind study can be seen from now on"}};
   const auto options = std::make_shared<UnblindOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()

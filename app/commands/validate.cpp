@@ -122,9 +122,15 @@ std::string error_json(const core::Error& error) {
   return json_text(nlohmann::ordered_json{{"error", error.what()}});
 }
 
+HelpPlace place_of_validate() { return {HelpGroup::kWriting, 10}; }
+
 void add_validate(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "validate", "Tell every problem of study files and device profiles");
+  invocation.examples[command] = {
+      {"jnd validate my_study.json", "every problem at its line, and levels to look at again"},
+      {"jnd validate my_study.json --device exoskeleton",
+       "also every stimulus that the device cannot render"}};
   const auto options = std::make_shared<ValidateOptions>();
   command
       ->add_option("FILE", options->files,

@@ -73,9 +73,13 @@ int run_verify(const VerifyOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_verify() { return {HelpGroup::kKeeping, 10}; }
+
 void add_verify(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "verify", "Compares what a study should hold with what it does hold");
+  invocation.examples[command] = {
+      {"jnd verify my_study.study", "proves that every answer and sample is there"}};
   const auto options = std::make_shared<VerifyOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()

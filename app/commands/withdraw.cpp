@@ -115,9 +115,13 @@ int run_withdraw(const WithdrawOptions& options) {
 
 }  // namespace
 
+HelpPlace place_of_withdraw() { return {HelpGroup::kKeeping, 60}; }
+
 void add_withdraw(CLI::App& program, Invocation& invocation) {
   CLI::App* command = program.add_subcommand(
       "withdraw", "Deletes a participant for good, also from known backups, and names exports");
+  invocation.examples[command] = {{"jnd withdraw my_study.study --participant P01",
+                                   "deletes a person for good, in known backups too"}};
   const auto options = std::make_shared<WithdrawOptions>();
   command->add_option("DIR", options->folder, "Study folder, NAME.study")
       ->required()

@@ -3,7 +3,7 @@
 # dates: it changes when words do.
 set -eu
 cd "$(dirname "$0")/../.."
-find analysis app core device -name '*.h' -o -name '*.cpp' | LC_ALL=C sort |
+find analysis app core device experiments -name '*.h' -o -name '*.cpp' | LC_ALL=C sort |
   xgettext --files-from=- --language=C++ --from-code=UTF-8 --output=- --add-location=file --width=96 \
     --keyword --keyword=tr:1 --keyword=trn:1,2 --keyword=tr_later:1 --keyword=for_people:1 --keyword=said:1 --keyword=said_later:1 --add-comments=Translators: \
     --package-name=jnd --copyright-holder='the authors of jnd' --msgid-bugs-address=CONTRIBUTING.md |

@@ -111,7 +111,8 @@ ManualOption told_of(const CLI::Option& option) {
   return told;
 }
 
-ManualCommand told_of(const CLI::App& app, const std::string& name) {
+ManualCommand told_of(const CLI::App& app, const std::string& name,
+                      const CommandExamples& examples) {
   ManualCommand told{.name = name, .description = app.get_description()};
   for (const bool positional : {true, false}) {
     for (const CLI::Option* option : app.get_options()) {
@@ -121,8 +122,9 @@ ManualCommand told_of(const CLI::App& app, const std::string& name) {
   }
   for (const CLI::App* command : app.get_subcommands({})) {
     if (command->get_group().empty()) continue;
-    told.commands.push_back(told_of(*command, name + " " + command->get_name()));
+    told.commands.push_back(told_of(*command, name + " " + command->get_name(), examples));
   }
+  if (const auto own = examples.find(&app); own != examples.end()) told.examples = own->second;
   return told;
 }
 
@@ -138,8 +140,8 @@ std::string ManualCommand::words() const {
   return space == std::string::npos ? "" : name.substr(space + 1);
 }
 
-ManualCommand command_tree(const CLI::App& program) {
-  return told_of(program, program.get_name());
+ManualCommand command_tree(const CLI::App& program, const CommandExamples& examples) {
+  return told_of(program, program.get_name(), examples);
 }
 
 std::vector<const ManualCommand*> all_commands(const ManualCommand& root) {

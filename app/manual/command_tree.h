@@ -3,9 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "app/command_line/command.h"
 
 namespace jnd::app {
 
@@ -40,13 +38,15 @@ struct ManualCommand {
   std::string description;            ///< One phrase.
   std::vector<ManualOption> options;  ///< Positional ones first, in their order.
   std::vector<ManualCommand> commands;
+  std::vector<CommandExample> examples;
 
   /// Without the name of the program: "fit weber".
   [[nodiscard]] std::string words() const;
 };
 
 /// The tree that the command line is parsed by, as data. Nothing in it depends on the machine.
-[[nodiscard]] ManualCommand command_tree(const CLI::App& program);
+[[nodiscard]] ManualCommand command_tree(const CLI::App& program,
+                                         const CommandExamples& examples);
 
 /// The command and all below it, itself first.
 [[nodiscard]] std::vector<const ManualCommand*> all_commands(const ManualCommand& root);

@@ -118,7 +118,7 @@ std::string commands_section(const ManualCommand& command) {
 
 std::string examples_section(const ManualCommand& command) {
   std::string text;
-  for (const ManualExample& example : manual_examples(command.name)) {
+  for (const CommandExample& example : command.examples) {
     text += ".TP\n" + bold(example.call) + "\n" + roff(as_sentence(example.meaning)) + "\n";
   }
   return text.empty() ? text : ".SH EXAMPLES\n" + text;

@@ -1,20 +1,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "app/manual/command_tree.h"
 
 namespace jnd::app {
-
-/// A call that shows what a command is for.
-struct ManualExample {
-  std::string call;     ///< "jnd validate my_study.json"
-  std::string meaning;  ///< One phrase.
-};
-
-/// Those of the command of this name, "jnd fit weber"; none if it has none.
-[[nodiscard]] std::vector<ManualExample> manual_examples(const std::string& name);
 
 /// "jnd-fit-weber.1"
 [[nodiscard]] std::string manual_file_name(const ManualCommand& command);

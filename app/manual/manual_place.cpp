@@ -10,19 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kViewPages = {
-    ViewPage{"start", "docs/tutorials/first_study.md"},
-    ViewPage{"prepare", "docs/how-to/run_a_session.md"},
-    ViewPage{"session", "docs/how-to/run_a_session.md"},
-    ViewPage{"apparatus", "docs/apparatus.md"},
-    ViewPage{"sessions", "docs/how-to/run_a_session.md"},
-    ViewPage{"overview", "docs/how-to/see_where_a_study_stands.md"},
-    ViewPage{"record", "docs/how-to/look_through_a_session.md"},
-    ViewPage{"results", "docs/methods/reading_results.md"},
-    ViewPage{"study", "docs/how-to/check_a_study_while_you_write.md"},
-    ViewPage{"device", "docs/commissioning.md"},
-    ViewPage{"data", "docs/from_my_csv_to_a_figure.md"}};
-
 /// Pages of the manual outside of docs.
 constexpr std::array kOtherPages = {"README.md",
                                     "ARCHITECTURE.md",
@@ -101,12 +88,5 @@ std::string manual_page_named(const std::vector<std::string>& pages, const std::
   }
   return found;
 }
-
-std::string manual_page_of_view(std::string_view view) {
-  const auto found = std::ranges::find(kViewPages, view, &ViewPage::view);
-  return std::string(found == kViewPages.end() ? kFirstManualPage : found->page);
-}
-
-std::vector<ViewPage> view_pages() { return {kViewPages.begin(), kViewPages.end()}; }
 
 }  // namespace jnd::app

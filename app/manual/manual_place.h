@@ -32,14 +32,4 @@ inline constexpr std::string_view kFirstManualPage = "docs/README.md";
 [[nodiscard]] std::string manual_page_named(const std::vector<std::string>& pages,
                                             const std::string& name);
 
-/// The page about a view of the window, by the name that its screen has ("sessions"); the first
-/// page for a name that is unknown.
-[[nodiscard]] std::string manual_page_of_view(std::string_view view);
-
-/// A view and its page, for tests that see each of them exist.
-struct ViewPage {
-  std::string_view view, page;
-};
-[[nodiscard]] std::vector<ViewPage> view_pages();
-
 }  // namespace jnd::app

@@ -10,32 +10,14 @@
 #include "app/language/words.h"
 #include "app/operator/session_words.h"
 #include "experiments/order/block_turns.h"
+#include "experiments/procedures/procedure_registry.h"
+#include "experiments/study/media.h"
 #include "experiments/study/stage_walk.h"
 
 namespace jnd::app {
 namespace {
 
 using namespace experiments;
-
-/// Names of media and procedures as `medium_words` and `procedure_words` look them up: for the
-/// catalogue alone, which a test holds to the names that there are.
-[[maybe_unused]] constexpr const char* kLookedUp[] = {tr_later("free space"),
-                                                      tr_later("water"),
-                                                      tr_later("viscous"),
-                                                      tr_later("viscous stokes"),
-                                                      tr_later("viscous sphere"),
-                                                      tr_later("water map"),
-                                                      tr_later("viscous schiller naumann"),
-                                                      tr_later("viscous ellipsoid"),
-                                                      tr_later("solid"),
-                                                      tr_later("Constant stimuli"),
-                                                      tr_later("Limits"),
-                                                      tr_later("Magnitude estimation"),
-                                                      tr_later("Magnitude production"),
-                                                      tr_later("Matching"),
-                                                      tr_later("Quest plus"),
-                                                      tr_later("Rating"),
-                                                      tr_later("Staircase")};
 
 const Stage* block_named(const Study& study, const std::string& name) {
   const Stage* found = nullptr;
@@ -122,11 +104,15 @@ std::string block_title(const Study& study, const std::string& block) {
 }
 
 std::string medium_words(const std::string& medium) {
-  return tr(name_words(medium, /*as_title=*/false).c_str());
+  const Medium* known = find_medium(medium);
+  return known == nullptr ? name_words(medium, /*as_title=*/false) : tr(known->words);
 }
 
 std::string procedure_words(const std::string& procedure) {
-  return tr(name_words(procedure, /*as_title=*/true).c_str());
+  for (const Procedure* known : procedures()) {
+    if (known->name() == procedure) return tr(known->title().c_str());
+  }
+  return name_words(procedure, /*as_title=*/true);
 }
 
 std::string words_of(const MediumSetting& setting) {

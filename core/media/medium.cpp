@@ -7,6 +7,13 @@
 
 namespace jnd::core {
 
+bool MediumAmounts::is_drag_of_motion() const noexcept {
+  return std::ranges::all_of(kAmounts, [this](auto amount) {
+    return this->*amount == 0.0 ||
+           std::ranges::find(kDragOfMotion, amount) != kDragOfMotion.end();
+  });
+}
+
 bool MediumAmounts::is_plain_damping() const noexcept {
   MediumAmounts rest = *this;
   rest.damping_n_s_per_m = 0.0;

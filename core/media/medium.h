@@ -65,6 +65,8 @@ struct MediumAmounts {
             container_friction_n_per_m};
   }
 
+  /// Whether nothing is felt but drag that follows from the motion of the hand alone.
+  [[nodiscard]] bool is_drag_of_motion() const noexcept;
   /// Whether the force is one damping times the velocity, whatever the speed and the pose.
   [[nodiscard]] bool is_plain_damping() const noexcept;
   /// Neither infinite nor NaN in any amount. Real time.
@@ -98,6 +100,11 @@ inline constexpr std::array kAmounts = {&MediumAmounts::quadratic_kg_per_m,
                                         &MediumAmounts::container_friction_n_per_m};
 static_assert(sizeof(MediumAmounts) == kAmounts.size() * sizeof(double),
               "an amount is missing from the list");
+
+/// Those of `drag_n` that need no map: drag that follows from the motion of the hand alone.
+inline constexpr std::array kDragOfMotion = {&MediumAmounts::quadratic_kg_per_m,
+                                             &MediumAmounts::damping_n_s_per_m,
+                                             &MediumAmounts::inertial_n};
 
 [[nodiscard]] inline MediumAmounts free_space() noexcept { return {}; }
 /// Throw `Error` for parameters out of range. Not real time.

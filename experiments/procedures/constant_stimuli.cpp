@@ -134,6 +134,43 @@ std::vector<BlockKey> ConstantStimuli::keys() const {
   return keys;
 }
 
+std::vector<std::string> ConstantStimuli::examples() const {
+  return {R"json({"kind": "block", "name": "thick_fluids",
+  "procedure": "constant_stimuli", "medium": "viscous",
+  "viscosity_pa_s": [10, 12, 14, 18, 20, 24], "reference_viscosity_pa_s": 16, "repetitions": 5,
+  "instruction": {"en": "First comes the reference, then the test."},
+  "question": {"en": "Was the test thicker than the reference?"},
+  "free_space_between_s": 2, "expected_trial_s": 15})json",
+          R"json({"kind": "block", "name": "which_is_thicker",
+  "procedure": "constant_stimuli", "medium": "viscous", "task": "two_interval", "interval_order": "balanced",
+  "viscosity_pa_s": [10, 12, 14, 18, 20, 24], "reference_viscosity_pa_s": 16, "repetitions": 10,
+  "instruction": {"en": "Two fluids follow each other."},
+  "question": {"en": "Which one was thicker?"},
+  "free_space_between_s": 2, "expected_trial_s": 15})json",
+          R"json({"kind": "block", "name": "in_good_time",
+  "procedure": "constant_stimuli", "medium": "viscous", "task": "two_interval",
+  "viscosity_pa_s": [10, 12, 14, 18, 20, 24], "reference_viscosity_pa_s": 16, "repetitions": 10,
+  "cannot_tell": true, "max_returns": 0,
+  "min_stimulus_s": 4, "max_stimulus_s": 4, "answer_deadline_s": 7,
+  "instruction": {"en": "Two fluids follow each other, each once. Answer soon, or say that you cannot tell."},
+  "question": {"en": "Which one was thicker?"},
+  "free_space_between_s": 2, "expected_trial_s": 12})json",
+          R"json({"kind": "block", "name": "same_or_not",
+  "procedure": "constant_stimuli", "medium": "viscous", "task": "same_different", "catch_trials": 4,
+  "viscosity_pa_s": [9, 10, 12, 15], "reference_viscosity_pa_s": 8, "repetitions": 10,
+  "instruction": {"en": "Two fluids follow each other, or one twice."},
+  "question": {"en": "Were they different?"},
+  "yes_label": {"en": "Different"}, "no_label": {"en": "The same"},
+  "free_space_between_s": 2, "expected_trial_s": 15})json",
+          R"json({"kind": "block", "name": "practice",
+  "procedure": "constant_stimuli", "medium": "viscous", "feedback": true,
+  "viscosity_pa_s": [4, 16], "reference_viscosity_pa_s": 8, "repetitions": 20,
+  "practice": {"min_correct_ratio": 0.8, "num_trials_judged": 10, "max_trials": 40},
+  "instruction": {"en": "Let us practise. First comes the reference, then the test."},
+  "question": {"en": "Was the test thicker than the reference?"},
+  "free_space_between_s": 2, "expected_trial_s": 15})json"};
+}
+
 TrialForm ConstantStimuli::form(const Block& block) const { return form_of(task_of(block)); }
 
 Measure ConstantStimuli::measures(const Block& block) const {

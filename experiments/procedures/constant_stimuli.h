@@ -11,9 +11,15 @@ namespace jnd::experiments {
 class ConstantStimuli final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "constant_stimuli"; }
-  [[nodiscard]] std::string words() const override { return "method of constant stimuli"; }
+  [[nodiscard]] std::string title() const override {
+    return core::for_people("Constant stimuli");
+  }
+  [[nodiscard]] std::string words() const override {
+    return core::for_people("method of constant stimuli");
+  }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] std::vector<std::string> examples() const override;
   [[nodiscard]] TrialForm form(const Block& block) const override;
   [[nodiscard]] Measure measures(const Block& block) const override;
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,

@@ -56,6 +56,14 @@ std::vector<PlannedSeries> planned_series(const Block& block, const LimitsRule& 
   return series;
 }
 
+/// A series as its first level tells it: each begins in its own half of the levels.
+PlannedSeries series_from(const LimitsRule& rule, double first_level) {
+  const auto start = static_cast<std::size_t>(
+      std::ranges::lower_bound(rule.levels, first_level) - rule.levels.begin());
+  const bool rises = start < rule.levels.size() / 2;
+  return {rises ? SeriesDirection::kAscending : SeriesDirection::kDescending, start};
+}
+
 }  // namespace
 
 std::string LimitsProcedure::meaning() const {
@@ -83,6 +91,15 @@ std::vector<BlockKey> LimitsProcedure::keys() const {
       scale_key()};
   for (BlockKey& key : adaptive_keys()) keys.push_back(std::move(key));
   return keys;
+}
+
+std::vector<std::string> LimitsProcedure::examples() const {
+  return {R"json({"kind": "block", "name": "least_viscosity",
+  "procedure": "limits", "medium": "viscous", "task": "yes_no",
+  "viscosity_pa_s": [0.1, 0.2, 0.3, 0.5, 0.8, 1.2, 2, 3], "num_series": 8, "catch_probability": 0.1,
+  "instruction": {"en": "Tell whenever you feel anything in the way of your hand."},
+  "question": {"en": "Is there anything?"},
+  "free_space_between_s": 2, "expected_trial_s": 8})json"};
 }
 
 TrialForm LimitsProcedure::form(const Block& block) const { return form_of(task_of(block)); }
@@ -154,6 +171,46 @@ int LimitsProcedure::expected_trials(const Block& block) const {
   return with_catch_trials(
       block, block.settings.integer("num_series") *
                  std::max<int>(1, static_cast<int>(block.intensities.size()) / 2));
+}
+
+void LimitsProcedure::run(const Block& block, const std::vector<LevelTrial>& trials,
+                          RuleOutcome& run) const {
+  const Limits limits(limits_rule_of(block));
+  std::vector<PlannedSeries> plan;
+  std::vector<LevelAnswer> answers;
+  for (int series = 1; series <= limits.rule().num_series; ++series) {
+    const std::vector<LevelTrial> own = of_series(trials, series);
+    if (own.empty()) break;
+    plan.push_back(series_from(limits.rule(), own.front().answer.level));
+    run.tracks.push_back(track_of(series, own));
+    run.tracks.back().direction =
+        plan.back().direction == SeriesDirection::kAscending ? "ascending" : "descending";
+    for (const LevelTrial& trial : own) answers.push_back(trial.answer);
+  }
+  const LimitsState state = limits.after(plan, answers);
+  for (std::size_t i = 0; i < state.series.size(); ++i) {
+    run.tracks[i].threshold = state.series[i].transition;
+  }
+  const LimitsThreshold found = limits.threshold(state);
+  run.is_logarithmic = limits.rule().scale == LevelScale::kLogarithmic;
+  run.threshold = found.level;
+  run.limits = {found.ascending, found.descending, found.constant_error, found.num_ascending,
+                found.num_descending};
+}
+
+RuleWords LimitsProcedure::rule_words() const {
+  return {.tracks = core::for_people("Series of the method of limits"),
+          .caption = core::for_people(
+              "A line is a series; the horizontal line is the mean of all transitions, whose "
+              "value stands in the title"),
+          .heading = core::for_people("Method of limits"),
+          .method = core::for_people(
+              "Levels rose or fell until the answer changed; a transition lies half way, in "
+              "the scale of the levels, between the last level before and the first one "
+              "after ({}). Thresholds are means of transitions. Rising less falling series: "
+              "above 0 people stay with their answer (habituation), below 0 they change it "
+              "early (expectation)."),
+          .cited = {"Gescheider 1997"}};
 }
 
 }  // namespace jnd::experiments

@@ -51,6 +51,14 @@ std::vector<BlockKey> MagnitudeEstimation::keys() const {
   return keys;
 }
 
+std::vector<std::string> MagnitudeEstimation::examples() const {
+  return {R"json({"kind": "block", "name": "how_strong",
+  "procedure": "magnitude_estimation", "medium": "water", "scale": [0, 0.5, 1, 2, 4], "repetitions": 3,
+  "instruction": {"en": "Real water is 100 percent, free space is 0."},
+  "question": {"en": "How strong, in percent of water?"},
+  "free_space_between_s": 2, "expected_trial_s": 15})json"};
+}
+
 Modulus modulus_of(const Block& block) {
   if (!block.settings.has("modulus")) return Modulus::kWater;
   const std::string& word = block.settings.word("modulus");

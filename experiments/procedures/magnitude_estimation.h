@@ -23,9 +23,15 @@ class MagnitudeEstimation final : public Procedure {
   [[nodiscard]] std::string_view name() const noexcept override {
     return "magnitude_estimation";
   }
-  [[nodiscard]] std::string words() const override { return "magnitude estimation"; }
+  [[nodiscard]] std::string title() const override {
+    return core::for_people("Magnitude estimation");
+  }
+  [[nodiscard]] std::string words() const override {
+    return core::for_people("magnitude estimation");
+  }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] std::vector<std::string> examples() const override;
   [[nodiscard]] TrialForm form(const Block& block) const override;
   [[nodiscard]] Measure measures(const Block&) const override { return Measure::kMagnitude; }
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,

@@ -22,6 +22,15 @@ std::vector<BlockKey> MagnitudeProduction::keys() const {
   return keys;
 }
 
+std::vector<std::string> MagnitudeProduction::examples() const {
+  return {R"json({"kind": "block", "name": "make_it_half",
+  "procedure": "magnitude_production", "medium": "water", "scale": [0, 4], "target_percent": [50, 100, 200],
+  "coarse_step_scale": 0.5, "fine_step_scale": 0.1, "max_scale": 8,
+  "instruction": {"en": "Say stronger or weaker until it feels like the percentage you are told."},
+  "question": {"en": "Is this the percentage you were told?"},
+  "free_space_between_s": 2, "expected_trial_s": 30})json"};
+}
+
 TrialForm MagnitudeProduction::form(const Block&) const {
   return {.answer = AnswerKind::kMatch, .adjustable = true};
 }

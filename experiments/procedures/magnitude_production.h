@@ -13,9 +13,15 @@ class MagnitudeProduction final : public Procedure {
   [[nodiscard]] std::string_view name() const noexcept override {
     return "magnitude_production";
   }
-  [[nodiscard]] std::string words() const override { return "magnitude production"; }
+  [[nodiscard]] std::string title() const override {
+    return core::for_people("Magnitude production");
+  }
+  [[nodiscard]] std::string words() const override {
+    return core::for_people("magnitude production");
+  }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] std::vector<std::string> examples() const override;
   [[nodiscard]] TrialForm form(const Block& block) const override;
   [[nodiscard]] Measure measures(const Block&) const override {
     return Measure::kProducedMagnitude;

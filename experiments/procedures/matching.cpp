@@ -15,6 +15,16 @@ std::vector<BlockKey> Matching::keys() const {
   return keys;
 }
 
+std::vector<std::string> Matching::examples() const {
+  return {R"json({"kind": "block", "name": "as_thick_as_water",
+  "procedure": "matching", "medium": "viscous", "viscosity_pa_s": [0.2, 5],
+  "standard_medium": "water", "standard_scale": [1, 2, 4], "repetitions": 3,
+  "coarse_step_viscosity_pa_s": 0.5, "fine_step_viscosity_pa_s": 0.1, "max_viscosity_pa_s": 20,
+  "instruction": {"en": "Say thicker or thinner until it feels like the reference. You may go back and forth."},
+  "question": {"en": "Does it feel like the reference?"},
+  "free_space_between_s": 2, "expected_trial_s": 45})json"};
+}
+
 TrialForm Matching::form(const Block&) const {
   return {.answer = AnswerKind::kMatch, .has_reference = true, .adjustable = true};
 }

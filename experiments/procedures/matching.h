@@ -13,11 +13,13 @@ namespace jnd::experiments {
 class Matching final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "matching"; }
+  [[nodiscard]] std::string title() const override { return core::for_people("Matching"); }
   [[nodiscard]] std::string words() const override {
-    return "matching by the method of adjustment";
+    return core::for_people("matching by the method of adjustment");
   }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] std::vector<std::string> examples() const override;
   [[nodiscard]] TrialForm form(const Block& block) const override;
   [[nodiscard]] Measure measures(const Block&) const override { return Measure::kMatch; }
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,

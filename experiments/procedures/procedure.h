@@ -5,7 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/for_people.h"
 #include "core/random_stream.h"
+#include "experiments/adaptive/rule_outcome.h"
 #include "experiments/procedures/block_key.h"
 #include "experiments/procedures/planned_trial.h"
 #include "experiments/study/study.h"
@@ -51,8 +53,18 @@ enum class Measure {
   kIdentification,  ///< Which of several intervals is the right one: the share of right ones.
 };
 
-/// By which rule answers decide what is presented next.
-enum class AdaptiveRule { kNone, kStaircase, kLimits, kQuestPlus };
+/// By which rule answers decide what is presented next. All that results tell of `kOther` is
+/// the threshold that it comes to.
+enum class AdaptiveRule { kNone, kStaircase, kLimits, kQuestPlus, kOther };
+
+/// How results tell of such a rule, for people.
+struct RuleWords {
+  const char* tracks = "";         ///< Heading of a chart of its trials: "Staircases".
+  const char* caption = "";        ///< What is in it; a hole is the `rule` of the outcome.
+  const char* heading = "";        ///< Of a paragraph of the report's methods.
+  const char* method = "";         ///< The paragraph, with a hole for each source.
+  std::vector<const char*> cited;  ///< The sources: "Levitt 1971".
+};
 
 /// How a block asks: which trials, in which order, answered how. Stateless: what was drawn and
 /// answered is passed in, and randomness comes from the stream, so a session can be replayed.
@@ -60,12 +72,17 @@ class Procedure {
  public:
   virtual ~Procedure() = default;
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
-  /// As a sentence calls it: "method of limits".
+  /// As a heading calls it, for people: "Limits".
+  [[nodiscard]] virtual std::string title() const = 0;
+  /// As a sentence calls it, for people: "method of limits".
   [[nodiscard]] virtual std::string words() const = 0;
   /// In a sentence, for who chooses one.
   [[nodiscard]] virtual std::string meaning() const = 0;
   /// What a block with it has besides the keys of every block, in the order of the reference.
   [[nodiscard]] virtual std::vector<BlockKey> keys() const = 0;
+  /// Blocks with it as a study file has them, one at least: schema, snippets of editors and
+  /// reference show them, and the reader takes them as they stand, in English.
+  [[nodiscard]] virtual std::vector<std::string> examples() const { return {}; }
   [[nodiscard]] virtual TrialForm form(const Block& block) const = 0;
   [[nodiscard]] virtual Measure measures(const Block& block) const = 0;
   /// The trials to be run next, once all of `answered` are; none when the block is finished.
@@ -99,6 +116,10 @@ class Procedure {
     return "";
   }
   [[nodiscard]] virtual AdaptiveRule rule() const noexcept { return AdaptiveRule::kNone; }
+  [[nodiscard]] virtual RuleWords rule_words() const { return {}; }
+  /// Fills in what the trials of a block, in their order, come to by the rule. Throws `Error`
+  /// where the answers do not follow it.
+  virtual void run(const Block&, const std::vector<LevelTrial>&, RuleOutcome&) const {}
   /// Whether the answers decide what is presented, and how many trials there are.
   [[nodiscard]] virtual bool adapts() const noexcept { return rule() != AdaptiveRule::kNone; }
   /// How many trials to expect, for progress and planning; no more than `most_trials`.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -158,6 +159,16 @@ std::vector<BlockKey> QuestPlusProcedure::keys() const {
   return keys;
 }
 
+std::vector<std::string> QuestPlusProcedure::examples() const {
+  return {R"json({"kind": "block", "name": "most_telling",
+  "procedure": "quest_plus", "medium": "viscous",
+  "viscosity_pa_s": [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 18, 24], "reference_viscosity_pa_s": 8,
+  "pse_viscosity_pa_s": [4, 16], "weber_fraction": [0.05, 2], "max_trials": 40,
+  "instruction": {"en": "First comes the reference, then the test."},
+  "question": {"en": "Was the test thicker than the reference?"},
+  "free_space_between_s": 2, "expected_trial_s": 15})json"};
+}
+
 TrialForm QuestPlusProcedure::form(const Block& block) const { return form_of(task_of(block)); }
 
 Measure QuestPlusProcedure::measures(const Block& block) const {
@@ -292,6 +303,40 @@ void QuestPlusProcedure::check(const Block& block) const {
 
 int QuestPlusProcedure::expected_trials(const Block& block) const {
   return with_catch_trials(block, block.settings.integer("max_trials"));
+}
+
+void QuestPlusProcedure::run(const Block& block, const std::vector<LevelTrial>& trials,
+                             RuleOutcome& run) const {
+  const QuestPlus quest(quest_plus_rule_of(block));
+  std::vector<LevelTrial> standing;
+  std::ranges::copy_if(trials, std::back_inserter(standing),
+                       [](const LevelTrial& trial) { return !trial.set_aside; });
+  run.is_logarithmic = true;
+  run.tracks.push_back(track_of(1, trials));
+  const std::vector<QuestPlusEstimate> estimates =
+      quest.estimates(quest.posterior(answers_of(standing)));
+  run.reached_ends = reached_ends(block, estimates);
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    if (quest.rule().model.parameters[i].grid.values.size() == 1) continue;  // Taken for known.
+    const QuestPlusEstimate& one = estimates[i];
+    run.posterior.push_back({one.name, one.mean, one.sd, one.low, one.high});
+    if (!run.reached_ends.empty()) run.posterior.back().low = run.posterior.back().high = {};
+  }
+}
+
+RuleWords QuestPlusProcedure::rule_words() const {
+  return {.tracks = core::for_people("Stimuli of QUEST+"),
+          .caption = core::for_people("In the title: mean of the posterior at the end"),
+          .heading = core::for_people("QUEST+"),
+          .method = core::for_people(
+              "Each stimulus was the one whose answer was expected to tell the most ({}). "
+              "Values are means of the posterior after the last answer, of ratios in ln, "
+              "with its central 95 %; the prior is even over a grid in ln, given in the "
+              "study file. Where the posterior reaches an end of a grid (it is at least as "
+              "high there, seen from its highest, as a normal density is at the end of its "
+              "central 95 %), the grid decides about the values: they have no interval, and "
+              "a caution."),
+          .cited = {"Watson 2017"}};
 }
 
 }  // namespace jnd::experiments

@@ -12,9 +12,13 @@ namespace jnd::experiments {
 class QuestPlusProcedure final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "quest_plus"; }
-  [[nodiscard]] std::string words() const override { return "QUEST+ (Watson 2017)"; }
+  [[nodiscard]] std::string title() const override { return core::for_people("Quest plus"); }
+  [[nodiscard]] std::string words() const override {
+    return core::for_people("QUEST+ (Watson 2017)");
+  }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] std::vector<std::string> examples() const override;
   [[nodiscard]] TrialForm form(const Block& block) const override;
   [[nodiscard]] Measure measures(const Block& block) const override;
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
@@ -28,6 +32,9 @@ class QuestPlusProcedure final : public Procedure {
   [[nodiscard]] std::string caution(const Block& block,
                                     const std::vector<AnsweredTrial>& answered) const override;
   [[nodiscard]] AdaptiveRule rule() const noexcept override { return AdaptiveRule::kQuestPlus; }
+  [[nodiscard]] RuleWords rule_words() const override;
+  void run(const Block& block, const std::vector<LevelTrial>& trials,
+           RuleOutcome& run) const override;
   [[nodiscard]] int expected_trials(const Block& block) const override;
 };
 

@@ -31,6 +31,18 @@ std::vector<BlockKey> Rating::keys() const {
           end_label_key("high_label", "What stands at the last step: \"very thick\".")};
 }
 
+std::vector<std::string> Rating::examples() const {
+  return {R"json({"kind": "block", "name": "how_thick",
+  "procedure": "rating", "medium": "viscous", "viscosity_pa_s": [1, 2, 4, 8, 16], "repetitions": 4,
+  "num_steps": 7, "low_label": {"en": "very thin"}, "high_label": {"en": "very thick"},
+  "questions": [
+    {"name": "confidence", "kind": "scale", "num_steps": 5, "question": {"en": "How sure are you?"},
+     "low_label": {"en": "I guessed"}, "high_label": {"en": "wholly sure"}}],
+  "instruction": {"en": "Say how thick every fluid feels."},
+  "question": {"en": "How thick, from 1 to 7?"},
+  "free_space_between_s": 2, "expected_trial_s": 15})json"};
+}
+
 std::vector<PlannedTrial> Rating::draw_next(const Block& block,
                                             const std::vector<AnsweredTrial>& answered,
                                             core::RandomStream& stream) const {

@@ -10,9 +10,13 @@ namespace jnd::experiments {
 class Rating final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "rating"; }
-  [[nodiscard]] std::string words() const override { return "rating on a scale"; }
+  [[nodiscard]] std::string title() const override { return core::for_people("Rating"); }
+  [[nodiscard]] std::string words() const override {
+    return core::for_people("rating on a scale");
+  }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] std::vector<std::string> examples() const override;
   [[nodiscard]] TrialForm form(const Block&) const override {
     return {.answer = AnswerKind::kStep};
   }

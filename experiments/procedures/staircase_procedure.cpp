@@ -105,6 +105,36 @@ int num_series(const Block& block) {
   return static_cast<int>(block.settings.numbers("start").size());
 }
 
+AdaptiveTrack staircase_track(const Staircase& staircase, int series,
+                              const std::vector<LevelTrial>& trials) {
+  AdaptiveTrack track = track_of(series, trials);
+  const StaircaseState state = staircase.after(answers_of(trials));
+  const StaircaseThreshold threshold = staircase.threshold(state);
+  track.threshold = threshold.level;
+  track.num_reversals = threshold.num_reversals;
+  track.num_at_bound = threshold.num_at_bound;
+  const std::size_t first =
+      state.reversals.size() - static_cast<std::size_t>(threshold.num_reversals);
+  for (std::size_t i = 0; i < state.reversals.size(); ++i) {
+    TrackPoint& point = track.points.at(state.reversals[i].trial);
+    point.is_reversal = true;
+    point.is_averaged = i >= first;
+  }
+  return track;
+}
+
+std::string rule_with_citation(const StaircaseRule& rule) {
+  std::string words =
+      std::to_string(rule.num_up) + " up, " + std::to_string(rule.num_down) + " down";
+  if (rule.down_per_up_ratio != 1.0) {
+    std::string ratio = std::to_string(rule.down_per_up_ratio);
+    ratio.erase(ratio.find_last_not_of('0') + 1);
+    if (ratio.ends_with('.')) ratio.pop_back();
+    return words + ", steps down " + ratio + " times those up; Kaernbach 1991";
+  }
+  return words + "; Levitt 1971";
+}
+
 }  // namespace
 
 std::string StaircaseProcedure::meaning() const {
@@ -144,6 +174,16 @@ std::vector<BlockKey> StaircaseProcedure::keys() const {
       "The threshold is the mean of so many last reversals, an even number.", {2, 100}, "6"));
   for (BlockKey& key : adaptive_keys()) keys.push_back(std::move(key));
   return keys;
+}
+
+std::vector<std::string> StaircaseProcedure::examples() const {
+  return {R"json({"kind": "block", "name": "up_and_down",
+  "procedure": "staircase", "medium": "viscous", "reference_viscosity_pa_s": 8,
+  "start_viscosity_pa_s": [16, 4], "lowest_viscosity_pa_s": 1, "highest_viscosity_pa_s": 30,
+  "step_ratio": [1.5, 1.25, 1.1], "num_down": 2, "max_reversals": 10,
+  "instruction": {"en": "First comes the reference, then the test."},
+  "question": {"en": "Was the test thicker than the reference?"},
+  "free_space_between_s": 2, "expected_trial_s": 15})json"};
 }
 
 TrialForm StaircaseProcedure::form(const Block& block) const { return form_of(task_of(block)); }
@@ -238,6 +278,42 @@ int StaircaseProcedure::expected_trials(const Block& block) const {
 
 int StaircaseProcedure::most_trials(const Block& block) const noexcept {
   return with_catch_trials(block, num_series(block) * block.settings.integer("max_trials"));
+}
+
+void StaircaseProcedure::run(const Block& block, const std::vector<LevelTrial>& trials,
+                             RuleOutcome& run) const {
+  const auto count = static_cast<int>(block.settings.numbers("start").size());
+  std::vector<double> thresholds;
+  LevelScale scale = LevelScale::kLinear;
+  for (int series = 1; series <= count; ++series) {
+    const Staircase staircase(staircase_rule_of(block, series));
+    scale = staircase.rule().scale;
+    run.rule = rule_with_citation(staircase.rule());
+    run.target_probability = staircase.target_probability();
+    run.tracks.push_back(staircase_track(staircase, series, of_series(trials, series)));
+    if (run.tracks.back().threshold) thresholds.push_back(*run.tracks.back().threshold);
+  }
+  run.is_logarithmic = scale == LevelScale::kLogarithmic;
+  if (!thresholds.empty()) run.threshold = mean_level(scale, thresholds);
+}
+
+RuleWords StaircaseProcedure::rule_words() const {
+  return {.tracks = core::for_people("Staircases"),
+          .caption = core::for_people(
+              "A line is a staircase ({}), circles are its reversals; the horizontal line is "
+              "the mean of the last reversals of all staircases, whose value stands in the "
+              "title"),
+          .heading = core::for_people("Staircases"),
+          .method = core::for_people(
+              "The level fell after “yes” and rose after “no” by the rule given with each "
+              "estimate (transformed up-down, {}; weighted, {}). The threshold is the mean "
+              "of the last reversals, an even number of them, in the scale of the steps; "
+              "interleaved staircases are averaged. It estimates the level answered “yes” "
+              "with the probability p at which steps up and down balance. Where there is a "
+              "reference, w = (threshold / reference)^(1 / Φ⁻¹(p)) − 1, which takes the "
+              "point of subjective equality to be at the reference: the same definition of w "
+              "as that of the psychometric function."),
+          .cited = {"Levitt 1971", "Kaernbach 1991"}};
 }
 
 }  // namespace jnd::experiments

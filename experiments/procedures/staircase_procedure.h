@@ -10,9 +10,11 @@ namespace jnd::experiments {
 class StaircaseProcedure final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "staircase"; }
-  [[nodiscard]] std::string words() const override { return "staircase"; }
+  [[nodiscard]] std::string title() const override { return core::for_people("Staircase"); }
+  [[nodiscard]] std::string words() const override { return core::for_people("staircase"); }
   [[nodiscard]] std::string meaning() const override;
   [[nodiscard]] std::vector<BlockKey> keys() const override;
+  [[nodiscard]] std::vector<std::string> examples() const override;
   [[nodiscard]] TrialForm form(const Block& block) const override;
   [[nodiscard]] Measure measures(const Block& block) const override;
   [[nodiscard]] std::vector<PlannedTrial> draw_next(const Block& block,
@@ -25,6 +27,9 @@ class StaircaseProcedure final : public Procedure {
       const Block& block, const PlannedTrial& trial) const override;
   void check(const Block& block) const override;
   [[nodiscard]] AdaptiveRule rule() const noexcept override { return AdaptiveRule::kStaircase; }
+  [[nodiscard]] RuleWords rule_words() const override;
+  void run(const Block& block, const std::vector<LevelTrial>& trials,
+           RuleOutcome& run) const override;
   [[nodiscard]] int expected_trials(const Block& block) const override;
   [[nodiscard]] int most_trials(const Block& block) const noexcept override;
 };

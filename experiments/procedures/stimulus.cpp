@@ -20,7 +20,7 @@ core::MediumAmounts amounts_of(const MediumSetting& setting) {
   }
   const core::MediumAmounts amounts = medium->amounts(setting);
   const bool is_fluid = !medium->quantity.empty() && !medium->is_pressed;
-  return is_fluid ? amounts + core::buoyant(setting.buoyancy_n) : amounts;
+  return is_fluid ? amounts + core::buoyant(detail_of(setting, "buoyancy_n")) : amounts;
 }
 
 MediumSetting setting_of(const Block& block, const std::string& interval, double intensity) {
@@ -33,9 +33,7 @@ MediumSetting setting_of(const Block& block, const std::string& interval, double
   return {.medium = is_standard ? block.standard_medium : block.medium,
           .quantity = is_standard ? quantity_of(block.standard_medium) : block.quantity,
           .intensity = intensity,
-          .friction_ratio = block.friction_ratio,
-          .buoyancy_n = block.buoyancy_n,
-          .sphere_radius_m = block.sphere_radius_m};
+          .details = block.details};
 }
 
 core::MediumAmounts surroundings_of(const DeviceNeeds& needs) {

@@ -30,22 +30,11 @@ Parameter procedure_parameter() {
 }
 
 Parameter medium_parameter() {
-  Parameter parameter{
-      .key = "medium",
-      .kind = ValueKind::kString,
-      .meaning =
-          "What is felt. `water`: drag that grows with the square of speed, varied by `scale`. "
-          "`viscous`: drag that grows with speed, varied by `viscosity_pa_s`. "
-          "`viscous_stokes`: the same with the constant of a sphere. `viscous_sphere`: the "
-          "drag "
-          "of a sphere of `sphere_radius_m`, for a tool with one point. `water_map`: water "
-          "with "
-          "the drag and lift of the study's `force_map`. `viscous_schiller_naumann`: viscous "
-          "with the fluid's inertia, up to a Reynolds number (100 speed / viscosity, SI units) "
-          "of 800. `viscous_ellipsoid`: viscous about an ellipsoid that turns with the hand. "
-          "`solid`: a flat surface at the height of a fluid's, pressed instead of stroked, "
-          "varied by `stiffness_n_per_m`."};
-  for (const Medium& one : block_media()) parameter.allowed.push_back(one.name);
+  Parameter parameter{.key = "medium", .kind = ValueKind::kString, .meaning = "What is felt."};
+  for (const Medium& one : block_media()) {
+    parameter.allowed.push_back(one.name);
+    parameter.meaning += " `" + one.name + "`: " + one.about;
+  }
   return parameter;
 }
 
@@ -96,7 +85,7 @@ std::vector<Parameter> procedure_parameters() {
       }
     }
   }
-  for (Parameter& detail : medium_details()) of_quantities.push_back(std::move(detail));
+  for (const Parameter& detail : medium_details()) of_quantities.push_back(detail);
   of_quantities.insert(of_quantities.end(), others.begin(), others.end());
   return of_quantities;
 }
@@ -197,12 +186,7 @@ const ParameterTable& block_table() {
             "One procedure over one varied quantity: the part of a study that gives "
             "data. The keys that name the quantity carry its unit: `scale` for water, "
             "`viscosity_pa_s` for viscous fluids, `stiffness_n_per_m` for solids.",
-        .example = R"json({"kind": "block", "name": "thick_fluids",
-  "procedure": "constant_stimuli", "medium": "viscous",
-  "viscosity_pa_s": [10, 12, 14, 18, 20, 24], "reference_viscosity_pa_s": 16, "repetitions": 5,
-  "instruction": {"en": "First comes the reference, then the test."},
-  "question": {"en": "Was the test thicker than the reference?"},
-  "free_space_between_s": 2, "expected_trial_s": 15})json",
+        .example = procedure_named("constant_stimuli").examples().front(),
         .parameters = stage_parameters("block", std::move(own))};
   }();
   return kTable;

@@ -268,42 +268,8 @@ std::vector<Parameter> setting_parameters(std::vector<Parameter> own) {
                           .range = entry.range,
                           .only_where = {{"medium", {entry.name}}}});
   }
-  for (Parameter& detail : medium_details()) parameters.push_back(std::move(detail));
+  for (const Parameter& detail : medium_details()) parameters.push_back(detail);
   return joined(std::move(parameters), std::move(own));
-}
-
-std::vector<Parameter> medium_details() {
-  Condition fluid = {"medium", {}}, solid = {"medium", {}};
-  for (const Medium& entry : media()) {
-    if (entry.quantity.empty()) continue;
-    (entry.is_pressed ? solid : fluid).values.push_back(entry.name);
-  }
-  return {
-      {.key = "friction_ratio",
-       .kind = ValueKind::kNumber,
-       .meaning = "Friction of the surface over the force pressing on it.",
-       .required = false,
-       .default_json = "0.0",
-       .range = {0.0, 10.0},
-       .only_where = {std::move(solid)}},
-      {.key = "sphere_radius_m",
-       .kind = ValueKind::kNumber,
-       .meaning =
-           "Radius of the sphere that is drawn through the fluid: the tip of a tool with "
-           "one point.",
-       .required = false,
-       .default_json = "0.01",
-       .unit = "m",
-       .range = {0.0, 0.5, true},
-       .only_where = {{"medium", {"viscous_sphere"}}}},
-      {.key = "buoyancy_n",
-       .kind = ValueKind::kNumber,
-       .meaning = "Upward force of the fluid on the whole hand, where it is deeper than 3 cm.",
-       .required = false,
-       .default_json = "0.0",
-       .unit = "N",
-       .range = {0.0, 100.0},
-       .only_where = {std::move(fluid)}}};
 }
 
 const std::vector<const ParameterTable*>& stage_tables() {

@@ -13,10 +13,6 @@ namespace jnd::experiments {
 /// `medium` and, in the unit of its key, the one value of its quantity; then `own`.
 [[nodiscard]] std::vector<Parameter> setting_parameters(std::vector<Parameter> own);
 
-/// `friction_ratio`, which every solid may have, `sphere_radius_m` of a sphere, and
-/// `buoyancy_n`, which every fluid may have.
-[[nodiscard]] std::vector<Parameter> medium_details();
-
 [[nodiscard]] const ParameterTable& block_table();
 /// Several blocks whose trials are mixed.
 [[nodiscard]] const ParameterTable& interleaved_table();

@@ -138,13 +138,20 @@ class ObjectReader {
   const ParameterTable& table_;
 };
 
+MediumDetails details(const ObjectReader& in) {
+  MediumDetails given;
+  for (const Parameter& detail : medium_details()) {
+    const double value = in.number(detail.key);
+    if (value != detail_of({}, detail.key)) given[detail.key] = value;
+  }
+  return given;
+}
+
 MediumSetting setting(const ObjectReader& in) {
-  MediumSetting setting = {.medium = in.string("medium"), .quantity = "", .intensity = 0.0};
+  MediumSetting setting = {
+      .medium = in.string("medium"), .quantity = "", .intensity = 0.0, .details = details(in)};
   setting.quantity = quantity_of(setting.medium);
   if (!setting.quantity.empty()) setting.intensity = in.number(setting.quantity);
-  setting.friction_ratio = in.number("friction_ratio");
-  setting.sphere_radius_m = in.number("sphere_radius_m");
-  setting.buoyancy_n = in.number("buoyancy_n");
   return setting;
 }
 
@@ -262,9 +269,7 @@ Block block(const ObjectReader& in) {
   block.procedure = in.string("procedure");
   block.medium = in.string("medium");
   block.quantity = quantity_of(block.medium);
-  block.buoyancy_n = in.number("buoyancy_n");
-  block.friction_ratio = in.number("friction_ratio");
-  block.sphere_radius_m = in.number("sphere_radius_m");
+  block.details = details(in);
   block.instruction = in.text("instruction");
   block.question = in.text("question");
   block.yes_label = in.text("yes_label");

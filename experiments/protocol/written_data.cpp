@@ -1,7 +1,11 @@
 #include "experiments/protocol/written_data.h"
 
 #include <map>
+#include <set>
+#include <string_view>
 #include <utility>
+
+#include "experiments/procedures/procedure_registry.h"
 
 namespace jnd::experiments {
 namespace {
@@ -24,9 +28,14 @@ Columns of_blocks() {
   const auto only = [](std::vector<std::string> procedures) {
     return std::vector<Condition>{{"procedure", std::move(procedures)}};
   };
-  const std::vector<Condition> asked = {
-      {"procedure", {"constant_stimuli", "limits", "staircase", "quest_plus"}}};
   const std::vector<std::string> adjustments = {"magnitude_production", "matching"};
+  const std::set<std::string_view> told_in_numbers = {
+      "magnitude_estimation", "magnitude_production", "matching", "rating"};
+  std::vector<std::string> askers;
+  for (const Procedure* procedure : procedures()) {
+    if (!told_in_numbers.contains(procedure->name())) askers.emplace_back(procedure->name());
+  }
+  const std::vector<Condition> asked = only(std::move(askers));
   const std::string unit = "unit of the quantity";
   return {
       {"trials.csv", "trial", "", "Running number in the session, from 1"},

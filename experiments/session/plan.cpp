@@ -82,13 +82,7 @@ class RangeCollector {
  private:
   void add(const Stage& stage, const MediumSetting& setting) {
     for (const RangeEntry& known : entries) {
-      if (known.stage == stage.name && known.setting.medium == setting.medium &&
-          known.setting.intensity == setting.intensity &&
-          known.setting.buoyancy_n == setting.buoyancy_n &&
-          known.setting.friction_ratio == setting.friction_ratio &&
-          known.setting.sphere_radius_m == setting.sphere_radius_m) {
-        return;
-      }
+      if (known.stage == stage.name && known.setting == setting) return;
     }
     const core::MediumAmounts amounts = amounts_of(setting);
     const double share = limits_.largest_share_ratio;

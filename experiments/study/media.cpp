@@ -1,18 +1,23 @@
 #include "experiments/study/media.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/for_people.h"
 
 namespace jnd::experiments {
 namespace {
 
+using core::for_people;
 using core::MediumAmounts;
 using core::ViscousDrag;
 
 const std::vector<Quantity>& quantities() {
   static const std::vector<Quantity> kQuantities = {
-      {"scale", "", "scaling factor"},
-      {"viscosity_pa_s", "Pa s", "viscosity"},
-      {"stiffness_n_per_m", "N/m", "stiffness"},
+      {"scale", "", for_people("scaling factor")},
+      {"viscosity_pa_s", "Pa s", for_people("viscosity")},
+      {"stiffness_n_per_m", "N/m", for_people("stiffness")},
   };
   return kQuantities;
 }
@@ -26,7 +31,7 @@ const Quantity* find_quantity(std::string_view name) noexcept {
 MediumAmounts surface(const MediumSetting& it) {
   return core::solid({.stiffness_n_per_m = it.intensity,
                       .damping_n_s_per_m = 0.001 * it.intensity,
-                      .friction_ratio = it.friction_ratio});
+                      .friction_ratio = detail_of(it, "friction_ratio")});
 }
 
 }  // namespace
@@ -39,13 +44,18 @@ const std::vector<Medium>& media() {
   static const Range kStiffness = {0.0, 100000.0, true};
   static const std::vector<Medium> kMedia = {
       {.name = "free_space",
+       .words = for_people("free space"),
        .amounts = [](const MediumSetting&) { return core::free_space(); }},
       {.name = "water",
+       .words = for_people("water"),
+       .about = "drag that grows with the square of speed, varied by `scale`.",
        .quantity = "scale",
        .range = kScale,
        .meaning = "factor on the drag of real water; 1 is water, 0 nothing",
        .amounts = [](const MediumSetting& it) { return core::water({.scale = it.intensity}); }},
       {.name = "viscous",
+       .words = for_people("viscous"),
+       .about = "drag that grows with speed, varied by `viscosity_pa_s`.",
        .quantity = "viscosity_pa_s",
        .range = kViscosity,
        .meaning = "dynamic viscosity of a thick fluid; honey has about 10",
@@ -54,6 +64,8 @@ const std::vector<Medium>& media() {
              return core::viscous({.viscosity_pa_s = it.intensity});
            }},
       {.name = "viscous_stokes",
+       .words = for_people("viscous stokes"),
+       .about = "the same with the constant of a sphere.",
        .quantity = "viscosity_pa_s",
        .range = kViscosity,
        .meaning = "dynamic viscosity, rendered as the drag of a sphere of the hand's surface",
@@ -63,22 +75,38 @@ const std::vector<Medium>& media() {
                  {.viscosity_pa_s = it.intensity, .shape = ViscousDrag::Shape::kSphere});
            }},
       {.name = "viscous_sphere",
+       .words = for_people("viscous sphere"),
+       .about = "the drag of a sphere of `sphere_radius_m`, for a tool with one point.",
        .quantity = "viscosity_pa_s",
        .range = kViscosity,
        .meaning = "dynamic viscosity, rendered as the drag of a sphere of `sphere_radius_m`",
+       .details = {{.key = "sphere_radius_m",
+                    .kind = ValueKind::kNumber,
+                    .meaning =
+                        "Radius of the sphere that is drawn through the fluid: the tip of a "
+                        "tool with one point.",
+                    .required = false,
+                    .default_json = "0.01",
+                    .unit = "m",
+                    .range = {0.0, 0.5, true}}},
        .amounts =
            [](const MediumSetting& it) {
              return core::viscous({.viscosity_pa_s = it.intensity,
                                    .shape = ViscousDrag::Shape::kSphere,
-                                   .radius_m = it.sphere_radius_m});
+                                   .radius_m = detail_of(it, "sphere_radius_m")});
            }},
       {.name = "water_map",
+       .words = for_people("water map"),
+       .about = "water with the drag and lift of the study's `force_map`.",
        .quantity = "scale",
        .range = kScale,
        .meaning = "factor on the drag and lift of the study's `force_map`",
        .amounts =
            [](const MediumSetting& it) { return core::mapped_water({.scale = it.intensity}); }},
       {.name = "viscous_schiller_naumann",
+       .words = for_people("viscous schiller naumann"),
+       .about = "viscous with the fluid's inertia, up to a Reynolds number (100 speed / "
+                "viscosity, SI units) of 800.",
        .quantity = "viscosity_pa_s",
        .range = kViscosity,
        .meaning = "dynamic viscosity, with the drag of the fluid's inertia on top",
@@ -87,6 +115,8 @@ const std::vector<Medium>& media() {
              return core::viscous_inertial({.viscosity_pa_s = it.intensity});
            }},
       {.name = "viscous_ellipsoid",
+       .words = for_people("viscous ellipsoid"),
+       .about = "viscous about an ellipsoid that turns with the hand.",
        .quantity = "viscosity_pa_s",
        .range = kViscosity,
        .meaning =
@@ -96,6 +126,9 @@ const std::vector<Medium>& media() {
              return core::ellipsoid({.viscosity_pa_s = it.intensity});
            }},
       {.name = "solid",
+       .words = for_people("solid"),
+       .about = "a flat surface at the height of a fluid's, pressed instead of stroked, varied "
+                "by `stiffness_n_per_m`.",
        .quantity = "stiffness_n_per_m",
        .range = kStiffness,
        .meaning = "stiffness of a flat surface against the whole hand",
@@ -108,6 +141,59 @@ const std::vector<Medium>& media() {
 const Medium* find_medium(std::string_view name) noexcept {
   const auto found = std::ranges::find(media(), name, &Medium::name);
   return found == media().end() ? nullptr : &*found;
+}
+
+const std::vector<Parameter>& medium_details() {
+  static const std::vector<Parameter> kDetails = [] {
+    Condition fluid = {"medium", {}};
+    std::vector<Parameter> details = {
+        {.key = "friction_ratio",
+         .kind = ValueKind::kNumber,
+         .meaning = "Friction of the surface over the force pressing on it.",
+         .required = false,
+         .default_json = "0.0",
+         .range = {0.0, 10.0},
+         .only_where = {{"medium", {}}}}};
+    for (const Medium& medium : media()) {
+      if (!medium.quantity.empty()) {
+        Condition& surface = details.front().only_where.front();
+        (medium.is_pressed ? surface : fluid).values.push_back(medium.name);
+      }
+      for (Parameter detail : medium.details) {
+        const auto known = std::ranges::find(details, detail.key, &Parameter::key);
+        if (known != details.end()) {  // Several media have it, as the first one says.
+          known->only_where.front().values.push_back(medium.name);
+        } else {
+          detail.only_where = {{"medium", {medium.name}}};
+          details.push_back(std::move(detail));
+        }
+      }
+    }
+    details.push_back(
+        {.key = "buoyancy_n",
+         .kind = ValueKind::kNumber,
+         .meaning =
+             "Upward force of the fluid on the whole hand, where it is deeper than 3 cm.",
+         .required = false,
+         .default_json = "0.0",
+         .unit = "N",
+         .range = {0.0, 100.0},
+         .only_where = {std::move(fluid)}});
+    return details;
+  }();
+  return kDetails;
+}
+
+double detail_of(const MediumSetting& setting, std::string_view key) {
+  static const std::map<std::string, double, std::less<>> kDefaults = [] {
+    std::map<std::string, double, std::less<>> defaults;
+    for (const Parameter& detail : medium_details()) {
+      defaults[detail.key] = std::stod(detail.default_json);
+    }
+    return defaults;
+  }();
+  const auto given = setting.details.find(key);
+  return given != setting.details.end() ? given->second : kDefaults.find(key)->second;
 }
 
 std::string quantity_of(std::string_view medium) {

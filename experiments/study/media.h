@@ -14,16 +14,21 @@ namespace jnd::experiments {
 struct Quantity {
   std::string name;   ///< "viscosity_pa_s"
   std::string unit;   ///< "Pa s"; "" of a ratio.
-  std::string words;  ///< "viscosity"
+  const char* words;  ///< "viscosity"
 };
 
 /// What can be felt, a row each: whatever the program knows of a medium stands in it.
 struct Medium {
   std::string name;
+  const char* words;        ///< "viscous stokes", for people.
+  std::string about;        ///< What it is, for who writes a study; "" for free space.
   std::string quantity;     ///< Name of the one that varies; "" for free space.
   Range range;              ///< Of the quantity.
   std::string meaning;      ///< Of the quantity, for who writes a study.
   bool is_pressed = false;  ///< A surface; a fluid is stroked through.
+  /// Other numbers that a study may give for it, each optional and with a default. All surfaces
+  /// have `friction_ratio` and all fluids `buoyancy_n` besides.
+  std::vector<Parameter> details;
   /// What the haptic loop renders, without buoyancy.
   core::MediumAmounts (*amounts)(const MediumSetting& setting) = nullptr;
 };
@@ -35,6 +40,11 @@ struct Medium {
 [[nodiscard]] std::string quantity_of(std::string_view medium);
 /// Whether it is a surface that is pressed, not a fluid that is stroked through.
 [[nodiscard]] bool is_pressed(std::string_view medium) noexcept;
+
+/// The keys of all `MediumDetails`, each with the media that have it.
+[[nodiscard]] const std::vector<Parameter>& medium_details();
+/// The value of this key, which `medium_details()` has: as the study gave it, or the default.
+[[nodiscard]] double detail_of(const MediumSetting& setting, std::string_view key);
 
 /// Of an intensity of this quantity: "Pa s", "N/m"; "" of a ratio.
 [[nodiscard]] std::string quantity_unit(std::string_view quantity);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,21 +12,23 @@
 #include "core/marker.h"
 #include "core/media/force_map.h"
 #include "core/media/immersion.h"
-#include "core/media/viscous_drag.h"
 #include "experiments/study/design.h"
 #include "experiments/study/settings.h"
 #include "experiments/study/sound.h"
 
 namespace jnd::experiments {
 
+/// What else a study says of a medium, by the keys of `medium_details()`: of a solid
+/// "friction_ratio". A value that is the default is not in it.
+using MediumDetails = std::map<std::string, double, std::less<>>;
+
 /// A medium as a study names it, with its one varied quantity.
 struct MediumSetting {
   std::string medium;    ///< One of `media()`: "free_space", "water", "viscous", "solid" ...
   std::string quantity;  ///< "scale", "viscosity_pa_s", "stiffness_n_per_m"; "" for free_space.
-  double intensity = 0.0;                                    ///< In the unit of `quantity`.
-  double friction_ratio = 0.0;                               ///< Of a solid, >= 0.
-  double buoyancy_n = 0.0;                                   ///< Of a fluid, >= 0.
-  double sphere_radius_m = core::ViscousDrag::kToolRadiusM;  ///< Of `viscous_sphere`, > 0.
+  double intensity = 0.0;  ///< In the unit of `quantity`.
+  MediumDetails details;
+  bool operator==(const MediumSetting&) const = default;
 };
 
 /// A medium to be explored for some time outside of any trial.
@@ -109,10 +112,8 @@ struct Block {
   std::string
       procedure;       ///< "magnitude_estimation", "magnitude_production", "constant_stimuli".
   std::string medium;  ///< One of `media()` but free space.
-  std::string quantity;         ///< "scale", "viscosity_pa_s" or "stiffness_n_per_m".
-  double buoyancy_n = 0.0;      ///< Of the fluid, >= 0.
-  double friction_ratio = 0.0;  ///< Of the solid, >= 0.
-  double sphere_radius_m = core::ViscousDrag::kToolRadiusM;  ///< Of `viscous_sphere`, > 0.
+  std::string quantity;   ///< "scale", "viscosity_pa_s" or "stiffness_n_per_m".
+  MediumDetails details;  ///< Of its medium.
   Text instruction;
   Text question;             ///< What the participant is asked in every trial.
   Text yes_label, no_label;  ///< What the two answers are called; may be empty.

@@ -48,16 +48,15 @@ Application::Application(WindowRequest request, std::function<void()> wake)
                request_.resume_session ? request_.device_profile.string() : "",
                request_.streams, request_.markers, controls_, request_.sound_output,
                request_.simulated_clock_s),
-      sessions_(*this, study_),
-      overview_(*this, study_, request_),
       record_(*this, study_),
-      results_(*this, study_),
       study_screen_(*this, study_),
       device_(*this, study_, request_),
       data_(*this),
+      other_screens_(make_screens({*this, study_, request_})),
       participant_stop_(ParticipantStop::key_named(request_.participant_stop),
                         request_.participant_holds ? ParticipantStop::Way::kHold
                                                    : ParticipantStop::Way::kPress) {
+  for (const auto& screen : other_screens_) screens_.push_back(screen.get());
   screen_choice_ = remembered_screen(screen_folder());
   show(start_);
   show_first();
@@ -77,7 +76,7 @@ void Application::show_first() {
       if (!request_.participant.empty()) {
         show(prepare_);
       } else if (request_.shows_results) {
-        show(results_);
+        show(StudyTab::kResults);
       }
     });
   }
@@ -148,11 +147,13 @@ void Application::show(Screen& screen) {
   screen_ = &screen;
 }
 
+void Application::show(StudyTab tab) {
+  const auto found = std::ranges::find(screens_, tab.screen, &Screen::name);
+  if (found != screens_.end()) show(**found);
+}
+
 void Application::go_to(StudyTab tab) {
-  attempt(tr("The view cannot be opened"), [&] {
-    const auto found = std::ranges::find(screens_, tab, &Screen::tab);
-    if (tab != StudyTab::kNone && found != screens_.end()) show(**found);
-  });
+  attempt(tr("The view cannot be opened"), [&] { show(tab); });
 }
 
 void Application::open(const fs::path& path) {
@@ -163,7 +164,7 @@ void Application::open(const fs::path& path) {
 void Application::open_folder(const fs::path& folder) {
   study_.open(folder);
   forget_study(folder);
-  show(sessions_);
+  show(StudyTab::kSessions);
 }
 
 void Application::open_file(const fs::path& file) {
@@ -344,8 +345,7 @@ void Application::take_global_keys(Ui& ui) {
 /// The page about this view. While a hand may feel a force, no other window comes over this
 /// one, in which alone Escape is the emergency stop.
 void Application::open_manual() {
-  const ManualPlace place =
-      manual_place(shipped_folder(), manual_page_of_view(screen_->name()));
+  const ManualPlace place = manual_place(shipped_folder(), screen_->manual_page());
   if (place.file.empty()) {
     return tell(tr("The manual cannot be opened"),
                 tr("Expected {} beside the program or in the source tree, found it in "

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,13 +11,10 @@
 #include "app/gui/application/data_screen.h"
 #include "app/gui/application/device_screen.h"
 #include "app/gui/application/open_study.h"
-#include "app/gui/application/overview_screen.h"
 #include "app/gui/application/prepare_screen.h"
 #include "app/gui/application/record_screen.h"
-#include "app/gui/application/results_screen.h"
 #include "app/gui/application/screen.h"
 #include "app/gui/application/session_screen.h"
-#include "app/gui/application/sessions_screen.h"
 #include "app/gui/application/start_screen.h"
 #include "app/gui/application/study_screen.h"
 #include "app/gui/participant_stop.h"
@@ -122,6 +120,7 @@ class Application final : private ScreenHost {
   [[nodiscard]] std::function<void()> wake() const override { return wake_; }
 
   void show(Screen& screen);
+  void show(StudyTab tab);
   void open_folder(const std::filesystem::path& folder);
   void open_file(const std::filesystem::path& file);
   void forget_study(const std::filesystem::path& next);
@@ -144,16 +143,13 @@ class Application final : private ScreenHost {
   StartScreen start_;
   PrepareScreen prepare_;
   SessionScreen session_;
-  SessionsScreen sessions_;
-  OverviewScreen overview_;
   RecordScreen record_;
-  ResultsScreen results_;
   StudyScreen study_screen_;
   DeviceScreen device_;
   DataScreen data_;
-  const std::vector<Screen*> screens_ = {&start_,    &prepare_, &session_, &sessions_,
-                                         &overview_, &record_,  &results_, &study_screen_,
-                                         &device_,   &data_};
+  const std::vector<std::unique_ptr<Screen>> other_screens_;
+  std::vector<Screen*> screens_ = {&start_,        &prepare_, &session_, &record_,
+                                   &study_screen_, &device_,  &data_};  ///< And the others.
   Screen* screen_ = &start_;  ///< That stands in the window.
 
   ParticipantStop participant_stop_;

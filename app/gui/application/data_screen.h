@@ -15,7 +15,9 @@ class DataScreen final : public Screen {
  public:
   explicit DataScreen(ScreenHost& host) : host_(host), data_(host.wake()) {}
   [[nodiscard]] const char* name() const noexcept override { return "data"; }
-  [[nodiscard]] StudyTab tab() const noexcept override { return StudyTab::kData; }
+  [[nodiscard]] const char* manual_page() const noexcept override {
+    return "docs/from_my_csv_to_a_figure.md";
+  }
   /// A file to be shown next.
   void open(const std::filesystem::path& file);
   /// Asks for a file where none is open.

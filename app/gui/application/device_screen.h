@@ -18,7 +18,9 @@ class DeviceScreen final : public Screen {
   /// `request`: the device that the command line asks for. All outlive it.
   DeviceScreen(ScreenHost& host, const OpenStudy& study, const WindowRequest& request);
   [[nodiscard]] const char* name() const noexcept override { return "device"; }
-  [[nodiscard]] StudyTab tab() const noexcept override { return StudyTab::kDevice; }
+  [[nodiscard]] const char* manual_page() const noexcept override {
+    return "docs/commissioning.md";
+  }
   void show() override;
   void draw(Ui& ui) override;
   [[nodiscard]] bool works() const noexcept override { return device_.works(); }

@@ -1,10 +1,16 @@
-#include "app/gui/application/overview_screen.h"
-
 #include <exception>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
+#include "app/command_line/open_window.h"
+#include "app/gui/application/open_study.h"
+#include "app/gui/application/screen.h"
+#include "app/gui/views/overview_view.h"
 #include "app/language/words.h"
+#include "app/operator/background_task.h"
 #include "app/operator/export_actions.h"
 #include "core/clock.h"
 #include "core/storage/study_store.h"
@@ -12,6 +18,38 @@
 namespace jnd::app::gui {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Where a study stands: how many are done, who comes next, whether the sessions went well.
+class OverviewScreen final : public Screen {
+ public:
+  explicit OverviewScreen(const ScreenParts& parts)
+      : host_(parts.host), study_(parts.study), request_(parts.request) {}
+  [[nodiscard]] const char* name() const noexcept override { return "overview"; }
+  [[nodiscard]] const char* manual_page() const noexcept override {
+    return "docs/how-to/see_where_a_study_stands.md";
+  }
+  void show() override;
+  void update(Ui& ui) override;
+  void draw(Ui& ui) override;
+  [[nodiscard]] bool works() const noexcept override { return task_ && task_->running(); }
+  void forget_study() override;
+
+ private:
+  /// Writes something down, and reads the study anew; why it does not work stands in the
+  /// dialog, which stays open.
+  void write(OverviewState::Dialog dialog, const std::function<void()>& work);
+
+  ScreenHost& host_;
+  OpenStudy& study_;
+  const WindowRequest& request_;
+  std::unique_ptr<BackgroundTask<StudyOverview>> task_;
+  std::optional<StudyOverview> overview_;  ///< As it was read last.
+  std::string problem_;
+  bool was_working_ = false;
+  OverviewState state_;
+};
 
 void OverviewScreen::show() {
   study_.reload();
@@ -95,6 +133,12 @@ void OverviewScreen::write(OverviewState::Dialog dialog, const std::function<voi
     return;
   }
   host_.attempt(tr("The study cannot be read"), [this] { show(); });
+}
+
+}  // namespace
+
+std::unique_ptr<Screen> make_overview_screen(const ScreenParts& parts) {
+  return std::make_unique<OverviewScreen>(parts);
 }
 
 }  // namespace jnd::app::gui

@@ -25,6 +25,9 @@ class PrepareScreen final : public Screen {
                 AnswerControls& controls)
       : host_(host), study_(study), request_(request), controls_(controls) {}
   [[nodiscard]] const char* name() const noexcept override { return "prepare"; }
+  [[nodiscard]] const char* manual_page() const noexcept override {
+    return "docs/how-to/run_a_session.md";
+  }
   void show() override;
   void draw(Ui& ui) override;
   [[nodiscard]] bool works() const noexcept override {

@@ -17,6 +17,9 @@ class RecordScreen final : public Screen {
  public:
   RecordScreen(ScreenHost& host, OpenStudy& study) : host_(host), study_(study) {}
   [[nodiscard]] const char* name() const noexcept override { return "record"; }
+  [[nodiscard]] const char* manual_page() const noexcept override {
+    return "docs/how-to/look_through_a_session.md";
+  }
   /// Which session is shown next.
   void choose(std::int64_t session);
   void show() override;

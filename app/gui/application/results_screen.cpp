@@ -1,10 +1,13 @@
-#include "app/gui/application/results_screen.h"
-
+#include <memory>
 #include <string>
 #include <utility>
 
+#include "app/gui/application/open_study.h"
+#include "app/gui/application/screen.h"
 #include "app/gui/views/results_parts.h"
+#include "app/gui/views/results_view.h"
 #include "app/language/words.h"
+#include "app/operator/background_task.h"
 #include "app/operator/export_actions.h"
 #include "app/operator/open_outside.h"
 #include "app/operator/results_model.h"
@@ -12,6 +15,28 @@
 namespace jnd::app::gui {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The results of a study, computed beside the window whenever it is shown.
+class ResultsScreen final : public Screen {
+ public:
+  explicit ResultsScreen(const ScreenParts& parts) : host_(parts.host), study_(parts.study) {}
+  [[nodiscard]] const char* name() const noexcept override { return "results"; }
+  [[nodiscard]] const char* manual_page() const noexcept override {
+    return "docs/methods/reading_results.md";
+  }
+  void show() override;
+  void draw(Ui& ui) override;
+  [[nodiscard]] bool works() const noexcept override { return task_ && task_->running(); }
+  void forget_study() override;
+
+ private:
+  ScreenHost& host_;
+  OpenStudy& study_;
+  std::unique_ptr<BackgroundTask<ResultsModel>> task_;
+  ResultsViewState state_;
+};
 
 void ResultsScreen::show() {
   study_.reload();
@@ -68,6 +93,12 @@ void ResultsScreen::draw(Ui& ui) {
   } else {
     host_.go_to(result.tab);
   }
+}
+
+}  // namespace
+
+std::unique_ptr<Screen> make_results_screen(const ScreenParts& parts) {
+  return std::make_unique<ResultsScreen>(parts);
 }
 
 }  // namespace jnd::app::gui

@@ -4,22 +4,31 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "app/gui/ui.h"
 #include "app/gui/views/study_tabs.h"
 
+namespace jnd::app {
+struct WindowRequest;
+}
+
 namespace jnd::app::gui {
+
+class OpenStudy;
+class ScreenHost;
 
 /// One screen of the window: what it shows, kept while others stand there, and what the
 /// requests of its view do. One thread, that of the window.
 class Screen {
  public:
   virtual ~Screen() = default;
-  /// "sessions": as the log of widgets has it.
+  /// "sessions": as tabs and the log of widgets have it.
   [[nodiscard]] virtual const char* name() const noexcept = 0;
-  /// Its tab in the header of a study; `kNone` for a screen without one.
-  [[nodiscard]] virtual StudyTab tab() const noexcept { return StudyTab::kNone; }
+  /// The page of the manual about it, "docs/how-to/run_a_session.md".
+  [[nodiscard]] virtual const char* manual_page() const noexcept = 0;
   /// Called before it comes to stand in the window. What it throws keeps it from that.
   virtual void show() = 0;
   /// Takes what has come from other threads, before anything is drawn; may go to another one.
@@ -33,6 +42,18 @@ class Screen {
   /// Another study was opened: nothing of the last one is kept.
   virtual void forget_study() {}
 };
+
+/// What a screen is made of. All of it outlives the screen.
+struct ScreenParts {
+  ScreenHost& host;
+  OpenStudy& study;
+  const WindowRequest& request;  ///< What the command line asks for.
+};
+
+/// Every screen that has in its file a function
+///     std::unique_ptr<Screen> make_NAME_screen(const ScreenParts& parts);
+/// where the build finds it. The others are members of `Application`, which tells them more.
+[[nodiscard]] std::vector<std::unique_ptr<Screen>> make_screens(const ScreenParts& parts);
 
 /// A session to be begun in the study that is open.
 struct NewSession {

@@ -51,6 +51,9 @@ class SessionScreen final : public Screen {
   [[nodiscard]] const char* name() const noexcept override {
     return run_state_.shows_apparatus ? "apparatus" : "session";
   }
+  [[nodiscard]] const char* manual_page() const noexcept override {
+    return run_state_.shows_apparatus ? "docs/apparatus.md" : "docs/how-to/run_a_session.md";
+  }
   void show() override {}
   void update(Ui& ui) override;
   void draw(Ui& ui) override;

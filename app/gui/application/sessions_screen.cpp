@@ -1,11 +1,32 @@
-#include "app/gui/application/sessions_screen.h"
-
+#include "app/gui/application/open_study.h"
+#include "app/gui/application/screen.h"
+#include "app/gui/views/sessions_view.h"
 #include "app/language/words.h"
 #include "app/operator/export_actions.h"
 
 namespace jnd::app::gui {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// The sessions of a study: what was run, what can be resumed, whether all of it is safe.
+class SessionsScreen final : public Screen {
+ public:
+  explicit SessionsScreen(const ScreenParts& parts) : host_(parts.host), study_(parts.study) {}
+  [[nodiscard]] const char* name() const noexcept override { return "sessions"; }
+  [[nodiscard]] const char* manual_page() const noexcept override {
+    return "docs/how-to/run_a_session.md";
+  }
+  void show() override;
+  void draw(Ui& ui) override;
+  void forget_study() override { state_ = {}; }
+
+ private:
+  ScreenHost& host_;
+  OpenStudy& study_;
+  SessionsViewState state_;
+};
 
 void SessionsScreen::show() {
   study_.reload();
@@ -38,6 +59,12 @@ void SessionsScreen::draw(Ui& ui) {
   } else {
     host_.go_to(result.tab);
   }
+}
+
+}  // namespace
+
+std::unique_ptr<Screen> make_sessions_screen(const ScreenParts& parts) {
+  return std::make_unique<SessionsScreen>(parts);
 }
 
 }  // namespace jnd::app::gui

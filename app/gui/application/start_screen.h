@@ -18,7 +18,9 @@ class StartScreen final : public Screen {
   StartScreen(ScreenHost& host, RecentStudies& recent, const WindowRequest& request)
       : host_(host), recent_(recent), request_(request) {}
   [[nodiscard]] const char* name() const noexcept override { return "start"; }
-  [[nodiscard]] StudyTab tab() const noexcept override { return StudyTab::kStart; }
+  [[nodiscard]] const char* manual_page() const noexcept override {
+    return "docs/tutorials/first_study.md";
+  }
   void show() override;
   void draw(Ui& ui) override;
   [[nodiscard]] bool works() const noexcept override { return task_ && task_->running(); }

@@ -18,7 +18,9 @@ class StudyScreen final : public Screen {
  public:
   StudyScreen(ScreenHost& host, OpenStudy& study) : host_(host), study_(study) {}
   [[nodiscard]] const char* name() const noexcept override { return "study"; }
-  [[nodiscard]] StudyTab tab() const noexcept override { return StudyTab::kStudy; }
+  [[nodiscard]] const char* manual_page() const noexcept override {
+    return "docs/how-to/check_a_study_while_you_write.md";
+  }
   /// A file that is of no folder, to be shown next.
   void watch(const std::filesystem::path& file);
   void show() override;

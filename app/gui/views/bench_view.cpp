@@ -29,7 +29,7 @@ void draw_header(Ui& ui, const Rect& place, const BenchModel& model, bool may_mo
             {.colour = Colour::kAmber});
     return;
   }
-  std::vector<StudyTabLook> tabs(kStudyTabs.begin(), kStudyTabs.end());
+  std::vector<StudyTabLook> tabs = study_tabs();
   if (!model.has_study) {
     std::erase_if(tabs, [](const StudyTabLook& tab) {
       return tab.tab != StudyTab::kStart && tab.tab != StudyTab::kDevice;
@@ -39,6 +39,10 @@ void draw_header(Ui& ui, const Rect& place, const BenchModel& model, bool may_mo
 }
 
 }  // namespace
+
+StudyTabLook tab_of_device() {
+  return {StudyTab::kDevice, "tab_device", tr_later("Device"), '4'};
+}
 
 BenchViewResult draw_bench_view(Ui& ui, const BenchModel& model, BenchViewState& state) {
   BenchViewResult result;

@@ -226,6 +226,10 @@ void draw_work_card(Ui& ui, Rect& rest, const ResultsViewModel& model,
 
 }  // namespace
 
+StudyTabLook tab_of_results() {
+  return {StudyTab::kResults, "tab_results", tr_later("Results"), '2'};
+}
+
 ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
                                     ResultsViewState& state) {
   ResultsViewResult result;

@@ -271,6 +271,10 @@ void draw_actions(Ui& ui, Rect& column, const StudyFolder& study, const StudyWor
 
 }  // namespace
 
+StudyTabLook tab_of_sessions() {
+  return {StudyTab::kSessions, "tab_sessions", tr_later("Sessions"), '1'};
+}
+
 SessionsViewResult draw_sessions_view(Ui& ui, const StudyFolder& study, const StudyWork& work,
                                       SessionsViewState& state) {
   SessionsViewResult result;

@@ -234,6 +234,8 @@ void draw_machine(Ui& ui, Rect column, const StartModel& model, StartViewResult&
 
 }  // namespace
 
+StudyTabLook tab_of_start() { return {StudyTab::kStart, "tab_start", tr_later("Start"), '0'}; }
+
 StartViewResult draw_start_view(Ui& ui, const StartModel& model, const EntriesOf& entries_of,
                                 StartViewState& state) {
   StartViewResult result;

@@ -64,8 +64,7 @@ StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& stud
   // The title keeps some room.
   constexpr float kLeastTitle = 150;
   const float name = ui.text_width("jnd", Font::kLarge) + 1 + 18;
-  header.chosen = draw_tabs(ui, strip, {kStudyTabs.begin(), kStudyTabs.end()}, current,
-                            name + kLeastTitle + 12);
+  header.chosen = draw_tabs(ui, strip, study_tabs(), current, name + kLeastTitle + 12);
   ui.text(strip.take_left(ui.text_width("jnd", Font::kLarge) + 1, 18), "jnd",
           {.font = Font::kLarge});
   strip.take_right(12);

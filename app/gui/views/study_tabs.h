@@ -1,31 +1,39 @@
 #pragma once
 
-#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/gui/ui.h"
-#include "app/language/words.h"
 #include "app/operator/study_folder.h"
 
 namespace jnd::app::gui {
 
-/// `kData` has no tab in the headers of studies: it is of none. Nor has `kOverview`, which is
-/// reached from the sessions.
-enum class StudyTab { kNone, kStart, kSessions, kResults, kStudy, kDevice, kData, kOverview };
+/// A screen that tabs and views ask for, by its name.
+struct StudyTab {
+  std::string_view screen;  ///< "" for none.
+  bool operator==(const StudyTab&) const = default;
 
+  static const StudyTab kNone, kStart, kSessions, kResults, kStudy, kDevice, kData, kOverview;
+};
+inline constexpr StudyTab StudyTab::kNone{""};
+inline constexpr StudyTab StudyTab::kStart{"start"};
+inline constexpr StudyTab StudyTab::kSessions{"sessions"};
+inline constexpr StudyTab StudyTab::kResults{"results"};
+inline constexpr StudyTab StudyTab::kStudy{"study"};
+inline constexpr StudyTab StudyTab::kDevice{"device"};
+inline constexpr StudyTab StudyTab::kData{"data"};
+inline constexpr StudyTab StudyTab::kOverview{"overview"};
+
+/// A tab in the headers of studies. The view that it leads to has it as a function
+/// `StudyTabLook tab_of_NAME()` in its own file, where the build finds it.
 struct StudyTabLook {
   StudyTab tab;
   const char *name, *label;
   char digit;  ///< Its key, with Ctrl.
 };
-/// From the right.
-inline constexpr std::array kStudyTabs = {
-    StudyTabLook{StudyTab::kDevice, "tab_device", tr_later("Device"), '4'},
-    StudyTabLook{StudyTab::kStudy, "tab_study", tr_later("Study"), '3'},
-    StudyTabLook{StudyTab::kResults, "tab_results", tr_later("Results"), '2'},
-    StudyTabLook{StudyTab::kSessions, "tab_sessions", tr_later("Sessions"), '1'},
-    StudyTabLook{StudyTab::kStart, "tab_start", tr_later("Start"), '0'}};
+/// Every tab, from the right: the larger digits first.
+[[nodiscard]] std::vector<StudyTabLook> study_tabs();
 
 /// At the right end of a header's strip, which it shortens; `kept` of it stays free. Where
 /// there is too little room, keys give way, then words are smaller. Returns the tab that was

@@ -215,6 +215,8 @@ void draw_folder_dialog(Ui& ui, StudyViewState& state, StudyViewResult& result) 
 
 }  // namespace
 
+StudyTabLook tab_of_study() { return {StudyTab::kStudy, "tab_study", tr_later("Study"), '3'}; }
+
 StudyViewResult draw_study_view(Ui& ui, const StudyViewModel& model, StudyViewState& state) {
   StudyViewResult result;
   Rect rest = ui.screen();

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <sstream>
 #include <string>
 
@@ -78,39 +77,27 @@ TEST_F(ManualPlaceTest, APageIsFoundByItsNameOrItsPath) {
   EXPECT_EQ(manual_page_named(pages, ""), "");
 }
 
-TEST(ViewPages, EachIsAPageOfTheSitesNavigation) {
-  const std::string navigation =
-      test_support::read_file(test_support::source_folder() / "docs/site/mkdocs.yml");
-  for (const ViewPage& row : view_pages()) {
-    EXPECT_TRUE(fs::exists(test_support::source_folder() / row.page)) << row.page;
-    EXPECT_NE(navigation.find(": " + std::string(row.page) + "\n"), std::string::npos)
-        << row.page;
-    EXPECT_EQ(manual_page_of_view(row.view), row.page);
-  }
-  EXPECT_EQ(manual_page_of_view("none"), kFirstManualPage);
-}
-
-// A screen that is added gets its page: the names stand in the headers of the screens.
-TEST(ViewPages, EveryScreenOfTheWindowHasOne) {
-  std::set<std::string> known;
-  for (const ViewPage& row : view_pages()) known.emplace(row.view);
+// Every screen has to name a page. The names stand in the sources of the screens.
+TEST(ScreenPages, EachIsAPageOfTheSitesNavigation) {
+  const fs::path root = test_support::source_folder();
+  const std::string navigation = test_support::read_file(root / "docs/site/mkdocs.yml");
+  const std::string kFunction = "manual_page() const noexcept override {";
   int num_screens = 0;
-  for (const auto& entry :
-       fs::directory_iterator(test_support::source_folder() / "app/gui/application")) {
-    if (!entry.path().filename().string().ends_with("_screen.h")) continue;
+  for (const auto& entry : fs::directory_iterator(root / "app/gui/application")) {
     const std::string text = test_support::read_file(entry.path());
-    std::size_t at = text.find("name() const noexcept override {");
-    ASSERT_NE(at, std::string::npos) << entry.path();
-    const std::size_t end = text.find('}', at);
+    std::size_t at = text.find(kFunction);
+    if (at == std::string::npos) continue;
     ++num_screens;
+    const std::size_t end = text.find('}', at);
     while ((at = text.find('"', at)) < end) {
       const std::size_t close = text.find('"', at + 1);
-      EXPECT_TRUE(known.contains(text.substr(at + 1, close - at - 1)))
-          << text.substr(at + 1, close - at - 1);
+      const std::string page = text.substr(at + 1, close - at - 1);
+      EXPECT_TRUE(fs::exists(root / page)) << entry.path() << ' ' << page;
+      EXPECT_NE(navigation.find(": " + page + "\n"), std::string::npos) << page;
       at = close + 1;
     }
   }
-  EXPECT_EQ(num_screens, 10);
+  EXPECT_GE(num_screens, 10);
 }
 
 }  // namespace manual_place_test

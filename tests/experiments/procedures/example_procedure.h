@@ -11,7 +11,8 @@ namespace jnd::experiments {
 class RoughThreshold final : public Procedure {
  public:
   std::string_view name() const noexcept override { return "rough_threshold"; }
-  std::string words() const override { return "rough threshold"; }
+  std::string title() const override { return core::for_people("Rough threshold"); }
+  std::string words() const override { return core::for_people("rough threshold"); }
   std::string meaning() const override {
     return "Stimuli from the weakest up, until two in a row are felt.";
   }

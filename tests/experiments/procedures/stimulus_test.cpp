@@ -32,14 +32,16 @@ TEST(Stimulus, TheMediaAreTheirLaws) {
 }
 
 TEST(Stimulus, BuoyancyAndFrictionComeOnTop) {
-  const core::MediumAmounts buoyant = amounts_of(
-      {.medium = "viscous", .quantity = "viscosity_pa_s", .intensity = 5.0, .buoyancy_n = 3.0});
+  const core::MediumAmounts buoyant = amounts_of({.medium = "viscous",
+                                                  .quantity = "viscosity_pa_s",
+                                                  .intensity = 5.0,
+                                                  .details = {{"buoyancy_n", 3.0}}});
   EXPECT_EQ(buoyant.buoyancy_n, 3.0);
   EXPECT_EQ(buoyant.damping_n_s_per_m, amounts_of("viscous", 5.0).damping_n_s_per_m);
   const core::MediumAmounts rough = amounts_of({.medium = "solid",
                                                 .quantity = "stiffness_n_per_m",
                                                 .intensity = 1000.0,
-                                                .friction_ratio = 0.4});
+                                                .details = {{"friction_ratio", 0.4}}});
   EXPECT_NEAR(rough.plane_friction_n_per_m, 400.0, 1e-9);
   EXPECT_EQ(amounts_of("solid", 1000.0).plane_friction_n_per_m, 0.0);
 }
@@ -48,9 +50,9 @@ TEST(Stimulus, OfABlockIsItsMediumOrFreeSpace) {
   Block block;
   block.medium = "viscous";
   block.quantity = "viscosity_pa_s";
-  block.buoyancy_n = 2.0;
+  block.details = {{"buoyancy_n", 2.0}};
   EXPECT_EQ(setting_of(block, "reference", 4.0).intensity, 4.0);
-  EXPECT_EQ(setting_of(block, "test", 4.0).buoyancy_n, 2.0);
+  EXPECT_EQ(setting_of(block, "test", 4.0).details, block.details);
   EXPECT_EQ(setting_of(block, "free_space", 4.0).medium, "free_space");
   EXPECT_EQ(amounts_of(setting_of(block, "free_space", 4.0)).buoyancy_n, 0.0);
 }

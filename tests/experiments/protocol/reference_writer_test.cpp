@@ -76,7 +76,7 @@ TEST(ReferenceWriter, HasAnExampleOfEveryStageKindAndProcedure) {
     }
     for (const std::string& name : procedure->allowed) {
       EXPECT_NE(section_of(name).find("\"procedure\": \"" + name + "\""), std::string::npos)
-          << name << ": add an example to experiments/protocol/block_examples.cpp";
+          << name << ": add one to its `examples()`";
     }
   }
 }

@@ -112,7 +112,7 @@ TEST(SchemaWriter, OffersEveryStageKindAndProcedureToBePutIn) {
   }
   for (const std::string& procedure : stage_table("block")->find("procedure")->allowed) {
     EXPECT_TRUE(labels.contains("block: " + procedure))
-        << procedure << ": add an example to experiments/protocol/block_examples.cpp";
+        << procedure << ": add one to its `examples()`";
   }
 }
 

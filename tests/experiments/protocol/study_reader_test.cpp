@@ -127,7 +127,7 @@ TEST(StudyReader, WithoutThemThereIsNoContainerAndNoForceMap) {
   const Study study = read_study_text(kSoundStudy, "x.json");
   EXPECT_EQ(study.device.wall_stiffness_n_per_m, 0.0);
   EXPECT_TRUE(study.device.force_map.empty());
-  EXPECT_EQ(std::get<Block>(study.stages[1].content).buoyancy_n, 0.0);
+  EXPECT_TRUE(std::get<Block>(study.stages[1].content).details.empty());
 }
 
 TEST(StudyReader, ReadsTheOtherFluidsAndTheirBuoyancy) {
@@ -140,7 +140,7 @@ TEST(StudyReader, ReadsTheOtherFluidsAndTheirBuoyancy) {
         std::get<Counterbalance>(study.stages[2].content).arms[1].stages[0].content);
     EXPECT_EQ(comparison.medium, medium);
     EXPECT_EQ(comparison.quantity, "viscosity_pa_s");
-    EXPECT_EQ(comparison.buoyancy_n, 3.5);
+    EXPECT_EQ(comparison.details, (MediumDetails{{"buoyancy_n", 3.5}}));
   }
   const Study study =
       read_study_text(broken("\"medium\": \"water\"", "\"medium\": \"water_map\""), "x.json");
