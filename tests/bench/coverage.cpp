@@ -1,6 +1,7 @@
 // What intervals and group values are worth: draws people whose Weber fractions are known,
 // analyses their answers, and counts how often the intervals hold the truth. `./dev coverage`
-// prints the page data/reference/coverage/README.md. The same seed gives the same page.
+// prints the page data/reference/coverage/tables.md; README.md beside it says what the tables
+// come to, so look at it where a number moves. The same seed gives the same page.
 
 #include <algorithm>
 #include <cmath>
@@ -185,8 +186,9 @@ int main(int argc, char** argv) {
   }
   if (wanted.empty()) {
     std::printf(
-        "# What the intervals cover\n\nWritten by `./dev coverage %d`; seed %d. People are "
-        "simulated, their Weber fractions known.\n",
+        "# What the intervals cover: the tables\n\nWritten by `./dev coverage %d`; seed %d. "
+        "People are simulated, their Weber fractions known.\n[README](README.md) says in "
+        "sentences what stands here.\n",
         num_sets, static_cast<int>(kSeed));
   }
   for (const auto& [name, write] : sections) {
