@@ -4,8 +4,8 @@
 #include <functional>
 #include <iterator>
 #include <map>
-#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "analysis/report/estimate_title.h"
 #include "analysis/report/report_contrasts.h"
@@ -13,6 +13,7 @@
 #include "analysis/results/number_words.h"
 #include "analysis/results/test_families.h"
 #include "analysis/words/said.h"
+#include "experiments/procedures/procedure_registry.h"
 
 namespace jnd::analysis {
 namespace {
@@ -303,14 +304,16 @@ ResultsSection primary_comparisons(const StudyResults& results) {
 }  // namespace
 
 std::string section_title(const StudyTitles& titles, const std::string& name) {
-  constexpr std::pair<std::string_view, const char*> kEndings[] = {
-      {"_staircase", said_later(": staircases")},
-      {"_limits", said_later(": method of limits")},
-      {"_quest_plus", said_later(": QUEST+")},
+  std::vector<std::pair<std::string, const char*>> endings = {
       {"_intervals", said_later(": order of the intervals")},
       {"_catch_trials", said_later(": catch trials")},
       {"_questions", said_later(": questions after each trial")}};
-  for (const auto& [ending, title] : kEndings) {
+  for (const experiments::Procedure* procedure : experiments::procedures()) {
+    const experiments::RuleWords words = procedure->rule_words();
+    if (*words.section == '\0') continue;
+    endings.emplace_back("_" + std::string(procedure->name()), words.section);
+  }
+  for (const auto& [ending, title] : endings) {
     if (titles.stages.contains(name) || !name.ends_with(ending)) continue;
     return section_title(titles, name.substr(0, name.size() - ending.size())) + said(title);
   }

@@ -199,7 +199,8 @@ void LimitsProcedure::run(const Block& block, const std::vector<LevelTrial>& tri
 }
 
 RuleWords LimitsProcedure::rule_words() const {
-  return {.tracks = core::for_people("Series of the method of limits"),
+  return {.section = core::for_people(": method of limits"),
+          .tracks = core::for_people("Series of the method of limits"),
           .caption = core::for_people(
               "A line is a series; the horizontal line is the mean of all transitions, whose "
               "value stands in the title"),

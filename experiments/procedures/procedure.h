@@ -59,6 +59,7 @@ enum class AdaptiveRule { kNone, kStaircase, kLimits, kQuestPlus, kOther };
 
 /// How results tell of such a rule, for people.
 struct RuleWords {
+  const char* section = "";        ///< Of results, after the block's title: ": staircases".
   const char* tracks = "";         ///< Heading of a chart of its trials: "Staircases".
   const char* caption = "";        ///< What is in it; a hole is the `rule` of the outcome.
   const char* heading = "";        ///< Of a paragraph of the report's methods.

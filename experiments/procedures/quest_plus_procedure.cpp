@@ -325,7 +325,8 @@ void QuestPlusProcedure::run(const Block& block, const std::vector<LevelTrial>& 
 }
 
 RuleWords QuestPlusProcedure::rule_words() const {
-  return {.tracks = core::for_people("Stimuli of QUEST+"),
+  return {.section = core::for_people(": QUEST+"),
+          .tracks = core::for_people("Stimuli of QUEST+"),
           .caption = core::for_people("In the title: mean of the posterior at the end"),
           .heading = core::for_people("QUEST+"),
           .method = core::for_people(

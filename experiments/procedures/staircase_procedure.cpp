@@ -298,7 +298,8 @@ void StaircaseProcedure::run(const Block& block, const std::vector<LevelTrial>& 
 }
 
 RuleWords StaircaseProcedure::rule_words() const {
-  return {.tracks = core::for_people("Staircases"),
+  return {.section = core::for_people(": staircases"),
+          .tracks = core::for_people("Staircases"),
           .caption = core::for_people(
               "A line is a staircase ({}), circles are its reversals; the horizontal line is "
               "the mean of the last reversals of all staircases, whose value stands in the "
