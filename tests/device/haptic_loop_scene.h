@@ -91,10 +91,17 @@ struct LoopScene {
         stop.press();
         run(10);
         (void)stop.release(stop.num_presses());
-        loop.rearm();
+        run(510);  // No sooner, see `core::kArmAfterRelease_s`.
+        arm();
         run(200);
         break;
     }
+  }
+
+  /// As somebody who has seen all that is latched.
+  void arm() {
+    published_telemetry.fetch();
+    loop.rearm(published_telemetry.value().num_faults);
   }
 
   core::Fault fault() {
