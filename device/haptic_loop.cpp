@@ -119,6 +119,11 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
   }
   point_authority_ratio_.fill(1.0);
   known_stop_presses_ = exchange.emergency_stop.num_presses();
+  // It may have been released just before there was this loop.
+  if (known_stop_presses_ > 0) {
+    since_release_s_ = 0.0;
+    waits_after_release_ = true;
+  }
   if (!parameters.starts_armed) {
     fault_ = Fault::kNotArmed;
     authority_ratio_ = 0.0;

@@ -71,8 +71,9 @@ void Oracle::stop_pressed() {
 }
 
 void Oracle::stop_released() {
+  // Where none was pressed there is nothing to wait for.
+  if (stop_is_pressed_) released_ms_ = now_ms_;
   stop_is_pressed_ = false;
-  released_ms_ = now_ms_;
 }
 
 void Oracle::window_beat() {

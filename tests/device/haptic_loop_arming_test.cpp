@@ -150,6 +150,22 @@ TEST_F(LoopArmingTest, TheClickThatReleasesTheStopDoesNotArm) {
   EXPECT_EQ(telemetry().arming, Arming::kArmed);
 }
 
+TEST_F(LoopArmingTest, ALoopThatBeginsAfterAReleaseWaitsAsWell) {
+  stop.press();
+  ASSERT_TRUE(stop.release(stop.num_presses()));
+  make_loop({});
+  arm();
+  run(10);
+  EXPECT_EQ(telemetry().arming, Arming::kDisarmed) << "asked for before its first tick";
+  arm();
+  run(10);
+  EXPECT_EQ(telemetry().arming, Arming::kDisarmed);
+  run(500);
+  arm();
+  run(600);
+  EXPECT_EQ(telemetry().arming, Arming::kArmed);
+}
+
 TEST_F(LoopArmingTest, AStopThatIsPressedAfterAnotherFaultIsTold) {
   arm();
   run(600);

@@ -133,7 +133,7 @@ TEST(HapticLoopProperty, AThousandStopsAtRandomPhasesCutTheForceInTheirOwnTick) 
     ASSERT_TRUE(scene.stop.release(scene.stop.num_presses()));
     scene.run(1);
     ASSERT_EQ(sum_of_magnitudes_n(scene.last_received()), 0.0) << "released is not armed";
-    scene.run(510);
+    scene.wait_to_arm();
     scene.arm();
     scene.run(1);
     ASSERT_LT(sum_of_magnitudes_n(scene.last_received()), 0.1) << "from zero";
