@@ -18,6 +18,8 @@ class Bench {
   virtual void home() = 0;
   /// Nothing moves the tool, whatever acts on it, until it is let go.
   virtual void clamp() = 0;
+  /// Whoever holds the tool is ready for its force, which grows from zero where it is held.
+  virtual void expect_force() {}
   /// The first contact point is at this place of the workspace, and is held there.
   virtual void touch(const Eigen::Vector3d& mark_m) = 0;
   /// Neither clamped nor held at a mark; the device holds it by its own force.

@@ -51,6 +51,11 @@ bool is_finite(const core::HapticState& state, bool has_joints, bool tells_force
          (state.channels.bits == 0 || core::is_sound(state.channels));
 }
 
+constexpr std::uint32_t bit_of(Fault fault) noexcept {
+  return std::uint32_t{1} << static_cast<unsigned>(fault);
+}
+static_assert(static_cast<unsigned>(core::kLastFault) < 32);
+
 bool spans_hand_plane(const DeviceCapabilities& device) noexcept {
   std::array<bool, kNumContactPoints> has{};
   for (int i = 0; i < kNumContactPoints; ++i) has[i] = device.has_point(i);
@@ -72,6 +77,7 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
                        parameters.rate_hz),
                  period_s_),
       heartbeat_(exchange.heartbeat, ticks(parameters.heartbeat_timeout_s, parameters.rate_hz)),
+      session_(exchange.session, ticks(parameters.session_timeout_s, parameters.rate_hz)),
       passivity_(parameters.passivity, period_s_),
       limiter_(within(parameters.limits, device.capabilities()), period_s_),
       shares_(device.capabilities().share_ratio),
@@ -100,6 +106,7 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
           std::max<std::int64_t>(1, ticks(parameters.flight_recorder_s, parameters.rate_hz)))) {
   core::require_positive(parameters.fade_speed_m_per_s, "fade_speed_m_per_s");
   core::require_positive(parameters.heartbeat_timeout_s, "heartbeat_timeout_s");
+  core::require_positive(parameters.session_timeout_s, "session_timeout_s");
   core::require_positive(parameters.fade_out_s, "fade_out_s");
   core::require_positive(parameters.guard_fade_s, "guard_fade_s");
   core::require_positive(parameters.rearm_s, "rearm_s");
@@ -112,6 +119,11 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
   }
   point_authority_ratio_.fill(1.0);
   known_stop_presses_ = exchange.emergency_stop.num_presses();
+  // It may have been released just before there was this loop.
+  if (known_stop_presses_ > 0) {
+    since_release_s_ = 0.0;
+    waits_after_release_ = true;
+  }
   if (!parameters.starts_armed) {
     fault_ = Fault::kNotArmed;
     authority_ratio_ = 0.0;
@@ -122,10 +134,11 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
 void HapticLoop::render() noexcept {
   // The stop comes first, before anything that could go wrong.
   obey_emergency_stop();
+  wait_after_release();
   rearm_if_requested();
   disarm_if_requested();  // After it: who asks for both gets no force.
   obey_watchdog();
-  if (heartbeat_.is_silent()) latch(Fault::kHeartbeatLost, parameters_.fade_out_s);
+  watch_heartbeats();
   advance_authority();
 
   const Fault found = read_device();
@@ -156,14 +169,33 @@ void HapticLoop::write_device() noexcept {
 /// Also one that was released again before anybody looked.
 void HapticLoop::obey_emergency_stop() noexcept {
   const std::uint64_t num_presses = exchange_.emergency_stop.num_presses();
+  // Every press is another one to be told of: whoever asked before it has to ask again, also
+  // where it is released already.
+  if (num_presses != known_stop_presses_) latched_bits_ &= ~bit_of(Fault::kEmergencyStop);
   if (num_presses != known_stop_presses_ || exchange_.emergency_stop.is_pressed()) {
     latch(Fault::kEmergencyStop);
-  }
-  // Asked for before it was pressed, if only just: refused, also where it is released already.
-  if (num_presses != known_stop_presses_) {
-    rearm_requested_.store(false, std::memory_order_relaxed);
+    saw_stop_ = true;
   }
   known_stop_presses_ = num_presses;
+}
+
+/// From the first tick on that sees it released.
+void HapticLoop::wait_after_release() noexcept {
+  if (exchange_.emergency_stop.is_pressed() || saw_stop_) {
+    saw_stop_ = exchange_.emergency_stop.is_pressed();
+    since_release_s_ = 0.0;
+  } else {
+    since_release_s_ += elapsed_s();
+  }
+  waits_after_release_.store(since_release_s_ < core::kArmAfterRelease_s,
+                             std::memory_order_release);
+}
+
+/// Whoever could press the stop, and whoever takes the medium away.
+void HapticLoop::watch_heartbeats() noexcept {
+  const double fading_s = parameters_.fade_out_s;
+  if (heartbeat_.is_silent(1 + num_missed_)) latch(Fault::kHeartbeatLost, fading_s);
+  if (session_.is_silent(1 + num_missed_)) latch(Fault::kHeartbeatLost, fading_s);
 }
 
 /// It has halted the device, or whoever ticks lost time: whatever was latched before, there is
@@ -193,10 +225,16 @@ void HapticLoop::latch(Fault fault, double fading_s) noexcept {
   // The first fault is the one to tell, but the fading of a lost heartbeat must not soften what
   // comes on top of it.
   if (fault_ == Fault::kNotArmed && is_of_no_matter_yet(fault)) return;
-  const bool gives_way = fault_ == Fault::kHeartbeatLost || fault_ == Fault::kNotArmed;
-  if (fault_ == Fault::kNone || (gives_way && fault != fault_)) {
-    fault_ = fault;
-    ++telemetry_.num_faults;
+  // A stop is told whatever came before it, for only who knows of it asks for its release.
+  const bool gives_way = fault_ == Fault::kHeartbeatLost || fault_ == Fault::kNotArmed ||
+                         fault == Fault::kEmergencyStop;
+  const bool is_told = fault_ == Fault::kNone || gives_way;
+  if (is_told) fault_ = fault;
+  // The others are counted, so that whoever arms acknowledges no fault that nobody has seen.
+  // But not what would be found again once there is force.
+  if (is_told || authority_ratio_ > 0.0 || !is_of_no_matter_yet(fault)) {
+    if ((latched_bits_ & bit_of(fault)) == 0) ++telemetry_.num_faults;
+    latched_bits_ |= bit_of(fault);
   }
   fading_s_ = std::min(fading_s_, fading_s);
   if (fading_s_ == 0.0) authority_ratio_ = 0.0;
@@ -210,7 +248,10 @@ void HapticLoop::latch_found(Fault fault) noexcept {
 void HapticLoop::disarm_if_requested() noexcept {
   if (!disarm_requested_.load(std::memory_order_relaxed)) return;
   disarm_requested_.store(false, std::memory_order_relaxed);
-  if (fault_ == Fault::kNone || fault_ == Fault::kHeartbeatLost) fault_ = Fault::kNotArmed;
+  if (fault_ == Fault::kNone || fault_ == Fault::kHeartbeatLost) {
+    fault_ = Fault::kNotArmed;
+    latched_bits_ = 0;
+  }
   authority_ratio_ = 0.0;
 }
 
@@ -221,12 +262,15 @@ core::Arming HapticLoop::arming() const noexcept {
 }
 
 void HapticLoop::rearm_if_requested() noexcept {
-  if (!rearm_requested_.load(std::memory_order_relaxed)) return;
-  rearm_requested_.store(false, std::memory_order_relaxed);
+  if (rearm_requested_.load(std::memory_order_relaxed) == 0) return;
+  const std::uint64_t requested = rearm_requested_.exchange(0, std::memory_order_relaxed);
   if (exchange_.emergency_stop.is_pressed() || fault_ == Fault::kNone) return;
+  // A fault has come since, and whoever asked did not know of it.
+  if (requested != telemetry_.num_faults + 1) return;
   // Asked for before anybody knew that the loop had stood still: refused.
   if (stands_still() && !stall_is_told_) return;
   fault_ = Fault::kNone;
+  latched_bits_ = 0;
   fading_s_ = std::numeric_limits<double>::infinity();
   authority_ratio_ = 0.0;
   if (!may_be_armed_) return latch(Fault::kActingForceUnknown);
@@ -238,6 +282,7 @@ void HapticLoop::rearm_if_requested() noexcept {
   guards_.reset();
   solids_.release();
   unseen_force_.reset();
+  since_new_s_ = 0.0;
   has_last_state_ = false;
   staleness_.reset();
   stalled_ = false;
@@ -254,10 +299,11 @@ void HapticLoop::advance_authority() noexcept {
     is_first_armed_tick_ = false;
     return;
   }
+  // It goes in the time that has passed, and comes back in ticks that ran: never faster.
   if (fault_ == Fault::kNone) {
     authority_ratio_ = std::min(1.0, authority_ratio_ + period_s_ / parameters_.rearm_s);
   } else {
-    authority_ratio_ = std::max(0.0, authority_ratio_ - period_s_ / fading_s_);
+    authority_ratio_ = std::max(0.0, authority_ratio_ - elapsed_s() / fading_s_);
   }
 }
 
@@ -285,8 +331,7 @@ Fault HapticLoop::read_device() noexcept {
     return Fault::kNonFiniteState;
   }
   if (watches_port_ && !acts_at_once_ &&
-      unseen_force_.observe(force_on_hand_n_, state_.acted_n,
-                            period_s_ * static_cast<double>(1 + num_missed_))) {
+      unseen_force_.observe(force_on_hand_n_, state_.acted_n, elapsed_s())) {
     return Fault::kActingForceUnknown;
   }
   Fault found = has_last_state_ ? check_against_last() : Fault::kNone;
@@ -298,7 +343,11 @@ Fault HapticLoop::read_device() noexcept {
     device_clock_.observe(state_.arrived_ns != 0 ? state_.arrived_ns : monotonic_ns_,
                           state_.device_time_ns);
   }
-  if (found == Fault::kNone && is_new) found = guards_.observe_stillness(state_, contact_);
+  since_new_s_ += elapsed_s();
+  if (found == Fault::kNone && is_new) {
+    found = guards_.observe_stillness(state_, contact_, since_new_s_);
+  }
+  if (is_new) since_new_s_ = 0.0;
   if (!state_.enabled) found = Fault::kNotEnabled;
   watch_attachment();
   attached_bits_ = 0;
@@ -376,15 +425,24 @@ void HapticLoop::take_command() noexcept {
     if (command_is_finite_) {
       ramp_.start(command.medium, command.ramp_s);
     }
-    guards_.medium_changed();
-    passivity_.grant_credit(surrounded_bits(command));
+    const bool goes_on = command.stimulus != 0 && command.stimulus == stimulus_;
+    stimulus_ = command.stimulus != 0 ? command.stimulus : command.sequence;
+    // A step of the same stimulus pays for nothing anew, nor does it make swings forgotten.
+    if (!goes_on) {
+      guards_.medium_changed();
+      granted_bits_ = 0;
+    }
+    const auto newly_bits =
+        static_cast<std::uint8_t>(surrounded_bits(command) & ~unsigned{granted_bits_});
+    passivity_.grant_credit(newly_bits);
+    granted_bits_ = static_cast<std::uint8_t>(granted_bits_ | newly_bits);
   }
   if (!command_is_finite_) latch(Fault::kNonFiniteForce);
 }
 
 void HapticLoop::compute_force() noexcept {
   const core::HapticCommand& command = exchange_.commands.value();
-  const core::MediumAmounts& medium = ramp_.advance(period_s_);
+  const core::MediumAmounts& medium = ramp_.advance(elapsed_s());
   motion_ =
       core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
   // Of a device without a hand plane the hand meets the fluid head on.
@@ -487,7 +545,7 @@ void HapticLoop::add_exposure() noexcept {
   double whole_n = 0.0;
   for (const Eigen::Vector3d& force_n : force_on_hand_n_) whole_n += force_n.norm();
   if (whole_n == 0.0) return;
-  const double duration_s = period_s_ * static_cast<double>(1 + num_missed_);
+  const double duration_s = elapsed_s();
   telemetry_.exposure.force_time_n_s += duration_s * whole_n;
   if (whole_n >= kFeltN) telemetry_.exposure.under_force_s += duration_s;
 }
@@ -548,6 +606,7 @@ void HapticLoop::report() noexcept {
   if (limited_) ++telemetry_.num_limited_ticks;
   telemetry_.contact_sums = device_.contact_sums();
   telemetry_.device_clock = device_clock_.drift();
+  telemetry_.arming_wait_s = std::max(0.0, core::kArmAfterRelease_s - since_release_s_);
   exchange_.telemetry.publish(telemetry_);
 }
 

@@ -50,11 +50,14 @@ class HapticLoop {
     core::ForceOscillation::Parameters oscillation;
     core::VelocityCheck::Parameters velocity_check;
     double heartbeat_timeout_s = 0.250;  ///< > 0.
-    double fade_out_s = 0.100;           ///< Force to zero after a lost heartbeat, > 0.
-    double guard_fade_s = 0.030;         ///< Force to zero after a guard's fault, > 0.
-    double warn_margin_m = 0.020;        ///< To the edge of the workspace, >= 0.
-    double rearm_s = 0.500;              ///< Force from zero back to full after a fault, > 0.
-    double reattach_s = 0.200;           ///< Force back on a point that is held again, > 0.
+    /// Of whoever leads the session, > 0: a disk may hold it up for so long. Within a second a
+    /// disk that is well commits whatever was being written.
+    double session_timeout_s = 1.0;
+    double fade_out_s = 0.100;     ///< Force to zero after a lost heartbeat, > 0.
+    double guard_fade_s = 0.030;   ///< Force to zero after a guard's fault, > 0.
+    double warn_margin_m = 0.020;  ///< To the edge of the workspace, >= 0.
+    double rearm_s = 0.500;        ///< Force from zero back to full after a fault, > 0.
+    double reattach_s = 0.200;     ///< Force back on a point that is held again, > 0.
     /// For how long the last measurement may stand in, >= 0; the device may ask for longer.
     double max_stale_s = 0.005;
     /// Left by an attached point, there is no force until the loop is armed again inside.
@@ -84,6 +87,9 @@ class HapticLoop {
     core::SpscQueue<core::Sample>* samples = nullptr;  ///< nullptr: nothing is recorded.
     const core::Heartbeat* heartbeat = nullptr;        ///< nullptr: a simulation needs none.
     core::WatchdogState* watchdog = nullptr;           ///< nullptr: nobody watches.
+    /// Of whoever leads the session, where that is another thread than the one that a person
+    /// talks to: if it hangs, nobody takes the medium away. nullptr: there is none.
+    const core::Heartbeat* session = nullptr;
   };
 
   /// Throws `core::Error` naming the field. The device is opened and closed by the caller. Not
@@ -110,11 +116,15 @@ class HapticLoop {
   /// Asks for the force, faded in from zero, for the first time or after a fault. Takes effect
   /// in the next tick, unless the emergency stop is still pressed. If the device may not be
   /// armed now, that is a fault anew: the request is refused, not kept, for nobody expects the
-  /// force minutes later. So it is while the emergency stop is pressed, and where it is pressed
-  /// before the tick. Any thread. Real time.
-  void rearm() noexcept {
+  /// force minutes later. So it is while the emergency stop is pressed, within
+  /// `core::kArmAfterRelease_s` after its release, and where it is pressed before the tick.
+  ///
+  /// `num_faults_seen`: `Telemetry::num_faults` as whoever asks has seen it. Of a fault that
+  /// has come since nobody knows yet, so it stays. Any thread. Real time.
+  void rearm(std::uint64_t num_faults_seen) noexcept {
     if (exchange_.emergency_stop.is_pressed()) return;
-    rearm_requested_.store(true, std::memory_order_release);
+    if (waits_after_release_.load(std::memory_order_acquire)) return;
+    rearm_requested_.store(num_faults_seen + 1, std::memory_order_release);
   }
 
   /// Of the next tick, by whoever drives the loop in real time: the monotonic clock now, and
@@ -165,6 +175,8 @@ class HapticLoop {
   void latch(core::Fault fault, double fading_s = 0.0) noexcept;
   void latch_found(core::Fault fault) noexcept;
   void obey_emergency_stop() noexcept;
+  void wait_after_release() noexcept;
+  void watch_heartbeats() noexcept;
   void obey_watchdog() noexcept;
   [[nodiscard]] bool stands_still() const noexcept;
   void rearm_if_requested() noexcept;
@@ -175,6 +187,10 @@ class HapticLoop {
   [[nodiscard]] core::Fault read_device() noexcept;
   [[nodiscard]] core::Fault check_against_last() noexcept;
   [[nodiscard]] double max_distance_m(double elapsed_s) const noexcept;
+  /// Since the tick before: ticks that were missed took their time, too.
+  [[nodiscard]] double elapsed_s() const noexcept {
+    return period_s_ * static_cast<double>(1 + num_missed_);
+  }
   [[nodiscard]] std::uint8_t surrounded_bits(const core::HapticCommand& command) const noexcept;
   void take_command() noexcept;
   void compute_force() noexcept;
@@ -198,6 +214,7 @@ class HapticLoop {
   std::int64_t num_missed_ = 0;  ///< Since the last tick.
   core::Staleness staleness_;
   core::HeartbeatMonitor heartbeat_;
+  core::HeartbeatMonitor session_;
   core::UnseenForce unseen_force_;
   core::PassivityController passivity_;
   core::ForceLimiter limiter_;
@@ -209,22 +226,29 @@ class HapticLoop {
   bool may_be_armed_;
   core::Guards guards_;
   core::FlightRecorder flight_recorder_;
-  std::atomic<bool> rearm_requested_{false};
+  std::atomic<std::uint64_t> rearm_requested_{0};  ///< Faults seen, and one; 0: nobody asks.
+  std::atomic<bool> waits_after_release_{false};
   std::atomic<bool> disarm_requested_{false};
   std::uint64_t known_stop_presses_ = 0;
+  bool saw_stop_ = false;  ///< Since it was seen to be released.
+  double since_release_s_ = std::numeric_limits<double>::infinity();
 
   core::Fault fault_ = core::Fault::kNone;
+  std::uint32_t latched_bits_ = 0;  ///< A bit a fault, since it was armed.
   /// Of the force, the shortest of all faults since it was armed.
   double fading_s_ = std::numeric_limits<double>::infinity();
   double authority_ratio_ = 1.0;
   std::array<double, core::kNumContactPoints> point_authority_ratio_;  ///< 0: not held.
   core::MediumRamp ramp_;
   bool command_is_finite_ = true;
+  std::uint64_t stimulus_ = 0;     ///< That the last command began, or went on with.
+  std::uint8_t granted_bits_ = 0;  ///< Points that got their credit in it.
   core::SolidSurfaces solids_;
   core::PointVectors solid_force_n_ = core::zero_vectors();
   core::HapticState state_;
   core::HapticState last_state_;
   bool has_last_state_ = false;
+  double since_new_s_ = 0.0;  ///< Since a measurement came that was new.
   std::uint8_t attached_bits_ = 0;
   std::uint8_t immersed_bits_ = 0;
   core::Guards::Contact contact_;

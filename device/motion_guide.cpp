@@ -33,7 +33,7 @@ void MotionGuide::take_order(const core::HapticState& state) noexcept {
   const bool was_held = orders_.value().is_on && orders_.value().stiffness_n_per_m > 0.0;
   if (!orders_.fetch()) return;
   num_ticks_ = 0;
-  if (!was_held || !has_reference_) {
+  if (!was_held || !has_reference_ || orders_.value().begins_here) {
     // From where it is, so that nothing jumps.
     reference_m_ = mean_m(state);
     for (std::size_t i = 0; i < shares_.size(); ++i) {

@@ -43,6 +43,9 @@ class MotionGuide final : public Guide {
     double sweep_n = 0.0;
     int sweep_ticks = 128;  ///< Of one sweep, a multiple of 4.
     int sweep_point = 0, sweep_axis = 0;
+    /// Where the device is when the order is taken, the way begins, also if it was held
+    /// elsewhere before: of one that somebody has moved meanwhile.
+    bool begins_here = false;
     bool is_on = false;  ///< No force of the guide at all.
   };
 

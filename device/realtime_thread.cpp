@@ -12,6 +12,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/require.h"
+#include "device/sleep_watch.h"
 
 namespace jnd::device {
 namespace {
@@ -25,14 +26,6 @@ std::int64_t time_ns(clockid_t clock) noexcept {
 }
 
 std::int64_t monotonic_ns() noexcept { return time_ns(CLOCK_MONOTONIC); }
-std::int64_t boottime_ns() noexcept { return time_ns(CLOCK_BOOTTIME); }
-
-/// For how long the machine has slept since it was started, at the least: the monotonic clock
-/// is read last, so that being held up in between makes it less.
-std::int64_t slept_ns(std::int64_t (*boottime)() noexcept) noexcept {
-  const std::int64_t boottime_ns = boottime();
-  return boottime_ns - monotonic_ns();
-}
 
 void sleep_until(std::int64_t until_ns) noexcept {
   const timespec until{.tv_sec = static_cast<time_t>(until_ns / kNsPerS),
@@ -137,10 +130,7 @@ void RealtimeThread::run() noexcept {
   const std::int64_t max_stall_ns = parameters_.max_stall_s > 0.0
                                         ? std::llround(1e9 * parameters_.max_stall_s)
                                         : std::numeric_limits<std::int64_t>::max();
-  constexpr std::int64_t kSleepNs = 1'000'000;  // Far above what two readings are apart.
-  const auto boottime =
-      parameters_.boottime_ns != nullptr ? parameters_.boottime_ns : boottime_ns;
-  std::int64_t known_sleep_ns = slept_ns(boottime);
+  SleepWatch sleep(parameters_.boottime_ns);
   AdaptiveSpin spin(std::llround(1e9 * parameters_.max_spin_s), period_ns);
   std::int64_t due_ns = monotonic_ns() + period_ns;
   std::int64_t num_missed = 0;  // Before the next tick.
@@ -150,9 +140,7 @@ void RealtimeThread::run() noexcept {
             ? wait_for_device(due_ns, period_ns)
             : TickBegin{.due_ns = due_ns, .started_ns = wait_until_due(due_ns, spin)};
     const std::int64_t started_ns = begin.started_ns;
-    const std::int64_t sleep_ns = slept_ns(boottime);
-    if (sleep_ns - known_sleep_ns > kSleepNs) loop_->suspended();
-    known_sleep_ns = std::max(known_sleep_ns, sleep_ns);
+    if (sleep.has_slept()) loop_->suspended();
     if (started_ns - due_ns >= max_stall_ns) loop_->stalled();
     // Woken up too late by whole periods: this is the tick of now, and those never ran.
     const std::int64_t num_overslept =

@@ -13,12 +13,14 @@
 #include "app/command_line/option_checks.h"
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
+#include "app/commands/release_stop_option.h"
 #include "app/commissioning/asked_bench.h"
 #include "app/commissioning/commissioned_profile.h"
 #include "app/commissioning/commissioning.h"
 #include "app/commissioning/commissioning_json.h"
 #include "app/commissioning/commissioning_report.h"
 #include "app/commissioning/daily_check.h"
+#include "app/operator/remembered_stop.h"
 #include "app/profile/known_profile.h"
 #include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
@@ -45,6 +47,7 @@ struct CommissionOptions {
   std::uint64_t seed = 1;
   std::string operator_name;
   bool allow_no_realtime = false;
+  bool releases_stop = false;
   bool daily = false;
   bool json = false;
 };
@@ -199,6 +202,9 @@ int run_commission(const CommissionOptions& options) {
         "--json: expected a simulated device, for a real one asks what to do, found " +
         options.device);
   }
+  if (!device->capabilities().simulated) {
+    require_stop_released(stops_folder(), options.device, options.releases_stop);
+  }
   AskedBench asked(ask_in_terminal);
   device::Bench* bench = device->bench() != nullptr ? device->bench() : &asked;
   if (options.daily) return run_daily(options, plan, *device, *bench);
@@ -312,6 +318,7 @@ void add_commission(CLI::App& program, Invocation& invocation) {
                       "Who measures, for the record and the report");
   command->add_flag("--allow-no-realtime", options->allow_no_realtime,
                     "A real device also without real-time priority");
+  add_release_stop_option(*command, options->releases_stop);
   command->add_flag("--json", options->json, "Print one JSON document");
   command->callback([&invocation, options] {
     invocation.run = [options] { return run_commission(*options); };

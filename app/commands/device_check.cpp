@@ -8,7 +8,10 @@
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
+#include "app/command_line/stop_signals.h"
 #include "app/command_line/usage_message.h"
+#include "app/commands/release_stop_option.h"
+#include "app/operator/remembered_stop.h"
 #include "app/session/device_checks.h"
 #include "core/error.h"
 #include "device/check/driver_check.h"
@@ -29,6 +32,7 @@ struct DeviceCheckOptions {
   std::string device;
   double rate_hz = 1000.0;
   bool with_force = false;
+  bool releases_stop = false;
   bool json = false;
 };
 
@@ -106,6 +110,9 @@ int check_network(const DeviceCheckOptions& options, Outcomes& outcomes) {
         "none; write HOST:PORT,key=NAME");
   }
   const bool believes_simulated = network.is_simulated.value_or(false);
+  if (options.with_force && !believes_simulated) {
+    require_stop_released(stops_folder(), options.device, options.releases_stop);
+  }
   const bool is_kept = device::check_network_device(
       {.open_port = [&] { return device::UdpPort::connected_to(server); },
        .server = server,
@@ -135,9 +142,13 @@ int check_local(const DeviceCheckOptions& options, const device::RealtimeReport&
   } catch (const core::Error& error) {
     throw EnvironmentError(error.what());
   }
-  const bool is_kept =
-      device::check_driver(*device, {.pushes = options.with_force},
-                           [&](const RuleOutcome& outcome) { outcomes.add(outcome); });
+  if (options.with_force && !device->capabilities().simulated) {
+    require_stop_released(stops_folder(), options.device, options.releases_stop);
+  }
+  stop_on_signals();
+  const bool is_kept = device::check_driver(
+      *device, {.pushes = options.with_force, .is_cancelled = stop_requested},
+      [&](const RuleOutcome& outcome) { outcomes.add(outcome); });
   outcomes.end(options.device, !device->capabilities().simulated);
   return is_kept ? kDone : kHasProblems;
 }
@@ -174,6 +185,7 @@ void add_device_check(CLI::App& program, Invocation& invocation) {
   command
       ->add_option("--rate-hz", options->rate_hz, "Ticks a second of a plug-in (default 1000)")
       ->check(number_between(10.0, 10'000.0));
+  add_release_stop_option(*command, options->releases_stop);
   command->add_flag("--json", options->json, "Print one JSON document");
   command->callback([options, &invocation] {
     invocation.run = [options] { return run_device_check(*options); };

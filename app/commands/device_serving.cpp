@@ -18,6 +18,8 @@
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/command_line/stop_signals.h"
+#include "app/commands/release_stop_option.h"
+#include "app/operator/remembered_stop.h"
 #include "app/session/device_checks.h"
 #include "core/error.h"
 #include "device/network/device_key.h"
@@ -26,6 +28,7 @@
 #include "device/realtime_report.h"
 #include "device/realtime_thread.h"
 #include "device/registry/device_registry.h"
+#include "device/sleep_watch.h"
 
 namespace jnd::app {
 namespace {
@@ -69,6 +72,7 @@ std::int64_t serve(device::DeviceServer& server, device::UdpPort& port,
   std::int64_t num_missed = 0;
   std::int64_t due_ns = start_ns;
   Renewal renewal;
+  device::SleepWatch sleep;
   while (due_ns < end_ns && !stop_requested()) {
     const timespec due{.tv_sec = static_cast<time_t>(due_ns / kNsPerS),
                        .tv_nsec = static_cast<long>(due_ns % kNsPerS)};
@@ -76,6 +80,7 @@ std::int64_t serve(device::DeviceServer& server, device::UdpPort& port,
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) != 0 &&
            !stop_requested()) {
     }
+    if (sleep.has_slept()) server.suspended();
     server.step(port.now_ns());
     renewal.look(server, port.now_ns());
     due_ns += period_ns;
@@ -182,6 +187,8 @@ device::DeviceServer::Parameters parameters_for(bool is_simulated,
 int serve_device(const DeviceServing& options) {
   const std::unique_ptr<device::HapticDevice> device = served_device(options);
   const bool is_simulated = device->capabilities().simulated;
+  if (!is_simulated)
+    require_stop_released(stops_folder(), options.device, options.releases_stop);
   stop_on_signals();
   device::RealtimeReport report;
   device::obtain_scheduler(80, report);
@@ -230,6 +237,7 @@ void add_serving_options(CLI::App& command, DeviceServing& options) {
       ->check(number_between(10.0, 10'000.0));
   command.add_option("--seconds", options.seconds, "How long; default: until it is stopped")
       ->check(number_between(0.001, 31'536'000.0));
+  if (!options.is_simulator) add_release_stop_option(command, options.releases_stop);
   command.add_flag("--json", options.json,
                    "Print one JSON document at the end; the address goes to stderr");
 }

@@ -17,6 +17,7 @@ struct DeviceServing {
   std::vector<std::string> allow;  ///< Hosts; none: any.
   double rate_hz = 1000.0;
   double seconds = 0.0;  ///< 0: until it is told to stop.
+  bool releases_stop = false;
   bool json = false;
 };
 

@@ -20,8 +20,10 @@
 #include "app/commands/fitting_option.h"
 #include "app/commands/marker_options.h"
 #include "app/commands/profile_option.h"
+#include "app/commands/release_stop_option.h"
 #include "app/commands/sound_option.h"
 #include "app/commands/stream_options.h"
+#include "app/operator/remembered_stop.h"
 #include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
 #include "app/session/laboratory_run.h"
@@ -50,6 +52,7 @@ struct RunOptions {
   bool allow_no_realtime = false;
   bool headless = false;
   bool arm = false;
+  bool releases_stop = false;
   bool shadow_guards = false;
   std::string laboratory;  ///< "": of `run` the default of the device, of `resume` as it was.
   bool realtime = false;
@@ -245,9 +248,10 @@ void warn_of_lookalike(const core::StudyStore& store, const std::string& partici
                participant.c_str(), like.c_str());
 }
 
-/// Nothing arms a real device but somebody who says so.
+/// Nothing arms a real device but somebody who says so, and nobody does whose stop is pressed.
 void require_arming(const RunOptions& options, const std::string& device, double rate_hz) {
-  if (options.arm || device::make_device(device, rate_hz)->capabilities().simulated) return;
+  if (device::make_device(device, rate_hz)->capabilities().simulated) return;
+  if (options.arm) return require_stop_released(stops_folder(), device, options.releases_stop);
   throw UsageError(
       "--device " + device +
       ": expected --arm for a device that can hurt somebody, found none; it starts "
@@ -446,6 +450,7 @@ void add_headless_options(CLI::App& command, RunOptions& options) {
                                            "Without a window, participant simulated");
   command.add_flag("--arm", options.arm,
                    "With --headless: a real device may give force, and somebody is beside it");
+  add_release_stop_option(command, options.releases_stop);
   command
       .add_flag("--shadow-guards", options.shadow_guards,
                 "With --headless: guards of the loop only count what they would have done; "

@@ -18,6 +18,13 @@ void AskedBench::clamp() {
   is_held_ = true;
 }
 
+void AskedBench::expect_force() {
+  if (!is_held_) return;
+  ask_(
+      "Go on holding the tool where it is, fingers clear of its links: the device will "
+      "hold it, too, by a force that grows from nothing within half a second.");
+}
+
 void AskedBench::touch(const Eigen::Vector3d& mark_m) {
   ask_(fmt::format(
       "Bring the first contact point to the mark at x {:.0f}, y {:.0f}, z {:.0f} mm, "

@@ -19,6 +19,7 @@ class AskedBench final : public device::Bench {
   void take_hand_out() override;
   void home() override;
   void clamp() override;
+  void expect_force() override;
   void touch(const Eigen::Vector3d& mark_m) override;
   void let_go() override;
   void let_go_without_force() override;

@@ -1,6 +1,10 @@
 #include "app/commissioning/device_on_bench.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
+
+#include "core/error.h"
 
 namespace jnd::app {
 
@@ -50,10 +54,31 @@ Eigen::Vector3d DeviceOnBench::place_m() {
   return last_m;
 }
 
-void DeviceOnBench::hold(GuideOrder order) {
-  run_.arm();
-  order.to_m = plain_of(place_m());
+/// Somebody holds it and may have moved it since it was held last: it is held from where it is
+/// now, and whatever pulls it from there ends.
+void DeviceOnBench::take_over(GuideOrder order) {
+  // Where the softest hold comes to 0.5 N, with which `jnd device-check` pushes a real device.
+  constexpr double kGentle_n = 0.5;
+  constexpr double kMostYield_m = kGentle_n / kSoftHold.stiffness_n_per_m;
+  run_.while_asking([this] { bench_.expect_force(); });
+  const Eigen::Vector3d held_m = place_m();
+  order.to_m = plain_of(held_m);
+  order.begins_here = true;
   run_.order(order);
+  run_.arm([&](const core::Sample& sample) {
+    const double yield_m = (hand_m(sample, can_) - held_m).norm();
+    if (yield_m <= kMostYield_m) return;
+    run_.disarm();
+    throw core::Error(fmt::format(
+        "device: expected the tool to stay where somebody holds it while the force grows, "
+        "found that it moved by {:.0f} mm, and there is no force any more; hold it firmly, or "
+        "let it rest on something, then measure this step again",
+        1e3 * yield_m));
+  });
+}
+
+void DeviceOnBench::hold(GuideOrder order) {
+  take_over(order);
   run_.run_for(0.2);
   run_.while_asking([this] { bench_.let_go(); });
   run_.run_for(1.0);
@@ -62,6 +87,7 @@ void DeviceOnBench::hold(GuideOrder order) {
 void DeviceOnBench::act(const std::function<void()>& act) {
   run_.while_asking([this] { bench_.clamp(); });
   run_.without_force(act);
+  take_over(run_.ordered());
   run_.while_asking([this] { bench_.let_go(); });
   run_.run_for(1.0);
 }

@@ -41,10 +41,11 @@ class DeviceOnBench {
 
   [[nodiscard]] Eigen::Vector3d place_m();
 
-  /// Holds it where it is by its own force, and is then let go.
+  /// Holds it where it is by its own force, which grows while somebody holds it who has been
+  /// told, and is then let go. Throws `core::Error` where that force moves it.
   void hold(GuideOrder order);
 
-  /// Somebody does this at it: it is held meanwhile and has no force.
+  /// Somebody does this at it: it is held meanwhile and has no force. Then as `hold`.
   void act(const std::function<void()>& act);
 
   /// Goes there and waits until it is there.
@@ -55,6 +56,8 @@ class DeviceOnBench {
   void come_to_rest(const std::function<void(const core::Sample&)>& take = {});
 
  private:
+  void take_over(GuideOrder order);
+
   device::Bench& bench_;
   device::DeviceCapabilities can_;
   GuidedRun run_;

@@ -125,6 +125,7 @@ struct GuidedRun::Implementation {
   core::WatchdogState watched;
   core::SpscQueue<core::Sample> samples{kSampleCapacity};
   device::MotionGuide guide;
+  device::MotionGuide::Order ordered;
   device::HapticLoop loop;
   std::optional<device::WatchedLoop> running;
 };
@@ -134,16 +135,16 @@ GuidedRun::GuidedRun(device::HapticDevice& device, const Parameters& parameters)
 
 GuidedRun::~GuidedRun() = default;
 
-void GuidedRun::arm() {
+void GuidedRun::arm(const std::function<void(const core::Sample&)>& take) {
   Implementation& my = *implementation_;
   if (my.fault() == core::Fault::kNone && my.telemetry.value().num_ticks > 0) return;
   constexpr int kAttempts = 50;
   core::Fault found = core::Fault::kNone;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    my.loop.rearm();
-    found = my.run(0.1, {});
+    my.loop.rearm(my.telemetry.value().num_faults);
+    found = my.run(0.1, take);
     if (found == core::Fault::kNone) {
-      (void)my.run(1.0, {});
+      (void)my.run(1.0, take);
       return;
     }
     if (found != core::Fault::kNotArmed && found != core::Fault::kLinkLost) break;
@@ -168,11 +169,17 @@ void GuidedRun::without_force(const std::function<void()>& act) {
   implementation_->loop.disarm();
   (void)implementation_->run(0.02, {});
   while_asking(act);
-  arm();
 }
 
+void GuidedRun::disarm() noexcept { implementation_->loop.disarm(); }
+
 void GuidedRun::order(const device::MotionGuide::Order& order) {
+  implementation_->ordered = order;
   implementation_->guide.order(order);
+}
+
+const device::MotionGuide::Order& GuidedRun::ordered() const noexcept {
+  return implementation_->ordered;
 }
 
 void GuidedRun::render(const core::MediumAmounts& medium, double surface_z_m) {

@@ -44,17 +44,22 @@ class GuidedRun {
   GuidedRun(const GuidedRun&) = delete;
   GuidedRun& operator=(const GuidedRun&) = delete;
 
-  /// Force from zero over half a second. Throws `core::Error` saying what it is that the device
-  /// is not armed for.
-  void arm();
+  /// Force from zero over half a second. `take` gets each sample until it has grown, and may
+  /// throw, after `disarm`. Throws `core::Error` saying what it is that the device is not armed
+  /// for.
+  void arm(const std::function<void(const core::Sample&)>& take = {});
+  /// No force from the next tick on.
+  void disarm() noexcept;
   /// While somebody does this at the device, however long it takes: a thread gives the sign of
   /// life, and presses the emergency stop when the program is asked to stop. The force stays as
   /// it is.
   void while_asking(const std::function<void()>& act);
-  /// The same without force; then `arm`.
+  /// The same without force, of which there is none before `arm`.
   void without_force(const std::function<void()>& act);
 
   void order(const device::MotionGuide::Order& order);
+  /// The last one.
+  [[nodiscard]] const device::MotionGuide::Order& ordered() const noexcept;
   /// The loop renders this medium besides, at once; its surface lies at this height of the
   /// device's own frame. A medium without amounts: none.
   void render(const core::MediumAmounts& medium, double surface_z_m);

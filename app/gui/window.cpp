@@ -169,6 +169,12 @@ void Window::close() noexcept { my_->is_closed = true; }
 
 bool Window::close_requested() noexcept { return std::exchange(my_->close_is_wanted, false); }
 
+/// On X11 a window that another desktop hides is not visible either.
+bool Window::is_in_sight() const noexcept {
+  return my_->main != nullptr && glfwGetWindowAttrib(my_->main, GLFW_ICONIFIED) == GLFW_FALSE &&
+         glfwGetWindowAttrib(my_->main, GLFW_VISIBLE) == GLFW_TRUE;
+}
+
 void Window::wake() noexcept {
   my_->is_woken = true;
   glfwPostEmptyEvent();

@@ -50,6 +50,8 @@ class Window {
   void close() noexcept;
   /// Once for each time the person wanted to close it; the application asks, and calls `close`.
   [[nodiscard]] bool close_requested() noexcept;
+  /// Neither minimised nor hidden, as far as the system says so; Wayland does not.
+  [[nodiscard]] bool is_in_sight() const noexcept;
 
   /// From any thread: there is something new to draw.
   void wake() noexcept;

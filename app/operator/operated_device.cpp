@@ -13,6 +13,7 @@
 #include "app/commissioning/guided_run.h"
 #include "app/language/words.h"
 #include "app/operator/device_look.h"
+#include "app/operator/remembered_stop.h"
 #include "app/profile/profile_choice.h"
 #include "core/error.h"
 #include "device/registry/device_registry.h"
@@ -91,6 +92,13 @@ class OperatedDevice::WindowBench final : public device::Bench {
     is_held_ = true;
     if (simulated_ != nullptr) simulated_->clamp();
   }
+  void expect_force() override {
+    if (!is_held_) return;
+    of_.ask({.act = Act::kHold,
+             .words = tr("Go on holding the tool where it is, fingers clear of its links: the "
+                         "device will hold it, too, by a force that grows from nothing within "
+                         "half a second.")});
+  }
   void home() override {
     of_.ask(
         {.act = Act::kHome,
@@ -142,8 +150,9 @@ class OperatedDevice::WindowBench final : public device::Bench {
   int num_touched_ = 0;
 };
 
-OperatedDevice::OperatedDevice(std::function<void()> wake, bool allow_no_realtime)
-    : wake_(std::move(wake)), allow_no_realtime_(allow_no_realtime) {}
+OperatedDevice::OperatedDevice(std::function<void()> wake, bool allow_no_realtime,
+                               std::filesystem::path stops)
+    : wake_(std::move(wake)), allow_no_realtime_(allow_no_realtime), stops_(std::move(stops)) {}
 
 OperatedDevice::~OperatedDevice() {
   leave_off();
@@ -212,6 +221,7 @@ void OperatedDevice::choose(const std::string& device, const std::string& profil
   if (works()) return;
   device_ = device;
   profile_ = profile;
+  if (is_stop_remembered(stops_, device_)) emergency_stop_.press();
   {
     const std::lock_guard lock(mutex_);
     if (view_.name != device) view_ = {.name = device};
@@ -421,11 +431,13 @@ void OperatedDevice::press_stop() noexcept {
   // Whoever waits for an answer looks again. The lock orders this behind its look.
   { const std::lock_guard lock(mutex_); }
   answered_.notify_all();
+  // Last: the disk may take its time.
+  remember_stop(stops_, device_);
 }
 
 void OperatedDevice::release_stop() noexcept {
   if (works()) return;
-  (void)emergency_stop_.release(emergency_stop_.num_presses());
+  if (emergency_stop_.release(emergency_stop_.num_presses())) forget_stop(stops_, device_);
 }
 
 DeviceView OperatedDevice::view() {

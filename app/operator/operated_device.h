@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -22,7 +23,10 @@ namespace jnd::app {
 class OperatedDevice {
  public:
   /// `wake`: draws a frame; called from any thread.
-  explicit OperatedDevice(std::function<void()> wake, bool allow_no_realtime = false);
+  /// `stops`: where stops are remembered that nobody released; "": nowhere. See
+  /// `remember_stop`.
+  explicit OperatedDevice(std::function<void()> wake, bool allow_no_realtime = false,
+                          std::filesystem::path stops = {});
   /// Takes the force from the device and waits until it is let go.
   ~OperatedDevice();
   OperatedDevice(const OperatedDevice&) = delete;
@@ -51,8 +55,11 @@ class OperatedDevice {
   /// Any thread.
   void press_stop() noexcept;
   void release_stop() noexcept;
-  /// The window is alive. Without it the force of a real device fades. Any thread.
-  void beat() noexcept { watcher_.beat(); }
+  /// The window is alive, and its stop in sight. Without that the force of a real device fades.
+  /// Any thread.
+  void beat(bool is_in_sight = true) noexcept {
+    if (is_in_sight) watcher_.beat();
+  }
 
   /// A device may move, or waits for an answer.
   [[nodiscard]] bool is_live() const noexcept;
@@ -72,6 +79,7 @@ class OperatedDevice {
 
   std::function<void()> wake_;
   bool allow_no_realtime_;
+  std::filesystem::path stops_;
   bool rehearses_ = false;
   std::string device_, profile_;
   core::EmergencyStop emergency_stop_;

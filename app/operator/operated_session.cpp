@@ -253,8 +253,13 @@ void OperatedSession::give_up(const std::string& why) {
   }
 }
 
-void OperatedSession::remember_stop() const {
-  jnd::app::remember_stop(parameters_.stops, row_.device);
+/// Whatever else is wrong, and whatever the loop tells: nothing hides a stop.
+void OperatedSession::remember_new_stop() {
+  const core::EmergencyStop& stop = parameters_.exchange.emergency_stop;
+  const std::uint64_t num_presses = stop.num_presses();
+  if (num_presses == known_stop_presses_ || !stop.is_pressed()) return;
+  known_stop_presses_ = num_presses;
+  remember_stop(parameters_.stops, row_.device);
 }
 
 void OperatedSession::forget_stop() const {

@@ -120,7 +120,7 @@ class OperatedSession {
   [[nodiscard]] std::optional<DoubtView> doubt_view() const;
   [[nodiscard]] std::string note_of_doubt(const char* outcome) const;
   void give_up(const std::string& why);
-  void remember_stop() const;
+  void remember_new_stop();
   void forget_stop() const;
   void move_simulated_hand(double height_m);
 
@@ -186,8 +186,9 @@ class OperatedSession {
   bool begun_ = false;
   bool left_ = false;
   core::Fault known_fault_ = core::Fault::kNone;
-  std::uint64_t known_num_faults_ = 0;  ///< When `rearm` was asked for.
-  int num_own_faults_ = 0;              ///< That ended a force, of the device or this machine.
+  std::uint64_t known_stop_presses_ = 0;  ///< As far as they are remembered.
+  std::uint64_t known_num_faults_ = 0;    ///< When `rearm` was asked for.
+  int num_own_faults_ = 0;  ///< That ended a force, of the device or this machine.
   bool rearming_ = false;
   bool was_paused_before_fault_ = false;
   AttachmentWatch attachment_;

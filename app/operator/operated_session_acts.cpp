@@ -298,7 +298,7 @@ struct OperatedSession::Act {
     }
   }
 
-  void operator()(const operate::Rearm&) const {
+  void operator()(const operate::Rearm& rearm) const {
     if (my.known_fault_ == core::Fault::kNone) refuse(tr("there is nothing to arm"));
     if (my.parameters_.exchange.emergency_stop.is_pressed()) {
       refuse(tr("the emergency stop is pressed: release it first"));
@@ -308,8 +308,15 @@ struct OperatedSession::Act {
           tr("three faults of the device or this machine in one sitting are enough: leave the "
              "session, find out why, and resume it"));
     }
-    my.known_num_faults_ = my.running_.apparatus().telemetry().num_faults;
-    my.running_.apparatus().rearm();
+    const core::Telemetry now = my.running_.apparatus().telemetry();
+    if (now.arming_wait_s > 0.0) {
+      refuse(tr("the emergency stop was released just now: wait half a second, then arm"));
+    }
+    if (rearm.num_faults_seen != now.num_faults) {
+      refuse(tr("another fault has come meanwhile: look at it, then arm again"));
+    }
+    my.known_num_faults_ = now.num_faults;
+    my.running_.apparatus().rearm(now.num_faults);
     my.rearming_ = true;
   }
 

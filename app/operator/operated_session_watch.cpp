@@ -11,6 +11,7 @@ namespace jnd::app {
 using experiments::CueMoment;
 
 void OperatedSession::watch_apparatus() {
+  remember_new_stop();
   watch_for_faults();
   if (begun_ && !state().ended && failure_.empty()) {
     running_.keep_arming(as_is("armed by the experimenter"));
@@ -42,7 +43,6 @@ void OperatedSession::watch_for_faults() {
   known_fault_ = now.fault;
   rearming_ = false;
   abandon_presentation();
-  if (now.fault == core::Fault::kEmergencyStop) remember_stop();
   if (!begun_ || state().ended || !core::is_failure(now.fault)) return;
   running_.keep_fault();
   if (const auto trial = state().current_trial(); trial && state().trial(*trial).under_way) {

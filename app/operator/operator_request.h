@@ -121,7 +121,11 @@ struct ReleaseStop {
   std::uint64_t num_stop_presses = 0;
 };
 /// At first, and after a fault or a stop that was released: force, and the trial is run again.
-struct Rearm {};
+/// Nothing of it if another fault has come since `num_faults_seen`, of `Telemetry::num_faults`,
+/// was seen, nor within half a second after the stop was released.
+struct Rearm {
+  std::uint64_t num_faults_seen = 0;
+};
 /// For good: not resumable.
 struct EndEarly {
   std::string reason;

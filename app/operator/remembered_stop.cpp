@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "app/operator/recent_studies.h"
+#include "core/error.h"
 
 namespace jnd::app {
 namespace {
@@ -56,6 +57,15 @@ void forget_stop(const fs::path& folder, const std::string& device) {
 bool is_stop_remembered(const fs::path& folder, const std::string& device) {
   std::error_code ignored;
   return !folder.empty() && fs::exists(file_for(folder, device), ignored);
+}
+
+void require_stop_released(const fs::path& folder, const std::string& device, bool releases) {
+  if (releases) forget_stop(folder, device);
+  if (!is_stop_remembered(folder, device)) return;
+  throw core::Error(device +
+                    ": expected its emergency stop to be released, found that it was pressed "
+                    "in an earlier run and nobody has released it; see to the reason, then "
+                    "release it in the window or add --release-stop");
 }
 
 fs::path stops_folder() {

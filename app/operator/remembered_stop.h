@@ -14,6 +14,11 @@ void forget_stop(const std::filesystem::path& folder, const std::string& device)
 [[nodiscard]] bool is_stop_remembered(const std::filesystem::path& folder,
                                       const std::string& device);
 
+/// Of a real device that a command is about to arm without a window: throws `core::Error` while
+/// a stop of it is remembered. Where somebody `releases` it, it is forgotten.
+void require_stop_released(const std::filesystem::path& folder, const std::string& device,
+                           bool releases);
+
 /// The user's folder for it: in XDG_STATE_HOME, else ~/.local/state; "" if there is no home.
 [[nodiscard]] std::filesystem::path stops_folder();
 

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/command_line/stop_signals.h"
 #include "app/session/movement_meter.h"
 #include "app/session/sleep_inhibitor.h"
 #include "core/error.h"
@@ -90,6 +91,7 @@ device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& para
   loop.starts_armed = device.simulated;
   loop.shadows_guards = parameters.shadow_guards;
   loop.heartbeat_timeout_s = device.heartbeat_timeout_s;
+  loop.session_timeout_s = std::max(loop.session_timeout_s, device.heartbeat_timeout_s);
   loop.force_map = parameters.force_map.get();
   loop.rate_hz = parameters.rate_hz;
   loop.first_tick = parameters.first_tick;
@@ -149,7 +151,10 @@ struct Apparatus::Implementation {
               .emergency_stop = exchange.emergency_stop,
               .samples = &samples,
               .heartbeat = parameters.realtime ? &exchange.heartbeat : nullptr,
-              .watchdog = parameters.realtime ? &watchdog_state : nullptr}) {
+              .watchdog = parameters.realtime ? &watchdog_state : nullptr,
+              .session = parameters.realtime && parameters.exchange != nullptr
+                             ? &session_heartbeat
+                             : nullptr}) {
     if (parameters.recording) {
       recording.emplace(*parameters.recording, parameters.rate_hz, parameters.durability);
     }
@@ -202,16 +207,23 @@ struct Apparatus::Implementation {
     throw core::Error(problem);
   }
 
-  /// The sign of life of the thread that a person talks to: the window's own, where there is
-  /// one.
+  /// The sign of life of the thread that leads the session. A person talks to it, unless there
+  /// is a window, which has one of its own.
   void beat() noexcept {
-    if (parameters.exchange == nullptr) exchange.heartbeat.beat();
+    (parameters.exchange == nullptr ? exchange.heartbeat : session_heartbeat).beat();
   }
 
-  /// A slow disk is no hung program, but whoever waits for it cannot press the emergency stop:
-  /// the heartbeat goes on for a second, then the force fades.
+  /// Whoever leads the session looks at what the loop tells all the time, unless it hangs.
+  void beat_of_session() noexcept {
+    if (parameters.exchange != nullptr) session_heartbeat.beat();
+  }
+
+  /// A slow disk is no hung program, but whoever waits for it takes no medium away, and without
+  /// a window nobody can press the emergency stop: the heartbeat goes on for a second, then the
+  /// force fades. With a window the loop itself has that second of patience.
   std::function<void()> beats_while_waiting() {
     beat();
+    if (parameters.exchange != nullptr) return [] {};
     const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
     return [this, patience] {
       if (std::chrono::steady_clock::now() < patience) beat();
@@ -247,8 +259,12 @@ struct Apparatus::Implementation {
     constexpr auto kPatience = std::chrono::seconds(10);
     const auto end = std::chrono::steady_clock::now() + kPatience;
     while (true) {
+      if (stop_requested()) {
+        throw core::Error("device: expected to be armed, found that the program is to stop");
+      }
       beat();
-      loop.rearm();
+      telemetry.fetch();
+      loop.rearm(telemetry.value().num_faults);
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       telemetry.fetch();
       const core::Telemetry& now = telemetry.value();
@@ -276,6 +292,7 @@ struct Apparatus::Implementation {
   std::optional<SleepInhibitor> awake;  ///< In real time.
   OperatorExchange own_exchange;        ///< Used where there is no window.
   OperatorExchange& exchange;
+  core::Heartbeat session_heartbeat;  ///< Where there is a window.
   std::unique_ptr<device::HapticDevice> bare_device;
   std::unique_ptr<device::HapticDevice> measured_device;  ///< Where there is a profile of it.
   std::unique_ptr<device::HapticDevice> faulty_device;  ///< Where faults are injected into it.
@@ -298,6 +315,7 @@ struct Apparatus::Implementation {
   core::SimulatedClock simulated_clock;
   core::SystemClock system_clock;
   core::HapticCommand command;
+  std::uint64_t stimulus = 0;  ///< Sequence of the command that began it.
 };
 
 Apparatus::Apparatus(const Parameters& parameters)
@@ -312,9 +330,11 @@ Apparatus::Apparatus(const Parameters& parameters, const experiments::Laboratory
 
 Apparatus::~Apparatus() = default;
 
-void Apparatus::render(const core::MediumAmounts& medium) {
+void Apparatus::render(const core::MediumAmounts& medium, Stimulus stimulus) {
   Implementation& my = *implementation_;
   ++my.command.sequence;
+  if (stimulus == Stimulus::kAnother) my.stimulus = my.command.sequence;
+  my.command.stimulus = my.stimulus;
   my.command.medium = medium + my.parameters.surroundings;
   my.command.immersion = my.parameters.immersion;
   my.command.ramp_s = my.parameters.ramp_s;
@@ -356,7 +376,9 @@ void Apparatus::run_for(double duration_s) {
   if (fault != core::Fault::kNone) throw core::Error("haptic loop: " + fault_words(fault));
 }
 
-void Apparatus::rearm() { implementation_->loop.rearm(); }
+void Apparatus::rearm(std::uint64_t num_faults_seen) {
+  implementation_->loop.rearm(num_faults_seen);
+}
 
 void Apparatus::disarm() { implementation_->loop.disarm(); }
 
@@ -375,6 +397,7 @@ std::vector<core::Sample> Apparatus::flight_record() const {
 
 std::int64_t Apparatus::next_tick() const noexcept {
   Implementation& my = *implementation_;
+  my.beat_of_session();
   my.telemetry.fetch();
   const core::Telemetry& now = my.telemetry.value();
   return now.num_ticks > 0 ? now.sample.tick + 1 : my.parameters.first_tick;
@@ -382,6 +405,7 @@ std::int64_t Apparatus::next_tick() const noexcept {
 
 const core::Telemetry& Apparatus::telemetry() const noexcept {
   Implementation& my = *implementation_;
+  my.beat_of_session();
   my.telemetry.fetch();
   const core::Telemetry& told = my.telemetry.value();
   if (told.fault != core::Fault::kNone || !my.watchdog_state.has_bitten()) return told;

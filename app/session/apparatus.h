@@ -54,8 +54,9 @@ class Apparatus {
     /// Where samples are recorded; none: strokes are summed up, nothing else is kept.
     std::optional<std::filesystem::path> recording;
     core::Durability durability = core::Durability::kEveryCommit;
-    /// Of a window, which then beats the heartbeat and keeps them alive. nullptr: `run_for`
-    /// and whatever waits for the disk beat it.
+    /// Of a window, which then beats the heartbeat and keeps them alive; and whoever leads the
+    /// session has to look at the telemetry every second, else the force fades. nullptr:
+    /// `run_for` and whatever waits for the disk beat it.
     OperatorExchange* exchange = nullptr;
     /// What goes wrong with the device, at ticks counted from its start: for tests and
     /// rehearsals.
@@ -75,8 +76,13 @@ class Apparatus {
   Apparatus(const Apparatus&) = delete;
   Apparatus& operator=(const Apparatus&) = delete;
 
+  /// What a medium is to what was felt before.
+  enum class Stimulus {
+    kAnother,
+    kGoesOn,  ///< A step of it: what it may give back is granted once, however many steps.
+  };
   /// Changes the medium by a ramp.
-  void render(const core::MediumAmounts& medium);
+  void render(const core::MediumAmounts& medium, Stimulus stimulus = Stimulus::kAnother);
   // Of the simulated arm; a hand that a person moves takes no orders.
   void begin_strokes(const device::StrokePlan& plan, const core::RandomStream& random);
   void go_home();
@@ -91,7 +97,8 @@ class Apparatus {
 
   /// Asks for the force, faded in from zero: at first, after a stop that was released, or a
   /// fault. Telemetry tells whether it came: what is still wrong latches again.
-  void rearm();
+  /// `num_faults_seen`: as whoever asks saw it in the telemetry; see `device::HapticLoop`.
+  void rearm(std::uint64_t num_faults_seen);
   /// No force until `rearm`.
   void disarm();
 

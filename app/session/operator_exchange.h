@@ -13,6 +13,11 @@ namespace jnd::app {
 struct OperatorExchange {
   core::EmergencyStop emergency_stop;  ///< Pressed from any thread; see `Apparatus::rearm`.
   core::Heartbeat heartbeat;  ///< At least every 100 ms, as long as there is a session.
+  /// From the window's thread. A window that nobody sees gives no sign of life, for nobody
+  /// could press the stop in it.
+  void beat(bool is_in_sight) noexcept {
+    if (is_in_sight) heartbeat.beat();
+  }
   /// For the device "mouse"; published by one thread alone.
   core::LatestValue<core::PointerPosition> pointer;
 };

@@ -33,7 +33,8 @@ void Presenter::begin(const Block& block, const std::string& interval, Beginning
   amounts_ = amounts_of(setting_of(block, interval, presentation().intensity));
   missed_before_ = apparatus_.telemetry().num_missed_ticks;
   limited_before_ = static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks);
-  apparatus_.render(amounts_);
+  apparatus_.render(amounts_, beginning == Beginning::kStep ? Apparatus::Stimulus::kGoesOn
+                                                            : Apparatus::Stimulus::kAnother);
   if (interval == "free_space") {
     stimulus_is_gone();
   } else if (!std::exchange(is_in_stimulus_, true) || beginning == Beginning::kStimulus) {

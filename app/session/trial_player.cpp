@@ -253,7 +253,8 @@ double TrialPlayer::left_to_answer_s(const Block& block) const {
   return *block.answer_deadline_s - since / run_.study.device.rate_hz;
 }
 
-TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& interval) {
+TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& interval,
+                                       Presenter::Beginning beginning) {
   attachment_.begin(apparatus_.telemetry());
   stop_if_loose();
   const double surface_m = run_.study.device.immersion.origin_z_m;
@@ -261,7 +262,7 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   if (is_pressed) rise_above(surface_m);
   const double tick_s = 1.0 / run_.study.device.rate_hz;
   if (left_to_answer_s(block) < tick_s) throw TooLate{};
-  presenter_.begin(block, interval);
+  presenter_.begin(block, interval, beginning);
   const std::int64_t number = *session_.state().current_trial();
   const TrialState& trial = session_.state().trial(number);
   const StrokeIntent intent = is_pressed ? participant_.presses(block.procedure, surface_m)
@@ -517,15 +518,15 @@ void TrialPlayer::adjust(const Block& block, std::int64_t trial, bool has_refere
   int looks = 0;
   double duration_s = 0.0;
   Felt felt;
-  const auto look = [&] {
-    felt = present(block, "test");
+  const auto look = [&](Presenter::Beginning beginning) {
+    felt = present(block, "test", beginning);
     duration_s += felt.duration_s;
     const double felt_ln = std::log(std::max(felt.amount, 1e-6));
     noise_ln += read(felt, block) - felt_ln;
     ++looks;
     return felt_ln + noise_ln / looks;
   };
-  double reading_ln = look();
+  double reading_ln = look(Presenter::Beginning::kStimulus);
   const double first_ln = reading_ln;
   using Wish = Perceiver::Wish;
   Wish last_wish = Wish::kMatches;
@@ -539,7 +540,7 @@ void TrialPlayer::adjust(const Block& block, std::int64_t trial, bool has_refere
     if (wish == Wish::kMatches) {
       if (!has_reference || !looks_again(block)) break;
       feel_standard();
-      reading_ln = look();
+      reading_ln = look(Presenter::Beginning::kStimulus);
       continue;
     }
     // Back and forth over the target by the smallest step: it does not get closer than this.
@@ -554,7 +555,7 @@ void TrialPlayer::adjust(const Block& block, std::int64_t trial, bool has_refere
                          coarse ? StepSize::kCoarse : StepSize::kFine)) {
       break;
     }
-    reading_ln = look();
+    reading_ln = look(Presenter::Beginning::kStep);
   }
   session_.answer(0.0, {.response_time_s = duration_s}, felt.last_tick);
 }

@@ -73,7 +73,8 @@ class TrialPlayer {
                    double end_s);
   [[nodiscard]] double left_to_answer_s(const experiments::Block& block) const;
   [[nodiscard]] bool looks_again(const experiments::Block& block) const;
-  Felt present(const experiments::Block& block, const std::string& interval);
+  Felt present(const experiments::Block& block, const std::string& interval,
+               Presenter::Beginning beginning = Presenter::Beginning::kStimulus);
   [[nodiscard]] experiments::Moment moment(const experiments::Block& block) const;
   [[nodiscard]] double read(const Felt& felt, const experiments::Block& block) const;
   void estimate(const experiments::Block& block, const experiments::TrialForm& form);

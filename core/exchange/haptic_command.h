@@ -16,6 +16,9 @@ struct HapticCommand {
   MediumAmounts medium;   ///< Free space by default.
   Immersion immersion;    ///< Infinite surface by default.
   double ramp_s = 0.050;  ///< Time over which the medium changes, >= 0. Never a force step.
+  /// Of a step of a stimulus that goes on, the sequence of the command that began it; 0: this
+  /// one begins another. What a stimulus may give back is granted once, however many steps.
+  std::uint64_t stimulus = 0;
 };
 
 static_assert(std::is_trivially_copyable_v<HapticCommand>);

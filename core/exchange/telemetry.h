@@ -34,13 +34,16 @@ struct Telemetry {
   PlainVector hand_velocity_m_per_s{};  ///< Mean of the attached tips.
   PlainVector total_force_n{};          ///< On the hand, sum of the points, after every limit.
   std::uint64_t num_dropped_samples = 0;
-  std::uint64_t num_faults = 0;  ///< So far: who looks now and then misses none.
+  /// So far, each kind once until it is armed again: who looks now and then misses none, and
+  /// who arms says how many were seen.
+  std::uint64_t num_faults = 0;
   /// How often each point came off so far.
   std::array<std::uint32_t, kNumContactPoints> num_detachments{};
   std::uint64_t num_limited_ticks = 0;     ///< So far; a difference over a trial marks it.
   Exposure exposure;                       ///< Since the loop began, to forces as sent.
   ContactSums contact_sums;                ///< Zeros from a device that does not know them.
   std::optional<ClockDrift> device_clock;  ///< Of a device with a clock of its own, in time.
+  double arming_wait_s = 0.0;  ///< Until somebody may arm after the stop was released.
 };
 
 static_assert(std::is_trivially_copyable_v<Telemetry>);

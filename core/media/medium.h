@@ -126,8 +126,8 @@ inline constexpr std::array kDragOfMotion = {&MediumAmounts::quadratic_kg_per_m,
 class MediumRamp {
  public:
   void start(const MediumAmounts& target, double ramp_s) noexcept;
-  /// Moves on by one tick and returns what is to be rendered in it.
-  const MediumAmounts& advance(double period_s) noexcept;
+  /// Moves on by the time since the last tick and returns what is to be rendered in this one.
+  const MediumAmounts& advance(double elapsed_s) noexcept;
   [[nodiscard]] const MediumAmounts& current() const noexcept { return current_; }
   [[nodiscard]] bool finished() const noexcept { return arrived_; }
 

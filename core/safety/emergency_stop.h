@@ -5,6 +5,11 @@
 
 namespace jnd::core {
 
+/// For so long after the stop was released nobody can arm, lest two clicks that were meant as
+/// one release it and bring the force back. Windows takes two clicks within 0.5 s for a double
+/// click (`GetDoubleClickTime`), and GTK 4 within 0.4 s (`gtk-double-click-time`).
+inline constexpr double kArmAfterRelease_s = 0.5;
+
 /// The emergency stop: pressed from any thread, latched, read first in every tick. Not a
 /// command, so that nothing newer can overtake it. Releasing it is an act of its own and does
 /// not bring the force back: the loop has to be armed again, too. Real time.

@@ -5,7 +5,8 @@
 
 namespace jnd::core {
 
-/// Why the haptic loop renders no force. Latched: the first one stays until the loop is armed.
+/// Why the haptic loop renders no force. Latched: the first one stays until the loop is armed,
+/// but an emergency stop takes the place of any other.
 /// The numbers are stored in recordings: append, never renumber.
 enum class Fault : std::uint8_t {
   kNone = 0,

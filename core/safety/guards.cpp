@@ -54,10 +54,11 @@ Fault Guards::observe_port(const HapticState& state, const Contact& contact,
   return judged(Fault::kVelocityContradicts);
 }
 
-Fault Guards::observe_stillness(const HapticState& state, const Contact& contact) noexcept {
+Fault Guards::observe_stillness(const HapticState& state, const Contact& contact,
+                                double elapsed_s) noexcept {
   if (!parameters_.watches_stillness) return Fault::kNone;
   stillness_.observe(state.tip_position_m, state.tip_velocity_m_per_s, state.attached,
-                     contact.pushed_bits);
+                     contact.pushed_bits, elapsed_s);
   if (!stillness_.is_frozen()) return Fault::kNone;
   if (is_shadowed(Fault::kPositionFrozen)) stillness_.reset();
   return judged(Fault::kPositionFrozen);

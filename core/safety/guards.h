@@ -47,9 +47,10 @@ class Guards {
   /// A measurement, `elapsed_s` > 0 after the one before by the device's clock: the port's.
   [[nodiscard]] Fault observe_port(const HapticState& state, const Contact& contact,
                                    double elapsed_s) noexcept;
-  /// A measurement that is new: a sensor that died while the hand rested on something.
-  [[nodiscard]] Fault observe_stillness(const HapticState& state,
-                                        const Contact& contact) noexcept;
+  /// A measurement that is new, `elapsed_s` > 0 after the last new one by the loop's time: a
+  /// sensor that died while the hand rested on something.
+  [[nodiscard]] Fault observe_stillness(const HapticState& state, const Contact& contact,
+                                        double elapsed_s) noexcept;
   /// Every measurement.
   [[nodiscard]] Fault observe_place(const HapticState& state) noexcept;
   /// The force that is sent to each point.

@@ -17,17 +17,18 @@ class Heartbeat {
   std::atomic<std::uint64_t> count_{0};
 };
 
-/// The listening side, owned by the haptic loop. It counts ticks instead of reading a clock: a
-/// loop that stands still renders nothing either. Real time.
+/// The listening side, owned by the haptic loop. It reads no clock: the loop tells how many
+/// ticks have passed, those that it missed among them, so that a number of ticks is a time.
+/// Real time.
 class HeartbeatMonitor {
  public:
   /// `heartbeat` may be nullptr: a simulation, where silence means nothing.
   HeartbeatMonitor(const Heartbeat* heartbeat, std::int64_t timeout_ticks) noexcept
       : heartbeat_(heartbeat), timeout_ticks_(timeout_ticks) {}
 
-  /// Called once a tick; true once `timeout_ticks` have passed without a beat. The first tick
-  /// counts as a beat.
-  [[nodiscard]] bool is_silent() noexcept {
+  /// Called once a tick, `num_passed` >= 1 ticks after the last call; true once `timeout_ticks`
+  /// have passed without a beat. Time counts from the first call.
+  [[nodiscard]] bool is_silent(std::int64_t num_passed = 1) noexcept {
     if (heartbeat_ == nullptr) return false;
     const std::uint64_t count = heartbeat_->count();
     if (count != last_count_) {
@@ -36,7 +37,7 @@ class HeartbeatMonitor {
       return false;
     }
     // Saturates, so that a night of silence does not overflow.
-    if (silent_ticks_ < timeout_ticks_) ++silent_ticks_;
+    if (silent_ticks_ < timeout_ticks_) silent_ticks_ += num_passed;
     return silent_ticks_ >= timeout_ticks_;
   }
 

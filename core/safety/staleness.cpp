@@ -7,8 +7,8 @@ namespace jnd::core {
 void Staleness::observe(const HapticState& state, const HapticState& last, double elapsed_s,
                         std::int64_t num_missed) noexcept {
   const bool time_stands = elapsed_s <= 0.0;
-  num_still_ = time_stands ? num_still_ + 1 : 0;
-  is_stuck_ = moves_without_getting_anywhere(state, last, elapsed_s);
+  num_still_ = time_stands ? num_still_ + 1 + num_missed : 0;
+  is_stuck_ = moves_without_getting_anywhere(state, last, elapsed_s, num_missed);
   num_missed_ = time_stands || num_stuck_ > 0 ? num_missed_ + num_missed : 0;
 }
 
@@ -16,15 +16,17 @@ void Staleness::observe(const HapticState& state, const HapticState& last, doubl
 /// velocity goes further than that of a filter that has not heard yet that the hand stopped,
 /// and than steps of encoders are.
 bool Staleness::moves_without_getting_anywhere(const HapticState& state,
-                                               const HapticState& last,
-                                               double elapsed_s) noexcept {
+                                               const HapticState& last, double elapsed_s,
+                                               std::int64_t num_missed) noexcept {
   constexpr double kMovingMPerS = 0.05;
   constexpr double kStuckWayM = 0.003;
   // A measurement that stands in for one that is missing says nothing new.
   if (elapsed_s <= 0.0) {
-    num_stuck_ += num_stuck_ > 0 ? 1 : 0;
+    num_stuck_ += num_stuck_ > 0 ? 1 + num_missed : 0;
     return false;
   }
+  // A clock of the device's that leaps adds no more than that and what the loop missed.
+  const double most_s = longest_s() + static_cast<double>(num_missed) * period_s_;
   double most_way_m = 0.0;
   for (int i = 0; i < kNumContactPoints; ++i) {
     const double speed_m_per_s = state.tip_velocity_m_per_s[i].norm();
@@ -32,10 +34,10 @@ bool Staleness::moves_without_getting_anywhere(const HapticState& state,
                           speed_m_per_s > kMovingMPerS &&
                           state.tip_position_m[i] == last.tip_position_m[i];
     stuck_way_m_[i] =
-        is_stuck ? stuck_way_m_[i] + std::min(elapsed_s, longest_s()) * speed_m_per_s : 0.0;
+        is_stuck ? stuck_way_m_[i] + std::min(elapsed_s, most_s) * speed_m_per_s : 0.0;
     most_way_m = std::max(most_way_m, stuck_way_m_[i]);
   }
-  num_stuck_ = most_way_m > 0.0 ? num_stuck_ + 1 : 0;
+  num_stuck_ = most_way_m > 0.0 ? num_stuck_ + 1 + num_missed : 0;
   return num_stuck_ > max_ticks_ && most_way_m > kStuckWayM;
 }
 

@@ -9,7 +9,8 @@ namespace jnd::core {
 
 /// Finds measurements that are not new: a clock of the device that stands still, or positions
 /// that do while the velocity says that the hand moves. Either is excused for `max_ticks`, in
-/// which an older measurement may stand in for one that is missing. Real time.
+/// which an older measurement may stand in for one that is missing. Ticks that the loop missed
+/// count: a measurement grows old while nobody looks at it. Real time.
 class Staleness {
  public:
   /// At most so many ticks of `period_s` without anything new; `max_ticks` >= 0.
@@ -34,14 +35,14 @@ class Staleness {
 
  private:
   [[nodiscard]] bool moves_without_getting_anywhere(const HapticState& state,
-                                                    const HapticState& last,
-                                                    double elapsed_s) noexcept;
+                                                    const HapticState& last, double elapsed_s,
+                                                    std::int64_t num_missed) noexcept;
 
   std::int64_t max_ticks_;
   double period_s_;
   bool is_stuck_ = false;
-  std::int64_t num_still_ = 0;   ///< Ticks without time passing.
-  std::int64_t num_stuck_ = 0;   ///< Ticks with a velocity and no way.
+  std::int64_t num_still_ = 0;   ///< Ticks without time passing, missed ones among them.
+  std::int64_t num_stuck_ = 0;   ///< Ticks with a velocity and no way, likewise.
   std::int64_t num_missed_ = 0;  ///< By the loop, since either began.
   /// That each point says it has moved while its position stood still.
   std::array<double, kNumContactPoints> stuck_way_m_{};

@@ -31,11 +31,13 @@ class StillnessWatch {
   /// Throws `Error` naming the field; a tick lasts `period_s`. Not real time.
   StillnessWatch(const Parameters& parameters, double period_s);
 
-  /// One tick; workspace frame. `pushed_bits` tells, a bit a point, which would feel a force
-  /// that does not depend on motion if this watch took none away.
+  /// One measurement, `elapsed_s` > 0 after the one before by the loop's time, also where ticks
+  /// or measurements were missed in between; workspace frame. `pushed_bits` tells, a bit a
+  /// point, which would feel a force that does not depend on motion if this watch took none
+  /// away.
   void observe(const PointVectors& tip_position_m, const PointVectors& tip_velocity_m_per_s,
-               const std::array<bool, kNumContactPoints>& attached,
-               std::uint8_t pushed_bits) noexcept;
+               const std::array<bool, kNumContactPoints>& attached, std::uint8_t pushed_bits,
+               double elapsed_s) noexcept;
 
   /// What the force of a point is multiplied by, 0 to 1.
   [[nodiscard]] double authority_ratio(int point) const noexcept {
@@ -58,11 +60,10 @@ class StillnessWatch {
     double authority_ratio = 1.0;
   };
 
-  void take_force_away(Point& point) noexcept;
+  void take_force_away(Point& point, double elapsed_s) noexcept;
 
   Parameters parameters_;
   double period_s_;
-  double kept_ratio_ = 0.0;  ///< Of the way, from tick to tick.
   bool asks_to_move_ = false;
   bool is_frozen_ = false;
   std::array<Point, kNumContactPoints> points_;

@@ -57,6 +57,7 @@ class DriverChecker {
         push_n_(can_.simulated ? 2.0 : 0.5),
         can_push_(check.pushes || can_.simulated),
         is_paced_(check.is_paced),
+        is_cancelled_(check.is_cancelled),
         limiter_({.per_point_n = push_n_,
                   .total_n = push_n_,
                   .slew_n_per_s = can_.simulated ? 2000.0 : 100.0,
@@ -94,6 +95,13 @@ class DriverChecker {
     return true;
   }
 
+  [[noreturn]] void stop() {
+    (void)device_.write(core::zero_vectors());
+    device_.halt();
+    device_.close();
+    throw core::Error("device-check: stopped; the device has no force and is closed");
+  }
+
   /// Ticks at the device's rate, each with this force. The measurements that came.
   std::vector<Measured> ticks(double duration_s, const core::PointVectors& force_n) {
     std::vector<Measured> all;
@@ -103,6 +111,7 @@ class DriverChecker {
     auto due = Clock::now();
     num_ticks_ = num_ticks;
     for (std::int64_t i = 0; i < num_ticks; ++i) {
+      if (is_cancelled_ && is_cancelled_()) stop();
       if (is_paced_) std::this_thread::sleep_until(due);
       due = std::max(due + period, Clock::now());
       core::HapticState state;
@@ -313,6 +322,7 @@ class DriverChecker {
   std::size_t point_;  ///< That is pushed.
   double push_n_;
   bool can_push_, is_paced_;
+  std::function<bool()> is_cancelled_;
   core::ForceLimiter limiter_;  ///< A push that gets away ends.
   RuleJudge judge_;
   Clock::time_point begin_;

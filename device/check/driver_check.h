@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "device/check/device_rule.h"
 #include "device/haptic_device.h"
 
@@ -11,6 +13,8 @@ struct DriverCheck {
   bool pushes = false;
   /// Else one tick follows the other at once: of a simulation without a clock of its own.
   bool is_paced = true;
+  /// The program is to stop: no force then, the device is closed, and `core::Error` is thrown.
+  std::function<bool()> is_cancelled{};
 };
 
 /// Tries what `HapticDevice` promises of a device that is closed: it opens, is punctual, tells

@@ -1,6 +1,7 @@
 #include "device/network/device_server.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/require.h"
@@ -85,13 +86,13 @@ DeviceServer::DeviceServer(HapticDevice& device, DatagramPort& port,
       parameters_(parameters),
       watchdog_ns_(nanoseconds(parameters.watchdog_s, "watchdog_s")),
       client_timeout_ns_(nanoseconds(parameters.client_timeout_s, "client_timeout_s")),
+      max_answer_age_ns_(nanoseconds(parameters.max_answer_age_s, "max_answer_age_s")),
       max_answer_age_(static_cast<std::uint32_t>(std::ceil(
-          1e-9 *
-          static_cast<double>(nanoseconds(parameters.max_answer_age_s, "max_answer_age_s")) *
-          device.capabilities().rate_hz))),
+          1e-9 * static_cast<double>(max_answer_age_ns_) * device.capabilities().rate_hz))),
       welcome_(welcome_of(device, parameters.watchdog_s)),
       limiter_(limits_of(device.capabilities(), parameters.slew_n_per_s),
                1.0 / device.capabilities().rate_hz),
+      sent_ns_(std::bit_ceil(max_answer_age_ + std::size_t{1})),
       tells_acting_force_(device.capabilities().tells_acting_force),
       seal_(DatagramSeal::Side::kDevice, parameters.key),
       next_stream_id_(parameters.first_stream_id),
@@ -279,29 +280,38 @@ void DeviceServer::watch_own_pace(std::int64_t now_ns) noexcept {
   if (client_) client_->is_recent = false;
 }
 
+void DeviceServer::suspended() noexcept {
+  disarm(Fault::kSuspended);
+  if (client_) client_->is_recent = false;
+}
+
 void DeviceServer::watch(std::int64_t now_ns) noexcept {
   if (!client_) return;
   if (now_ns - client_->last_heard_ns >= client_timeout_ns_) return part_with_client();
-  arm_or_disarm();
+  arm_or_disarm(now_ns);
   if (!armed_) return;
-  if (now_ns - client_->command_ns >= watchdog_ns_ || !answers_in_time() ||
+  if (now_ns - client_->command_ns >= watchdog_ns_ || !answers_in_time(now_ns) ||
       quality_.is_broken() || quality_.level() == LinkLevel::kUnacceptable) {
     disarm(Fault::kLinkLost);
   }
 }
 
-bool DeviceServer::answers_in_time() const noexcept {
-  return sequence_ - client_->command.answered_sequence <= max_answer_age_;
+/// In time, and not in steps alone: a machine that misses most of its steps sends few states,
+/// and an answer to one of few is old. There is a place for each number within those steps.
+bool DeviceServer::answers_in_time(std::int64_t now_ns) const noexcept {
+  const std::uint32_t answered = client_->command.answered_sequence;
+  const std::uint32_t age = sequence_ - answered;
+  return age <= max_answer_age_ && now_ns - sent_ns_[place_of(answered)] <= max_answer_age_ns_;
 }
 
-void DeviceServer::arm_or_disarm() noexcept {
+void DeviceServer::arm_or_disarm(std::int64_t now_ns) noexcept {
   const wire::Command& command = client_->command;
   if (!client_->is_recent || command.arm_number == state_.armed_number) return;
   // It asks for another arming, so it means no force of the one before.
   armed_ = false;
   if (quality_.is_broken()) quality_.judge_anew();
   if (command.arm_number == 0 || !is_without_force(command) || !quality_.is_settled() ||
-      !answers_in_time() || !state_.is_measured) {
+      !answers_in_time(now_ns) || !state_.is_measured) {
     return;
   }
   armed_ = true;
@@ -397,6 +407,7 @@ void DeviceServer::send(const Address& to, std::uint64_t stream_id,
   // Whoever is welcomed or refused has no stream yet, or none any more.
   const bool is_of_stream = std::holds_alternative<wire::State>(content) ||
                             std::holds_alternative<wire::Goodbye>(content);
+  if (is_of_stream) sent_ns_[place_of(sequence_)] = now_ns;
   const wire::Datagram datagram{.header = {.stream_id = stream_id,
                                            .sequence = is_of_stream ? sequence_++ : 0,
                                            .sent_ns = now_ns,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "core/safety/force_limiter.h"
 #include "device/haptic_device.h"
@@ -58,6 +59,9 @@ class DeviceServer {
   /// One of the device's ticks: takes in what has come, reads the device, writes its force,
   /// tells the program. The device is opened and closed by the caller. Real time.
   void step(std::int64_t now_ns) noexcept;
+  /// The machine slept before the next step, while the clock of `step` stood still: whatever
+  /// waits for it is as old as that. Real time.
+  void suspended() noexcept;
   /// Between steps: opens the device anew if a program has left it since, so that the next one
   /// finds a simulation as it was at the start. Throws what `open` throws. Not real time.
   void renew_device();
@@ -96,8 +100,11 @@ class DeviceServer {
   void take(const wire::Header& header, const wire::Command& command,
             std::int64_t now_ns) noexcept;
   void take(const wire::Order& order) noexcept;
-  [[nodiscard]] bool answers_in_time() const noexcept;
-  void arm_or_disarm() noexcept;
+  [[nodiscard]] std::size_t place_of(std::uint32_t sequence) const noexcept {
+    return sequence & (sent_ns_.size() - 1);
+  }
+  [[nodiscard]] bool answers_in_time(std::int64_t now_ns) const noexcept;
+  void arm_or_disarm(std::int64_t now_ns) noexcept;
   void disarm(core::Fault fault) noexcept;
   void watch(std::int64_t now_ns) noexcept;
   void watch_own_pace(std::int64_t now_ns) noexcept;
@@ -113,10 +120,14 @@ class DeviceServer {
   DatagramPort& port_;
   Parameters parameters_;
   std::int64_t watchdog_ns_, client_timeout_ns_;
-  std::uint32_t max_answer_age_;        ///< In steps.
+  std::int64_t max_answer_age_ns_;
+  std::uint32_t max_answer_age_;        ///< In steps: more of them take longer, or come early.
   std::int64_t steps_per_command_ = 1;  ///< By the rates of both sides.
   wire::Welcome welcome_;
   core::ForceLimiter limiter_;
+  /// When each state was sent that may still be answered, by its number: a step that came late
+  /// makes the answers older.
+  std::vector<std::int64_t> sent_ns_;
   bool tells_acting_force_;
   core::PointVectors written_n_ = core::zero_vectors();  ///< Last.
   LinkQuality quality_;

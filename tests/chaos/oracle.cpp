@@ -13,11 +13,11 @@ constexpr double kMostInAll_n = 30.0;
 constexpr double kMostStep_n = 2.0;  ///< In a millisecond.
 constexpr double kRounding = 1e-6;
 
-// SAFETY.md, in ticks of a millisecond.
+// SAFETY.md.
 constexpr int kLoopIsDead_ms = 22;        ///< 20 ms and one look of the watchdog.
 constexpr int kHeartbeatIsLost_ms = 351;  ///< 250 ms, the fading of 100 ms, and a tick.
-constexpr int kStaleReadings = 5;         ///< That may stand in.
-constexpr int kStaleReadingsByNet = 20;   ///< The same bound across a network.
+constexpr int kStale_ms = 5;              ///< For which a reading may stand in.
+constexpr int kStaleByNet_ms = 20;        ///< The same bound across a network.
 constexpr double kStuckWay_m = 0.004;  ///< By its velocity, of a point that stands still: 3 mm,
                                        ///< and one for what the network swallows.
 constexpr int kQuietNetwork_ms = 2;    ///< A command's way, in the ticks of both sides.
@@ -52,11 +52,11 @@ std::string in_text(double number) {
 Oracle::Oracle(const Schedule& schedule) : schedule_(schedule) {}
 
 void Oracle::armed() {
-  // Nobody arms against a stop. Else all that went wrong before is forgotten.
-  if (stop_is_pressed_) return;
+  // Nobody arms against a stop, nor with the click that released it. Else all that went wrong
+  // before is forgotten.
+  if (stop_is_pressed_ || now_ms_ - released_ms_ < kArmAfterRelease_ms) return;
   may_have_force_ = true;
   revocations_.clear();
-  num_stale_readings_ = 0;
   num_stuck_readings_ = 0;
   stuck_way_m_.fill(0.0);
   last_reading_.reset();
@@ -70,6 +70,18 @@ void Oracle::stop_pressed() {
   revoke("the stop was pressed", Way::kLoop);
 }
 
+void Oracle::stop_released() {
+  // Where none was pressed there is nothing to wait for.
+  if (stop_is_pressed_) released_ms_ = now_ms_;
+  stop_is_pressed_ = false;
+}
+
+void Oracle::window_beat() {
+  last_beat_ms_ = now_ms_;
+  silent_ms_ = 0;
+  longest_gap_ms_ = 0;
+}
+
 /// One that is replaced before the loop has looked never was.
 void Oracle::medium_sent(bool is_broken) {
   medium_is_broken_ = is_broken;
@@ -80,13 +92,16 @@ void Oracle::medium_sent(bool is_broken) {
 
 void Oracle::loop_ticked() {
   dead_ms_ = 0;
-  ++num_silent_ticks_;
+  longest_gap_ms_ = std::max(longest_gap_ms_, now_ms_ - last_tick_ms_ - 1);
+  last_tick_ms_ = now_ms_;
+  silent_ms_ = now_ms_ - last_beat_ms_;
 }
 
 /// It knows of no arming before its own.
 void Oracle::program_started() {
   dead_ms_ = 0;
-  num_silent_ticks_ = 0;
+  last_tick_ms_ = now_ms_;
+  window_beat();
   medium_is_broken_ = false;
   revoke("nobody has armed the device since its program was started", Way::kDevice);
 }
@@ -117,6 +132,7 @@ void Oracle::could_not_be_read() { revoke("the device could not be read", Way::k
 void Oracle::handed_out(const core::HapticState& state) {
   if (!is_a_number(state)) return revoke("a measurement was no number", Way::kDevice);
   attached_ = state.attached;
+  if (!last_reading_) last_new_ms_ = now_ms_;
   if (last_reading_) {
     judge_staleness(state);
     judge_leaps(state);
@@ -127,9 +143,9 @@ void Oracle::handed_out(const core::HapticState& state) {
 
 void Oracle::judge_staleness(const core::HapticState& state) {
   const bool is_stale = state.device_time_ns <= last_reading_->device_time_ns;
-  num_stale_readings_ = is_stale ? num_stale_readings_ + 1 : 0;
-  const int most = is_networked() ? kStaleReadingsByNet : kStaleReadings;
-  if (num_stale_readings_ > most) revoke("measurements stood still", Way::kLoop);
+  if (!is_stale) last_new_ms_ = now_ms_;
+  const int most = is_networked() ? kStaleByNet_ms : kStale_ms;
+  if (now_ms_ - last_new_ms_ > most) revoke("measurements stood still", Way::kLoop);
   if (is_stale) return;
   // Moving, as it says itself, and yet where it was.
   bool any_stands = false;
@@ -230,7 +246,9 @@ void Oracle::judge_silences() {
   const int link_ms = kLoopIsDead_ms + (may_be_late ? kDisturbedNetwork_ms : 0);
   if (dead_ms_ > link_ms) revoke_at_once("the loop was dead");
   if (cut_ms_ > link_ms) revoke_at_once("the device was unplugged");
-  if (num_silent_ticks_ > kHeartbeatIsLost_ms) revoke("the window was silent", Way::kLoop);
+  // The loop sees the silence, and ends the fading, in the tick after a gap.
+  if (silent_ms_ > kHeartbeatIsLost_ms + 2 * longest_gap_ms_)
+    revoke("the window was silent", Way::kLoop);
   if (medium_is_broken_) revoke(kBrokenMedium, Way::kLoop);
 }
 

@@ -25,11 +25,11 @@ class Oracle {
   void armed();
   void disarmed();
   void stop_pressed();
-  void stop_released() { stop_is_pressed_ = false; }
+  void stop_released();
   void medium_sent(bool is_broken);
 
   // What the schedule let happen.
-  void window_beat() { num_silent_ticks_ = 0; }
+  void window_beat();
   void loop_ticked();
   void program_started();
   void server_restarted();
@@ -54,6 +54,8 @@ class Oracle {
   [[nodiscard]] double most_given_j() const noexcept { return most_given_j_; }
 
  private:
+  static constexpr int kArmAfterRelease_ms = 500;
+
   /// A reason for which there must be no force, and when it has to be gone.
   struct Revocation {
     std::string cause;
@@ -85,17 +87,21 @@ class Oracle {
   bool may_have_force_ = false;
   std::string why_not_ = "nobody has armed the device";
   bool stop_is_pressed_ = false;
+  int released_ms_ = -kArmAfterRelease_ms;
   bool medium_is_broken_ = false;
   std::vector<Revocation> revocations_;
 
-  int num_silent_ticks_ = 0;
-  int dead_ms_ = 0;  ///< Since the loop's last tick.
-  int cut_ms_ = 0;   ///< Since the cable was pulled.
+  int last_beat_ms_ = 0;
+  int last_tick_ms_ = 0;
+  int silent_ms_ = 0;       ///< Without a beat, when the loop ticked last.
+  int longest_gap_ms_ = 0;  ///< Between the loop's ticks since that beat.
+  int dead_ms_ = 0;         ///< Since the loop's last tick.
+  int cut_ms_ = 0;          ///< Since the cable was pulled.
   bool was_written_ = false;
 
   std::optional<core::HapticState> last_reading_;
   std::array<bool, core::kNumContactPoints> attached_ = core::kAllAttached;
-  int num_stale_readings_ = 0;
+  int last_new_ms_ = 0;  ///< When a reading was new.
   int num_stuck_readings_ = 0;
   std::array<double, core::kNumContactPoints> stuck_way_m_{};
   core::PointVectors standing_n_ = core::zero_vectors();

@@ -58,7 +58,8 @@ void ProgramInVirtualTime::act(const Event& event) {
   if (!runs()) return;
   switch (event.what) {
     case Trouble::kArm:
-      loop_->rearm();
+      (void)exchange_->telemetry.fetch();
+      loop_->rearm(exchange_->telemetry.value().num_faults);
       return oracle_.armed();
     case Trouble::kDisarm:
       loop_->disarm();

@@ -33,7 +33,7 @@ TEST_F(LoopArmingTest, ThereIsNoForceBeforeSomebodyAsksForIt) {
 
 TEST_F(LoopArmingTest, ItFadesInOverHalfASecond) {
   run(10);
-  loop->rearm();
+  arm();
   run(1);
   EXPECT_EQ(telemetry().arming, Arming::kArming);
   run(250);
@@ -67,20 +67,20 @@ TEST_F(LoopArmingTest, AStopThatIsPressedHoldsAgainstArming) {
   run(1);
   EXPECT_EQ(telemetry().fault, Fault::kEmergencyStop);
   const auto num_faults = telemetry().num_faults;
-  loop->rearm();
+  arm();
   run(1000);
   EXPECT_EQ(max_received_n(0), 0.0);
   EXPECT_EQ(telemetry().num_faults, num_faults) << "it was armed for a part of a tick";
   EXPECT_TRUE(stop.release(stop.num_presses()));
   run(1000);
   EXPECT_EQ(max_received_n(0), 0.0) << "releasing is no arming";
-  loop->rearm();
+  arm();
   run(1000);
   EXPECT_GT(max_received_n(0), 0.5);
 }
 
 TEST_F(LoopArmingTest, DisarmedIsZeroAtOnce) {
-  loop->rearm();
+  arm();
   run(1000);
   loop->disarm();
   const std::size_t from = device.received.size();
@@ -93,14 +93,14 @@ TEST_F(LoopArmingTest, DisarmedIsZeroAtOnce) {
 TEST_F(LoopArmingTest, WhoAsksToArmAndToDisarmAtOnceGetsNoForce) {
   run(10);
   loop->disarm();
-  loop->rearm();
+  arm();
   run(1000);
   EXPECT_EQ(max_received_n(0), 0.0);
   EXPECT_EQ(telemetry().arming, Arming::kDisarmed);
 }
 
 TEST_F(LoopArmingTest, AStopPressedAndReleasedBetweenTwoTicksLatches) {
-  loop->rearm();
+  arm();
   run(1000);
   stop.press();
   ASSERT_TRUE(stop.release(stop.num_presses()));
@@ -112,32 +112,115 @@ TEST_F(LoopArmingTest, AStopPressedAndReleasedBetweenTwoTicksLatches) {
 
 TEST_F(LoopArmingTest, WhoAskedBeforeAStopHasToAskAgain) {
   run(10);
-  loop->rearm();
+  arm();
   stop.press();
   ASSERT_TRUE(stop.release(stop.num_presses()));
   run(1000);
   EXPECT_EQ(max_received_n(0), 0.0) << "pressed and released before anybody looked";
   stop.press();
   run(10);
-  loop->rearm();
+  arm();
   ASSERT_TRUE(stop.release(stop.num_presses()));
   run(1000);
   EXPECT_EQ(max_received_n(0), 0.0)
       << "asked for while it was pressed, just before its release";
-  loop->rearm();
+  arm();
   run(1000);
   EXPECT_GT(max_received_n(0), 0.5);
 }
 
+TEST_F(LoopArmingTest, TheClickThatReleasesTheStopDoesNotArm) {
+  run(10);
+  stop.press();
+  run(10);
+  ASSERT_TRUE(stop.release(stop.num_presses()));
+  arm();
+  run(1);
+  EXPECT_NEAR(telemetry().arming_wait_s, core::kArmAfterRelease_s, 1e-9);
+  for (int tick = 0; tick < 498; ++tick) {
+    arm();
+    run(1);
+    ASSERT_EQ(telemetry().arming, Arming::kFaulted) << tick;
+  }
+  EXPECT_GT(telemetry().arming_wait_s, 0.0);
+  run(5);
+  EXPECT_EQ(telemetry().arming_wait_s, 0.0);
+  arm();
+  run(600);
+  EXPECT_EQ(telemetry().arming, Arming::kArmed);
+}
+
+TEST_F(LoopArmingTest, ALoopThatBeginsAfterAReleaseWaitsAsWell) {
+  stop.press();
+  ASSERT_TRUE(stop.release(stop.num_presses()));
+  make_loop({});
+  arm();
+  run(10);
+  EXPECT_EQ(telemetry().arming, Arming::kDisarmed) << "asked for before its first tick";
+  arm();
+  run(10);
+  EXPECT_EQ(telemetry().arming, Arming::kDisarmed);
+  run(500);
+  arm();
+  run(600);
+  EXPECT_EQ(telemetry().arming, Arming::kArmed);
+}
+
+TEST_F(LoopArmingTest, AStopThatIsPressedAfterAnotherFaultIsTold) {
+  arm();
+  run(600);
+  loop->stalled();
+  run(5);
+  ASSERT_EQ(telemetry().fault, Fault::kWatchdog);
+  stop.press();
+  run(1);
+  EXPECT_EQ(telemetry().fault, Fault::kEmergencyStop);
+  EXPECT_EQ(telemetry().num_faults, 2U);
+}
+
+TEST_F(LoopArmingTest, WhoArmsAcknowledgesOnlyWhatWasSeen) {
+  arm();
+  run(600);
+  loop->stalled();
+  run(5);
+  const std::uint64_t seen = telemetry().num_faults;
+  device.state.tip_position_m[0].x() = std::numeric_limits<double>::quiet_NaN();
+  run(1);
+  device.state.tip_position_m[0].x() = 0.0;
+  const std::size_t from = device.received.size();
+  loop->rearm(seen);
+  run(600);
+  EXPECT_NE(telemetry().fault, Fault::kNone) << "a newer fault had come";
+  EXPECT_EQ(max_received_n(from), 0.0);
+  EXPECT_EQ(telemetry().num_faults, seen + 1) << "each kind once";
+  arm();
+  run(600);
+  EXPECT_EQ(telemetry().fault, Fault::kNone);
+}
+
+TEST_F(LoopArmingTest, EveryPressOfTheStopHasToBeSeen) {
+  stop.press();
+  run(5);
+  ASSERT_TRUE(stop.release(stop.num_presses()));
+  run(600);
+  const std::uint64_t seen = telemetry().num_faults;
+  stop.press();
+  ASSERT_TRUE(stop.release(stop.num_presses()));
+  run(600);
+  loop->rearm(seen);
+  run(600);
+  EXPECT_EQ(telemetry().fault, Fault::kEmergencyStop);
+}
+
 TEST_F(LoopArmingTest, AMachineThatSleptIsAFault) {
-  loop->rearm();
+  arm();
   run(1000);
   loop->suspended();
   const std::size_t from = device.received.size();
   run(10);
   EXPECT_EQ(telemetry().fault, Fault::kSuspended);
   EXPECT_EQ(max_received_n(from), 0.0);
-  loop->rearm();
+  arm();
   run(1000);
   EXPECT_EQ(telemetry().fault, Fault::kNone);
 }
@@ -145,12 +228,12 @@ TEST_F(LoopArmingTest, AMachineThatSleptIsAFault) {
 TEST_F(LoopArmingTest, WhoAsksWhileTheLoopStandsStillIsRefused) {
   const auto stand_still = [this](bool suspends) {
     suspends ? loop->suspended() : loop->stalled();
-    loop->rearm();
+    arm();
     const std::size_t from = device.received.size();
     run(600);
     EXPECT_EQ(telemetry().fault, suspends ? Fault::kSuspended : Fault::kWatchdog);
     EXPECT_EQ(max_received_n(from), 0.0);
-    loop->rearm();
+    arm();
     run(600);
     EXPECT_EQ(telemetry().fault, Fault::kNone) << "who has seen it may";
     loop->disarm();
@@ -163,7 +246,7 @@ TEST_F(LoopArmingTest, WhoAsksWhileTheLoopStandsStillIsRefused) {
 TEST_F(LoopArmingTest, WhoAsksWhileItStandsStillAgainIsRefusedToo) {
   loop->stalled();
   run(10);
-  loop->rearm();
+  arm();
   loop->stalled();
   const std::size_t from = device.received.size();
   run(600);
@@ -175,7 +258,7 @@ TEST_F(LoopArmingTest, ADeviceThatWasHaltedGetsItsZerosFirst) {
   run(10);
   device.halt();
   device.halted = true;
-  loop->rearm();
+  arm();
   run(1);
   EXPECT_FALSE(device.halted) << "a write of zeros has ended it";
   run(600);
@@ -189,7 +272,7 @@ TEST_F(LoopArmingTest, AnOldMeasurementIsTheMachinesFaultWhereTicksWereMissed) {
     device.while_read = nullptr;
     make_loop({{.first_tick = 20, .num_ticks = 100, .injection = Injection::kStaleTime}});
     run(1);
-    loop->rearm();
+    arm();
     for (int tick = 0; tick < 60; ++tick) {
       loop->due(1 + tick, missed && tick % 4 == 0 ? 2 : 0);
       run(1);

@@ -210,14 +210,14 @@ TEST(HapticLoopBadInput, ABrokenAmountNeverEntersTheRamp) {
   scene.command.medium.damping_n_s_per_m = std::numeric_limits<double>::infinity();
   scene.publish();
   scene.run(100);
-  scene.loop.rearm();
+  scene.arm();
   scene.run(5);
   EXPECT_EQ(scene.fault(), Fault::kNonFiniteForce) << "as long as it is commanded";
   scene.command.medium = sound;
   scene.publish();
   scene.run(1);
   EXPECT_EQ(sum_of_magnitudes_n(scene.last_received()), 0.0) << "latched";
-  scene.loop.rearm();
+  scene.arm();
   scene.run(600);
   EXPECT_EQ(scene.fault(), Fault::kNone);
   EXPECT_GT(sum_of_magnitudes_n(scene.last_received()), 0.5);

@@ -124,7 +124,7 @@ TEST(HapticLoopContact, APointOutsideTheWorkspaceLatchesUntilItIsBack) {
       scene.device.state.tip_position_m[point].y() = 0.499;
       scene.device.state.tip_velocity_m_per_s[point] = {0.0, 0.1, 0.0};
       scene.run(1);
-      scene.loop.rearm();  // After the test's own jump.
+      scene.arm();  // After the test's own jump.
       scene.run(5);
       EXPECT_EQ(scene.fault(), Fault::kNone);
       scene.run(10);
@@ -134,13 +134,13 @@ TEST(HapticLoopContact, APointOutsideTheWorkspaceLatchesUntilItIsBack) {
       }
       EXPECT_EQ(scene.fault(), Fault::kOutsideWorkspace);
       EXPECT_EQ(sum_of_magnitudes_n(scene.last_received()), 0.0);
-      scene.loop.rearm();
+      scene.arm();
       scene.run(5);
       EXPECT_EQ(scene.fault(), Fault::kOutsideWorkspace) << "armed outside it is not armed";
       scene.device.state.tip_velocity_m_per_s[point] = {0.0, -0.1, 0.0};
       scene.run(30);
       EXPECT_EQ(scene.fault(), Fault::kOutsideWorkspace) << "latched";
-      scene.loop.rearm();
+      scene.arm();
       scene.run(5);
       EXPECT_EQ(scene.fault(), Fault::kNone);
     }
@@ -176,7 +176,7 @@ TEST_P(HapticLoopAbsenceTest, ComesBackInContactWithoutASpike) {
   }
   run(20);
   const std::size_t armed_at = device.received.size();
-  loop->rearm();
+  arm();
   core::PointVectors last = core::zero_vectors();
   for (int tick = 0; tick < 300; ++tick) {
     run(1);

@@ -36,6 +36,9 @@ class HapticLoopTest : public ::testing::Test {
     for (int i = 0; i < num_ticks; ++i) loop->tick();
   }
 
+  /// As somebody who has seen all that is latched.
+  void arm() { loop->rearm(telemetry().num_faults); }
+
   const core::Telemetry& telemetry() {
     published_telemetry.fetch();
     return published_telemetry.value();

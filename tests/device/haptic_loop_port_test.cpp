@@ -255,7 +255,8 @@ Fault after_arming(SilentDevice& device) {
   core::EmergencyStop stop;
   HapticLoop loop({}, device, {commands, telemetry, stop});
   loop.tick();
-  loop.rearm();
+  telemetry.fetch();
+  loop.rearm(telemetry.value().num_faults);
   loop.tick();
   telemetry.fetch();
   return telemetry.value().fault;
@@ -308,7 +309,7 @@ TEST(HapticLoopPort, ADeviceThatNeverTellsOfTheForceItGivesIsAFault) {
   EXPECT_EQ(fault_after(500), Fault::kActingForceUnknown);
   EXPECT_TRUE(device.received.back() == core::zero_vectors());
   tells = true;
-  loop.rearm();
+  loop.rearm(telemetry.value().num_faults);
   EXPECT_EQ(fault_after(700), Fault::kNone) << "armed again it is judged anew";
 }
 

@@ -72,7 +72,7 @@ TEST(HapticLoopProperty, WhateverIsCommandedAndMeasuredTheForceKeepsItsLimits) {
         const auto point = random.below(core::kNumContactPoints);
         scene.device.state.attached[point] = !scene.device.state.attached[point];
       }
-      if (random.with_probability(0.02)) scene.loop.rearm();
+      if (random.with_probability(0.02)) scene.arm();
       scene.run(1);
       ASSERT_TRUE(is_safe(scene.last_received(), last, scene.device.state.attached, limits))
           << "run " << run << " tick " << tick;
@@ -124,7 +124,7 @@ TEST(HapticLoopProperty, AThousandStopsAtRandomPhasesCutTheForceInTheirOwnTick) 
     scene.stop.press();
     const auto held = static_cast<int>(random.below(20));
     for (int tick = 0; tick <= held; ++tick) {
-      if (random.with_probability(0.3)) scene.loop.rearm();
+      if (random.with_probability(0.3)) scene.arm();
       if (random.with_probability(0.3)) scene.publish();
       scene.run(1);
       ASSERT_EQ(sum_of_magnitudes_n(scene.last_received()), 0.0) << "press " << press;
@@ -133,7 +133,8 @@ TEST(HapticLoopProperty, AThousandStopsAtRandomPhasesCutTheForceInTheirOwnTick) 
     ASSERT_TRUE(scene.stop.release(scene.stop.num_presses()));
     scene.run(1);
     ASSERT_EQ(sum_of_magnitudes_n(scene.last_received()), 0.0) << "released is not armed";
-    scene.loop.rearm();
+    scene.wait_to_arm();
+    scene.arm();
     scene.run(1);
     ASSERT_LT(sum_of_magnitudes_n(scene.last_received()), 0.1) << "from zero";
   }

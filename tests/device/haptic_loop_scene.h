@@ -91,10 +91,25 @@ struct LoopScene {
         stop.press();
         run(10);
         (void)stop.release(stop.num_presses());
-        loop.rearm();
+        wait_to_arm();
+        arm();
         run(200);
         break;
     }
+  }
+
+  /// Until somebody may, after a release (`core::kArmAfterRelease_s`); the hand rests
+  /// meanwhile.
+  void wait_to_arm() {
+    const core::PointVectors moving_m_per_s = device.state.tip_velocity_m_per_s;
+    device.move_all(Eigen::Vector3d::Zero());
+    run(510);
+    device.state.tip_velocity_m_per_s = moving_m_per_s;
+  }
+  /// As somebody who has seen all that is latched.
+  void arm() {
+    published_telemetry.fetch();
+    loop.rearm(published_telemetry.value().num_faults);
   }
 
   core::Fault fault() {

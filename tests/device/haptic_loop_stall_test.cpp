@@ -49,7 +49,7 @@ TEST_F(LoopThatLostTime, SendsNothingUntilItIsArmedAgain) {
   tick(1);
   EXPECT_EQ(last_force_n(), 0.0);
   EXPECT_EQ(telemetry_.value().fault, core::Fault::kWatchdog);
-  loop_.rearm();
+  loop_.rearm(telemetry_.value().num_faults);
   tick(50);
   EXPECT_EQ(telemetry_.value().fault, core::Fault::kNone);
   EXPECT_GT(last_force_n(), 0.1);

@@ -90,13 +90,13 @@ TEST_F(HapticLoopStillness, AnOpenSwitchEndsTheForceInItsOwnTick) {
   run(1);
   EXPECT_EQ(pressed_n(), 0.0);
   EXPECT_EQ(telemetry().fault, Fault::kNotEnabled);
-  loop->rearm();
+  arm();
   run(50);
   EXPECT_EQ(telemetry().fault, Fault::kNotEnabled) << "not while it is open";
   device.state.enabled = true;
   run(50);
   EXPECT_EQ(pressed_n(), 0.0) << "closing it brings no force";
-  loop->rearm();
+  arm();
   run(600);
   EXPECT_EQ(telemetry().fault, Fault::kNone);
   EXPECT_GT(pressed_n(), 0.5);

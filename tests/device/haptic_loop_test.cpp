@@ -191,7 +191,7 @@ TEST_F(HapticLoopTest, ATickDoesNotAllocateInAnyOfItsStates) {
   const test_support::AllocationCounter counter;
   command(everything, 0.050);
   run(400);
-  loop->rearm();
+  arm();
   run(400);
   stop.press();
   run(10);

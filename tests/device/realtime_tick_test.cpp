@@ -89,6 +89,12 @@ struct Scene {
     }
   }
 
+  /// As somebody who has seen all that is latched.
+  void arm() {
+    telemetry.fetch();
+    loop.rearm(telemetry.value().num_faults);
+  }
+
   LumpedHandDevice hand{LumpedHandDevice::Parameters{.dry_friction_n = 0.3}};
   ScriptedDevice scripted;
   MouseDevice mouse{MouseDevice::Parameters{}};
@@ -115,7 +121,7 @@ struct Situation {
 void be_struck_and_rearm(Scene& scene) {
   scene.command(core::viscous({.viscosity_pa_s = 10.0}));
   scene.run(400);
-  scene.loop.rearm();
+  scene.arm();
   scene.run(kNumTicks - 400);
 }
 
@@ -169,8 +175,9 @@ const std::vector<Situation>& situations() {
          scene.stop.press();
          scene.run(100);
          (void)scene.stop.release(scene.stop.num_presses());
-         scene.loop.rearm();
-         scene.run(1000);
+         scene.run(510);
+         scene.arm();
+         scene.run(490);
          scene.stop.press();
          scene.run(kNumTicks - 1200);
        },

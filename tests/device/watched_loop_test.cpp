@@ -94,7 +94,7 @@ TEST_P(WatchedLoopTest, ALongStallTakesTheForceUntilTheLoopIsArmed) {
       }
     }
     EXPECT_EQ(fault(), core::Fault::kWatchdog);
-    loop.rearm();
+    loop.rearm(telemetry.value().num_faults);
     run(700);
     EXPECT_EQ(fault(), core::Fault::kNone);
     EXPECT_GT(total_n(), 0.5);

@@ -180,7 +180,8 @@ class Hour {
 
   void arm() {
     known_fault_ = core::Fault::kNone;
-    loop_.rearm();
+    telemetry_.fetch();
+    loop_.rearm(telemetry_.value().num_faults);
     run(700);
   }
 

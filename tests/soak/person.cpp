@@ -59,7 +59,7 @@ Person::Person(Parameters parameters) : parameters_(std::move(parameters)) {
 }
 
 void Person::frame() {
-  application_->beat();
+  application_->beat(true);
   if (num_frames_ % kFramesBetweenLooksBeside == 0) (void)application_->look_beside();
   double used_s = 0.0;
   std::string view;
@@ -408,7 +408,7 @@ void Person::look_at_data() {
 void Person::open_another_window() {
   app::gui::Application other({.study_folder = parameters_.template_study}, [] {});
   for (int i = 0; i < 5; ++i) {
-    other.beat();
+    other.beat(true);
     participant_.one_frame([&](Ui& ui) {
       ui.set_view(other.view_name());
       other.draw(ui);

@@ -87,10 +87,11 @@ class Application final : private ScreenHost {
   void dropped(const std::filesystem::path& path);
   /// The system asks the program to end: a session is left as it is, to be resumed.
   void end_soon();
-  void beat() noexcept {
+  /// `is_in_sight`: of the window, and so of its emergency stop.
+  void beat(bool is_in_sight) noexcept {
     keep_stopped();
-    session_.beat();
-    device_.beat();
+    session_.beat(is_in_sight);
+    device_.beat(is_in_sight);
   }
   /// Of the mouse, logical pixels, whenever it moves.
   void cursor(float x, float y) noexcept { session_.cursor(x, y); }

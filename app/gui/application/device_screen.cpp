@@ -2,6 +2,7 @@
 
 #include "app/language/words.h"
 #include "app/operator/device_look.h"
+#include "app/operator/remembered_stop.h"
 #include "device/registry/device_registry.h"
 
 namespace jnd::app::gui {
@@ -33,7 +34,7 @@ DeviceScreen::DeviceScreen(ScreenHost& host, const OpenStudy& study,
     : host_(host),
       study_(study),
       request_(request),
-      device_(host.wake(), request.allow_no_realtime) {}
+      device_(host.wake(), request.allow_no_realtime, stops_folder()) {}
 
 void DeviceScreen::show() {
   if (choices_.empty()) choices_ = choices_with(waiting_device(request_));

@@ -29,7 +29,7 @@ class DeviceScreen final : public Screen {
   [[nodiscard]] bool is_live() const noexcept { return device_.is_live(); }
   /// Any thread.
   void press_stop() noexcept { device_.press_stop(); }
-  void beat() noexcept { device_.beat(); }
+  void beat(bool is_in_sight) noexcept { device_.beat(is_in_sight); }
   /// Ends what goes on; what was measured is kept.
   void leave_off() { device_.leave_off(); }
 

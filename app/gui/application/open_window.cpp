@@ -108,7 +108,7 @@ std::string show(gui::Window& window, const WindowRequest& request) {
     application.key_changed(key, is_down);
   };
   window.on_iteration = [&] {
-    application.beat();
+    application.beat(window.is_in_sight());
     if (stop_requested() && !application.closed()) {
       application.end_soon();
       window.wake();

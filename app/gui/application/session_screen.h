@@ -75,7 +75,7 @@ class SessionScreen final : public Screen {
   [[nodiscard]] bool stop_is_pressed() const noexcept {
     return exchange_.emergency_stop.is_pressed();
   }
-  void beat() noexcept { exchange_.heartbeat.beat(); }
+  void beat(bool is_in_sight) noexcept { exchange_.beat(is_in_sight); }
   /// The mouse's place, which moves the hand on the pad; logical pixels.
   void cursor(float x, float y) noexcept;
 

@@ -164,8 +164,11 @@ RowButton arming_button(const SessionView& view, RunViewResult& result) {
     return {"release_stop", tr("Release the stop"), style,
             [&] { result.requests.emplace_back(operate::ReleaseStop{view.num_stop_presses}); }};
   }
-  return {"rearm", view.is_disarmed ? tr("Arm the device") : tr("Arm again"), style,
-          [&] { result.requests.emplace_back(operate::Rearm{}); }};
+  ButtonStyle arming = style;
+  // Two clicks meant as one must not release the stop and arm.
+  arming.enabled = view.telemetry.arming_wait_s == 0.0;
+  return {"rearm", view.is_disarmed ? tr("Arm the device") : tr("Arm again"), arming,
+          [&] { result.requests.emplace_back(operate::Rearm{view.telemetry.num_faults}); }};
 }
 
 /// A device that nobody has armed yet: nothing is wrong.

@@ -6,8 +6,10 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <thread>
 
+#include "app/commissioning/device_on_bench.h"
 #include "app/commissioning/measuring_steps.h"
 #include "core/error.h"
 #include "core/safety/emergency_stop.h"
@@ -108,7 +110,9 @@ TEST(GuidedRun, TheForceStandsWhileSomebodyIsAskedAndIsGoneWhereTheyAct) {
   run.while_asking([] { std::this_thread::sleep_for(std::chrono::milliseconds(600)); });
   EXPECT_NO_THROW(run.run_for(0.1)) << "no heartbeat was lost";
   run.without_force([] { std::this_thread::sleep_for(std::chrono::milliseconds(600)); });
-  EXPECT_NO_THROW(run.run_for(0.1)) << "and it is armed again";
+  EXPECT_EQ(most_n(run, 0.1), 0.0) << "none comes by itself";
+  run.arm();
+  EXPECT_GT(most_n(run, 0.1), 0.05);
 }
 
 TEST(GuidedRun, TheForceEndsWhileTheWindowThatHasTheStopIsSilent) {
@@ -140,6 +144,65 @@ TEST(GuidedRun, AnEmergencyStopEndsItAndNothingArmsItMeanwhile) {
   stop.press();
   EXPECT_THROW(run.run_for(0.2), core::Error);
   EXPECT_THROW(run.arm(), core::Error);
+}
+
+/// Somebody who does something else than they were asked to.
+class OddBench final : public device::Bench {
+ public:
+  explicit OddBench(device::Bench& bench) : bench_(bench) {}
+  void take_hand_out() override { bench_.take_hand_out(); }
+  void home() override { bench_.home(); }
+  void let_go_without_force() override { bench_.let_go_without_force(); }
+  void clamp() override { bench_.clamp(); }
+  void expect_force() override {
+    ++num_told;
+    if (instead) instead();
+  }
+  void touch(const Eigen::Vector3d& mark_m) override { bench_.touch(mark_m); }
+  void let_go() override { bench_.let_go(); }
+  void hang(double load_kg) override { bench_.hang(load_kg); }
+
+  int num_told = 0;
+  std::function<void()> instead;
+
+ private:
+  device::Bench& bench_;
+};
+
+TEST(DeviceOnBench, WhoHoldsTheToolIsToldBeforeAForceGrows) {
+  device::TwinDevice twin({});
+  OddBench bench(*twin.bench());
+  DeviceOnBench started(twin, bench, {});
+  started.hold(kSoftHold);
+  EXPECT_EQ(bench.num_told, 1);
+  started.act([] {});
+  EXPECT_EQ(bench.num_told, 2);
+}
+
+TEST(DeviceOnBench, HoldsAToolFromWhereSomebodyHasBroughtIt) {
+  device::TwinDevice twin({});
+  OddBench bench(*twin.bench());
+  DeviceOnBench started(twin, bench, {});
+  started.hold(kSoftHold);
+  const Eigen::Vector3d before_m = started.place_m();
+  const Eigen::Vector3d aside_m(0.1, 0.0, 0.0);
+  started.act([&] {
+    bench.touch(before_m + aside_m);
+    (void)started.place_m();
+  });
+  EXPECT_GT((started.place_m() - before_m).norm(), 0.07) << "it was pulled back";
+}
+
+TEST(DeviceOnBench, AForceThatMovesWhatSomebodyHoldsEnds) {
+  device::TwinDevice twin({});
+  OddBench bench(*twin.bench());
+  DeviceOnBench started(twin, bench, {});
+  started.hold(kSoftHold);
+  bench.instead = [&bench] {
+    bench.let_go();
+    bench.hang(2.0);
+  };
+  EXPECT_THROW(started.act([] {}), core::Error);
 }
 
 TEST(GuidedRun, AGuideGetsNoMoreThanTheLimits) {

@@ -190,7 +190,8 @@ TEST_F(LoosePointTest, AnEmergencyStopComesBeforeALooseFinger) {
   EXPECT_EQ(view().fault_name, "emergency_stop");
   pass(1.0);
   act(operate::ReleaseStop{exchange_.emergency_stop.num_presses()});
-  act(operate::Rearm{});
+  pass(0.6);
+  act(operate::Rearm{view().telemetry.num_faults});
   pass(1.0);
   EXPECT_EQ(view().step, Step::kReady);
 }

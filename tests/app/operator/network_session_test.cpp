@@ -107,7 +107,7 @@ class NetworkSessionTest : public RealtimeSessionTest {
   /// As often as it takes: a connection has to be good for a while first.
   SessionView rearm() {
     return until([this](const SessionView& now) {
-      if (now.step == Step::kFault) session_->request(operate::Rearm{});
+      if (now.step == Step::kFault) session_->request(operate::Rearm{now.telemetry.num_faults});
       return now.step != Step::kFault;
     });
   }
@@ -170,7 +170,7 @@ TEST_F(NetworkSessionTest, NobodyToArmIsToldAsOftenAsItIsTried) {
   present(trial, "test");
   kill_device();
   for (int attempt = 0; attempt < 2; ++attempt) {
-    session_->request(operate::Rearm{});
+    session_->request(operate::Rearm{view().telemetry.num_faults});
     const auto patience = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
     while (std::chrono::steady_clock::now() < patience) session_->advance(0.0);
     EXPECT_EQ(view().step, Step::kFault);

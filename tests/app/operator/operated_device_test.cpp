@@ -57,6 +57,26 @@ class OperatedDeviceTest : public ::testing::Test {
   OperatedDevice device_{[] {}};
 };
 
+TEST_F(OperatedDeviceTest, AStopOfAnEarlierRunHoldsUntilItIsReleased) {
+  const fs::path stops = temporary_.path() / "stops";
+  {
+    OperatedDevice before([] {}, false, stops);
+    before.choose("twin:seed=7", "");
+    before.press_stop();
+  }
+  OperatedDevice now([] {}, false, stops);
+  now.choose("twin:seed=7", "");
+  EXPECT_TRUE(now.view().stop_is_pressed);
+  while (now.works()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  now.try_force(0);
+  EXPECT_FALSE(now.works()) << "nothing moves it";
+  now.release_stop();
+  EXPECT_FALSE(now.view().stop_is_pressed);
+  OperatedDevice later([] {}, false, stops);
+  later.choose("twin:seed=7", "");
+  EXPECT_FALSE(later.view().stop_is_pressed);
+}
+
 TEST_F(OperatedDeviceTest, TellsOfADeviceBeforeItIsOpen) {
   choose();
   const DeviceView view = device_.view();

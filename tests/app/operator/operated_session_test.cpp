@@ -260,7 +260,8 @@ TEST_F(OperatedSessionTest, TheEmergencyStopPausesAndTheTrialIsRunAgainAfterArmi
   EXPECT_TRUE(exchange_.emergency_stop.is_pressed());
   EXPECT_EQ(act(operate::ReleaseStop{now.num_stop_presses}).step, Step::kFault)
       << "releasing is no arming";
-  act(operate::Rearm{});
+  pass(0.6);
+  act(operate::Rearm{view().telemetry.num_faults});
   pass(0.1);
   now = view();
   EXPECT_FALSE(exchange_.emergency_stop.is_pressed());

@@ -3,6 +3,7 @@
 
 #include "app/operator/operated_session_fixture.h"
 #include "app/operator/remembered_stop.h"
+#include "core/error.h"
 #include "core/safety/fault.h"
 #include "core/storage/flight_record.h"
 #include "core/storage/integrity.h"
@@ -30,8 +31,11 @@ class SessionFaultsTest : public OperatedSessionTest {
     EXPECT_EQ(view().step, Step::kFault);
   }
   SessionView rearm() {
-    if (view().stop_pressed) act(operate::ReleaseStop{view().num_stop_presses});
-    act(operate::Rearm{});
+    if (view().stop_pressed) {
+      act(operate::ReleaseStop{view().num_stop_presses});
+      pass(0.6);  // No sooner may anybody arm.
+    }
+    act(operate::Rearm{view().telemetry.num_faults});
     pass(0.05);
     return view();
   }
@@ -87,7 +91,8 @@ TEST_F(SessionFaultsTest, AfterThreeFaultsSomebodyHasToLook) {
       EXPECT_NE(rearm().step, Step::kFault) << fault;
     }
   }
-  EXPECT_NE(act(operate::Rearm{}).refusal.find("three faults"), std::string::npos);
+  EXPECT_NE(act(operate::Rearm{view().telemetry.num_faults}).refusal.find("three faults"),
+            std::string::npos);
   EXPECT_EQ(view().step, Step::kFault);
 }
 
@@ -153,10 +158,52 @@ TEST_F(SessionFaultsTest, AStopHoldsForTheNextSessionAndTheNextStart) {
   EXPECT_EQ(act(operate::Rearm{}).step, Step::kFault);
   act(operate::ReleaseStop{view().num_stop_presses});
   EXPECT_EQ(view().step, Step::kFault) << "releasing is no arming";
-  act(operate::Rearm{});
+  EXPECT_NE(act(operate::Rearm{view().telemetry.num_faults}).refusal.find("just now"),
+            std::string::npos)
+      << "a click that was meant as one";
+  pass(0.6);
+  act(operate::Rearm{view().telemetry.num_faults});
   pass(0.1);
   EXPECT_EQ(view().step, Step::kBegin);
   EXPECT_FALSE(is_stop_remembered(stops_, "lumped"));
+}
+
+TEST_F(SessionFaultsTest, AStopAfterAnotherFaultIsRememberedAndHasToBeReleased) {
+  stops_ = temporary_.path() / "state";
+  open();
+  run_to_block("comparison");
+  reopen({{.first_tick = 1000, .injection = device::Injection::kReadFailure}});
+  act(operate::Begin{"repeat"});
+  for (int i = 0; i < 200 && view().step != Step::kFault; ++i) pass(0.05);
+  ASSERT_EQ(view().fault_name, "device_read_failed");
+  const std::uint64_t seen = view().telemetry.num_faults;
+  stop();
+  EXPECT_EQ(view().fault_name, "emergency_stop");
+  EXPECT_TRUE(is_stop_remembered(stops_, "lumped"));
+  EXPECT_NE(act(operate::Rearm{seen}).refusal.find("release it first"), std::string::npos);
+  act(operate::ReleaseStop{view().num_stop_presses});
+  pass(0.6);
+  EXPECT_NE(act(operate::Rearm{seen}).refusal.find("another fault"), std::string::npos)
+      << "asked for before the stop";
+  EXPECT_NE(rearm().step, Step::kFault);
+}
+
+TEST_F(SessionFaultsTest, NoCommandArmsADeviceWhoseStopNobodyHasReleased) {
+  const std::filesystem::path folder = temporary_.path() / "state";
+  EXPECT_NO_THROW(require_stop_released(folder, "plugin:robot.so", false));
+  remember_stop(folder, "plugin:robot.so");
+  EXPECT_THROW(require_stop_released(folder, "plugin:robot.so,port=2", false), core::Error)
+      << "the same device, used otherwise";
+  EXPECT_NO_THROW(require_stop_released(folder, "plugin:robot.so", true));
+  EXPECT_NO_THROW(require_stop_released(folder, "plugin:robot.so", false)) << "released";
+}
+
+TEST_F(SessionFaultsTest, AWindowThatNobodySeesGivesNoSignOfLife) {
+  const std::uint64_t count = exchange_.heartbeat.count();
+  exchange_.beat(/*is_in_sight=*/false);
+  EXPECT_EQ(exchange_.heartbeat.count(), count);
+  exchange_.beat(/*is_in_sight=*/true);
+  EXPECT_EQ(exchange_.heartbeat.count(), count + 1);
 }
 
 TEST_F(SessionFaultsTest, AStopOfOneDeviceIsNoneOfAnother) {

@@ -111,7 +111,7 @@ TEST_F(SessionWorkerTest, AWindowThatFallsSilentStopsTheForce) {
   EXPECT_EQ(worker->view()->fault_name, "heartbeat_lost");
   // Who arms it answers again: else the first tick of the armed loop finds the window silent.
   exchange_.heartbeat.beat();
-  worker->request(operate::Rearm{});
+  worker->request(operate::Rearm{worker->view()->telemetry.num_faults});
   until(*worker, [](const SessionView& view) { return view.step == Step::kBegin; });
 }
 

@@ -54,9 +54,11 @@ class ApparatusTest : public ::testing::Test {
     return false;
   }
 
+  /// As somebody who has seen all that is latched.
+  static void rearm(Apparatus& apparatus) { apparatus.rearm(apparatus.telemetry().num_faults); }
   /// A machine so busy that this thread was not heard of in time lost the force for that.
   [[nodiscard]] bool feels_force(Apparatus& apparatus) {
-    if (apparatus.telemetry().fault == core::Fault::kHeartbeatLost) apparatus.rearm();
+    if (apparatus.telemetry().fault == core::Fault::kHeartbeatLost) rearm(apparatus);
     return force_n(apparatus) > 1.0;
   }
 
@@ -156,10 +158,11 @@ TEST_F(ApparatusTest, TheWindowsStopLatchesAndRearmingBringsTheForceBack) {
   (void)exchange_.emergency_stop.release(exchange_.emergency_stop.num_presses());
   EXPECT_THROW(apparatus.run_for(0.1), core::Error) << "latched";
   exchange_.emergency_stop.press();
-  apparatus.rearm();
+  rearm(apparatus);
   EXPECT_THROW(apparatus.run_for(0.1), core::Error) << "still pressed";
   (void)exchange_.emergency_stop.release(exchange_.emergency_stop.num_presses());
-  apparatus.rearm();
+  EXPECT_THROW(apparatus.run_for(0.6), core::Error) << "nobody has armed it";
+  rearm(apparatus);
   double most_n = 0.0;
   for (int glance = 0; glance < 100; ++glance) {
     apparatus.run_for(0.02);
@@ -194,8 +197,23 @@ TEST_F(ApparatusTest, InRealTimeAWindowThatFallsSilentFadesTheForceUntilItIsRear
   const std::int64_t tick = apparatus.next_tick();
   ASSERT_TRUE(wait_until([&] { return apparatus.next_tick() > tick + 20; }, true));
   EXPECT_EQ(apparatus.telemetry().fault, core::Fault::kHeartbeatLost);
-  apparatus.rearm();
+  rearm(apparatus);
   EXPECT_TRUE(wait_until([&] { return feels_force(apparatus); }, true));
+}
+
+/// As where a disk takes seconds: the window lives, and nobody would take the medium away.
+TEST_F(ApparatusTest, InRealTimeASessionThatHangsFadesTheForceThoughTheWindowLives) {
+  Apparatus apparatus(with_doors("lumped", /*realtime=*/true), laboratory_);
+  apparatus.render(core::viscous({.viscosity_pa_s = 8.0}));
+  apparatus.begin_strokes({}, core::RandomStream(1, "stroke"));
+  ASSERT_TRUE(wait_until([&] { return feels_force(apparatus); }, /*window_lives=*/true));
+  const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(1500);
+  while (std::chrono::steady_clock::now() < end) {
+    exchange_.heartbeat.beat();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(apparatus.telemetry().fault, core::Fault::kHeartbeatLost);
+  EXPECT_EQ(apparatus.telemetry().authority_ratio, 0.0);
 }
 
 TEST_F(ApparatusTest, InRealTimeTheWindowsStopIsThere) {
@@ -213,7 +231,13 @@ TEST_F(ApparatusTest, InRealTimeTheWindowsStopIsThere) {
       [&] { return apparatus.telemetry().fault == core::Fault::kEmergencyStop; }, true));
   EXPECT_EQ(force_n(apparatus), 0.0);
   (void)exchange_.emergency_stop.release(exchange_.emergency_stop.num_presses());
-  apparatus.rearm();
+  ASSERT_TRUE(wait_until(
+      [&] {
+        const std::int64_t num_ticks = apparatus.telemetry().num_ticks;
+        return num_ticks > 0 && apparatus.telemetry().arming_wait_s == 0.0;
+      },
+      true));
+  rearm(apparatus);
   EXPECT_TRUE(wait_until(moves_against_force, true));
 }
 

@@ -23,6 +23,15 @@ TEST(HeartbeatMonitor, OneBeatStartsTheTimeAnew) {
   }
 }
 
+TEST(HeartbeatMonitor, TicksThatWereMissedAreTime) {
+  Heartbeat heartbeat;
+  HeartbeatMonitor monitor(&heartbeat, 250);
+  for (int tick = 1; tick < 25; ++tick) EXPECT_FALSE(monitor.is_silent(10)) << tick;
+  EXPECT_TRUE(monitor.is_silent(10));
+  heartbeat.beat();
+  EXPECT_FALSE(monitor.is_silent(1000)) << "it came meanwhile";
+}
+
 TEST(HeartbeatMonitor, ASimulationNeedsNoHeart) {
   HeartbeatMonitor monitor(nullptr, 1);
   for (int tick = 0; tick < 1000; ++tick) EXPECT_FALSE(monitor.is_silent());

@@ -73,10 +73,18 @@ TEST(Staleness, TheLoopsOwnMissedTicksAreTold) {
   Staleness staleness(kMaxTicks, kPeriod_s);
   staleness.observe({}, {}, kPeriod_s, 7);
   EXPECT_FALSE(staleness.may_be_the_loops()) << "before anything stood still";
-  EXPECT_EQ(stale_at(staleness, {}, 0.0, 6, 1), 6);
+  EXPECT_EQ(stale_at(staleness, {}, 0.0, 6, 1), 3) << "of two ticks each";
   EXPECT_TRUE(staleness.may_be_the_loops());
   staleness.observe({}, {}, kPeriod_s, 0);
   EXPECT_FALSE(staleness.may_be_the_loops());
+}
+
+TEST(Staleness, AMeasurementGrowsOldInTicksThatWereMissed) {
+  Staleness staleness(kMaxTicks, kPeriod_s);
+  EXPECT_EQ(stale_at(staleness, {}, 0.0, 6, 5), 1);
+  staleness.observe({}, {}, kPeriod_s, 0);
+  // Every tenth tick runs: 3 mm at 0.1 m/s are passed in the fourth, not in the thirty-first.
+  EXPECT_EQ(stale_at(staleness, moving_at(0.1), 10 * kPeriod_s, 100, 9), 4);
 }
 
 }  // namespace staleness_test

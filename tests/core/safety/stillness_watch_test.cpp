@@ -20,7 +20,7 @@ PointVectors at(double x_m) {
 void stand(StillnessWatch& watch, double duration_s, std::uint8_t pushed_bits,
            double speed_m_per_s = 0.0) {
   for (int i = 0; i < static_cast<int>(duration_s / kPeriod_s); ++i) {
-    watch.observe(at(0.1), at(speed_m_per_s), kAll, pushed_bits);
+    watch.observe(at(0.1), at(speed_m_per_s), kAll, pushed_bits, kPeriod_s);
   }
 }
 
@@ -45,7 +45,7 @@ TEST(StillnessWatch, AnyChangeBringsTheForceBack) {
   stand(watch, 4.5, kIndex);
   ASSERT_EQ(watch.authority_ratio(3), 0.0);
   for (int i = 1; i <= 501; ++i) {
-    watch.observe(at(0.1 + 1e-7 * i), at(0.0), kAll, kIndex);
+    watch.observe(at(0.1 + 1e-7 * i), at(0.0), kAll, kIndex, kPeriod_s);
     EXPECT_NEAR(watch.authority_ratio(3), i / 500.0, 0.003) << "slowly";
     EXPECT_FALSE(watch.asks_to_move());
   }
@@ -63,7 +63,7 @@ TEST(StillnessWatch, WhoIsNotPushedMayRest) {
 
 TEST(StillnessWatch, APointThatIsNotHeldMayRest) {
   StillnessWatch watch({}, kPeriod_s);
-  for (int i = 0; i < 10'000; ++i) watch.observe(at(0.1), at(1.0), {}, kIndex);
+  for (int i = 0; i < 10'000; ++i) watch.observe(at(0.1), at(1.0), {}, kIndex, kPeriod_s);
   EXPECT_FALSE(watch.is_frozen());
 }
 
@@ -77,9 +77,25 @@ TEST(StillnessWatch, AVelocityWithoutAWayIsFrozenAndNoiseIsNot) {
   stand(watch, 60.0, 0, 0.003);
   EXPECT_FALSE(watch.is_frozen()) << "a bias that coarse sensors have at rest";
   for (int i = 0; i < 60'000; ++i) {
-    watch.observe(at(0.1), at(i % 2 == 0 ? 0.04 : -0.04), kAll, 0);
+    watch.observe(at(0.1), at(i % 2 == 0 ? 0.04 : -0.04), kAll, 0, kPeriod_s);
   }
   EXPECT_FALSE(watch.is_frozen());
+}
+
+TEST(StillnessWatch, MeasurementsThatComeSeldomTakeNoLonger) {
+  StillnessWatch watch({}, kPeriod_s);
+  const auto stand_seldom = [&watch](int num_ms) {
+    for (int ms = 0; ms < num_ms; ms += 10) {
+      watch.observe(at(0.1), at(0.0), kAll, kIndex, 10 * kPeriod_s);
+    }
+  };
+  stand_seldom(3010);
+  EXPECT_NEAR(watch.authority_ratio(3), 0.5, 0.01);
+  stand_seldom(2200);
+  EXPECT_TRUE(watch.is_frozen());
+  watch.observe(at(0.2), at(0.0), kAll, kIndex, 10 * kPeriod_s);
+  EXPECT_NEAR(watch.authority_ratio(3), kPeriod_s / 0.5, 1e-12)
+      << "nor does it come back faster";
 }
 
 TEST(StillnessWatch, ParametersOutOfRangeAreRefused) {

@@ -138,5 +138,37 @@ TEST(DriverCheck, ADeviceThatCannotBeReadAnyMoreIsNotPushed) {
   EXPECT_EQ(device.largest_n(), 0.0);
 }
 
+TEST(DriverCheck, WhoIsToldToStopLeavesNoForceAndADeviceThatIsClosed) {
+  class CountingDevice final : public HapticDevice {
+   public:
+    [[nodiscard]] std::string_view name() const noexcept override { return "counting"; }
+    [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
+      return hand.capabilities();
+    }
+    void open() override { hand.open(); }
+    [[nodiscard]] bool read(core::HapticState& state) noexcept override {
+      ++num_reads;
+      return hand.read(state);
+    }
+    [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override {
+      last_n = force_on_hand_n;
+      return hand.write(force_on_hand_n);
+    }
+    void close() noexcept override { ++num_closed; }
+    void halt() noexcept override { hand.halt(); }
+    LumpedHandDevice hand{LumpedHandDevice::Parameters{}};
+    core::PointVectors last_n = core::zero_vectors();
+    int num_reads = 0, num_closed = 0;
+  } device;
+  const auto is_pushed = [&device] { return !(device.last_n == core::zero_vectors()); };
+  EXPECT_THROW(
+      (void)check_driver(device, {.pushes = true, .is_paced = false, .is_cancelled = is_pushed},
+                         [](const RuleOutcome&) {}),
+      core::Error);
+  EXPECT_FALSE(is_pushed());
+  EXPECT_EQ(device.num_closed, 1);
+  EXPECT_GT(device.num_reads, 0);
+}
+
 }  // namespace driver_check_test
 }  // namespace jnd::device

@@ -273,12 +273,12 @@ TEST(ExoskeletonDevice, AnInvalidSimulationEndsInAFaultUntilOpenedAgain) {
   EXPECT_EQ(laboratory.telemetry.value().fault, core::Fault::kSimulationInvalid);
   EXPECT_FALSE(laboratory.exoskeleton.read(laboratory.state));
   EXPECT_FALSE(laboratory.exoskeleton.write(core::zero_vectors()));
-  laboratory.loop.rearm();
+  laboratory.loop.rearm(laboratory.telemetry.value().num_faults);
   laboratory.loop.tick();
   laboratory.telemetry.fetch();
   EXPECT_EQ(laboratory.telemetry.value().fault, core::Fault::kSimulationInvalid);
   laboratory.exoskeleton.open();
-  laboratory.loop.rearm();
+  laboratory.loop.rearm(laboratory.telemetry.value().num_faults);
   laboratory.tick();
   EXPECT_EQ(laboratory.telemetry.value().fault, core::Fault::kNone);
 }

@@ -106,6 +106,32 @@ TEST_F(DeviceServerTest, AForceThatAnswersToAnOldStateEnds) {
   EXPECT_EQ(program.state.fault, Fault::kLinkLost);
 }
 
+TEST_F(DeviceServerTest, AnAnswerGrowsOldInTimeAlsoWhereFewStepsRun) {
+  arm();
+  talk(10, 1.0);
+  ASSERT_EQ(felt_n(), 1.0);
+  program.answers = false;
+  int num_steps = 0;
+  // Each pause is shorter than the one that counts as a fault of its own.
+  while (program.state.armed && ++num_steps < 100) {
+    network.now_ns += 14 * kMs;
+    talk(1, 1.0);
+  }
+  EXPECT_EQ(felt_n(), 0.0);
+  EXPECT_EQ(num_steps, 3) << "40 ms, in steps of 15";
+}
+
+TEST_F(DeviceServerTest, WhatWaitedWhileTheMachineSleptCountsForNothing) {
+  arm();
+  talk(10, 1.0);
+  ASSERT_EQ(felt_n(), 1.0);
+  program.command(1.0);
+  server.suspended();
+  step();
+  EXPECT_EQ(felt_n(), 0.0);
+  EXPECT_EQ(program.state.fault, Fault::kSuspended);
+}
+
 TEST_F(DeviceServerTest, OnceDisarmedItWaitsForAnotherNumber) {
   arm();
   talk(10, 1.0);

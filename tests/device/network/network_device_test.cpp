@@ -221,7 +221,7 @@ TEST_F(NetworkDeviceTest, ADeviceMayAskForPatience) {
   EXPECT_EQ(fault(), Fault::kLinkLost) << "patience is for what is late, not for what is lost";
   network.on_send = nullptr;
   run(600);
-  loop->rearm();
+  arm_loop();
   run(600);
   EXPECT_EQ(fault(), Fault::kNone);
   server_runs = false;
@@ -319,7 +319,7 @@ TEST_F(NetworkDeviceTest, AFaultOfTheServedDeviceComesThroughAndPassesWithIt) {
     EXPECT_EQ(fault(), expected);
     EXPECT_EQ(total_now_n(), 0.0);
     run(500);
-    loop->rearm();
+    arm_loop();
     run(700);
     EXPECT_EQ(fault(), Fault::kNone);
     EXPECT_GT(total_now_n(), 0.5);

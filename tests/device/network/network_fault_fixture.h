@@ -30,7 +30,7 @@ class NetworkFaultTest : public NetworkTest, public ::testing::WithParamInterfac
     EXPECT_EQ(fault(), latched) << "latched";
     EXPECT_EQ(total_now_n(), 0.0) << "nobody has armed";
     const std::size_t armed_at = mark();
-    loop->rearm();
+    arm_loop();
     run(20);
     EXPECT_LT(max_total_since_n(armed_at), 2.0) << "it fades in";
     run(700);

@@ -154,7 +154,7 @@ TEST_P(NetworkFaultTest, ABadConnectionEndsTheForceAndIsNotArmed) {
     // halts it.
     EXPECT_EQ(server->counts().last_fault, to == kServer ? Fault::kLinkLost : Fault::kWatchdog);
     const std::size_t lost = mark();
-    loop->rearm();
+    arm_loop();
     run(1000);
     EXPECT_EQ(max_total_since_n(lost), 0.0);
     EXPECT_EQ(fault(), Fault::kLinkLost);
@@ -245,7 +245,7 @@ TEST_P(NetworkFaultTest, AnotherDeviceAtTheSamePlaceIsNotTakenForTheOldOne) {
   scripted.device_capabilities.max_force_per_point_n = 3.0;
   serve({});
   run(1000);
-  loop->rearm();
+  arm_loop();
   run(100);
   EXPECT_EQ(fault(), Fault::kLinkLost);
   EXPECT_EQ(total_now_n(), 0.0);
@@ -259,7 +259,7 @@ TEST_P(NetworkFaultTest, AHaltTakesTheForceAtOnceAndLatches) {
   EXPECT_EQ(fault(), Fault::kWatchdog);
   run(300);
   EXPECT_EQ(total_now_n(), 0.0);
-  loop->rearm();
+  arm_loop();
   run(700);
   EXPECT_EQ(fault(), Fault::kNone);
   EXPECT_GT(total_now_n(), 0.5);
@@ -305,11 +305,11 @@ TEST_P(NetworkFaultTest, WhateverTheNetworkDoesTheForceStaysSafe) {
       run(static_cast<int>(random.below(60)));
       loop_runs = true;
       if (random.with_probability(0.2)) serve({});
-      loop->rearm();
+      arm_loop();
     }
     network.on_send = nullptr;
     run(1500);
-    loop->rearm();
+    arm_loop();
     run(700);
     EXPECT_EQ(fault(), Fault::kNone) << seed;
     EXPECT_GT(total_now_n(), 0.5) << seed;

@@ -105,6 +105,12 @@ class NetworkTest : public ::testing::Test {
     run(50);
     EXPECT_EQ(total_now_n(), 0.0);
     EXPECT_TRUE(stop.release(stop.num_presses()));
+    run(510);  // No sooner may anybody arm, see `core::kArmAfterRelease_s`.
+  }
+  /// As somebody who has seen all that is latched.
+  void arm_loop() {
+    published_telemetry.fetch();
+    loop->rearm(published_telemetry.value().num_faults);
   }
 
   /// So many of both sides' ticks; stops what the test has stopped.

@@ -22,7 +22,7 @@ TEST_P(NetworkTrustTest, APoorConnectionGoesOnAndIsNotArmedAgain) {
     EXPECT_GT(total_now_n(), 0.5);
     press_and_release_stop();
     const std::size_t refused = mark();
-    loop->rearm();
+    arm_loop();
     run(600);
     EXPECT_EQ(max_total_since_n(refused), 0.0);
     EXPECT_EQ(fault(), Fault::kLinkLost) << "it says what is wrong";
@@ -44,14 +44,14 @@ TEST_P(NetworkTrustTest, AForceIsNotOlderThanTheConnectionMayBeSlow) {
     EXPECT_EQ(total_now_n() > 0.5, delayed.goes_on) << delayed.one_way_ms;
     if (delayed.goes_on) {
       press_and_release_stop();
-      loop->rearm();
+      arm_loop();
       run(700);
       EXPECT_EQ(total_now_n() > 0.5, delayed.may_arm) << delayed.one_way_ms;
       EXPECT_EQ(fault(), delayed.may_arm ? Fault::kNone : Fault::kLinkLost);
     }
     network.on_send = nullptr;
     run(700);
-    loop->rearm();
+    arm_loop();
     run(700);
     EXPECT_GT(total_now_n(), 0.5) << delayed.one_way_ms;
   }
@@ -102,7 +102,7 @@ TEST_P(NetworkTrustTest, ADeviceThatDoesNotHearUsIsNotTrusted) {
     EXPECT_EQ(fault(), Fault::kLinkLost) << echo_ns;
     EXPECT_EQ(total_now_n(), 0.0) << echo_ns;
     run(300);
-    loop->rearm();
+    arm_loop();
     run(300);
     EXPECT_EQ(total_now_n(), 0.0) << echo_ns;
     network.on_send = nullptr;
@@ -127,7 +127,7 @@ TEST_P(NetworkTrustTest, WhateverFaultTheDeviceTellsOfNothingFades) {
     }
     network.on_send = nullptr;
     run(300);
-    loop->rearm();
+    arm_loop();
     run(700);
     EXPECT_GT(total_now_n(), 0.5) << number;
   }

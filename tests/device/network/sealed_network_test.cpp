@@ -219,7 +219,7 @@ TEST_F(SealedNetworkTest, OldStatesDoNotHoldUpTheWayBackFromAFault) {
   scripted.state.enabled = true;
   EXPECT_EQ(fault(), Fault::kNotEnabled);
   run_among_old_ones(700);
-  loop->rearm();
+  arm_loop();
   run_among_old_ones(800);
   EXPECT_EQ(fault(), Fault::kNone);
   EXPECT_GT(total_now_n(), 0.5);
@@ -243,7 +243,7 @@ TEST_F(SealedNetworkTest, AHelloThatWasRefusedIsWorthNothingLater) {
             std::string::npos);
   network.on_send = nullptr;
   run(600);
-  loop->rearm();
+  arm_loop();
   run(700);
   ASSERT_EQ(fault(), Fault::kNone);
   ASSERT_FALSE(kept.bytes.empty());
@@ -319,7 +319,7 @@ TEST_F(SealedNetworkTest, ADeviceThatWasRestartedIsFoundAgain) {
   run(700);
   EXPECT_EQ(fault(), Fault::kLinkLost);
   EXPECT_EQ(total_now_n(), 0.0);
-  loop->rearm();
+  arm_loop();
   run(700);
   EXPECT_EQ(fault(), Fault::kNone);
   EXPECT_GT(total_now_n(), 0.5);

@@ -46,7 +46,7 @@ class ForceDimensionFaultsTest : public ForceDimensionTest {
         (void)fluid.run(1);
         return device.may_arm();
       }));
-      fluid.loop().rearm();
+      fluid.loop().rearm(fluid.told().num_faults);
       found = fluid.run(900);
     }
     ASSERT_EQ(found, Fault::kNone) << core::name(found) << ": " << fluid.words();
@@ -227,7 +227,7 @@ TEST_F(ForceDimensionFaultsTest, WhatAPersonSwitchesOffNoProgramSwitchesOn) {
   expect_no_force(fluid);
   page().trouble = TWIN_IS_WELL;
   for (int i = 0; i < 10; ++i) {
-    fluid.loop().rearm();
+    fluid.loop().rearm(fluid.told().num_faults);
     fluid.go_on(30);
     EXPECT_TRUE(core::is_failure(fluid.told().fault));
     EXPECT_EQ(page().is_on, 0);

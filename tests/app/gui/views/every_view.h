@@ -261,6 +261,9 @@ class EveryView {
             "nothing here holds the device meanwhile. Then rest its tool where it rested "
             "before.")},
         {Act::kHold, tr("Hold the tool where it is, or let it rest on something.")},
+        {Act::kHold, tr("Go on holding the tool where it is, fingers clear of its links: the "
+                        "device will hold it, too, by a force that grows from nothing within "
+                        "half a second.")},
         {Act::kTouch, tr("Bring the first contact point to the mark at x {:.0f}, y {:.0f}, z "
                          "{:.0f} mm, and hold it there.",
                          -100.0, 100.0, -250.0)},

@@ -383,9 +383,14 @@ TEST_F(RunView, AFaultSaysWhatHappenedWhatIsSafeAndHowToGoOn) {
   EXPECT_TRUE(ui_.drawn().shows("Release the stop"));
   (void)after_key<operate::ReleaseStop>(view, {Key::kEnter, true});
   view.stop_pressed = false;
+  view.telemetry.arming_wait_s = 0.4;
+  view.telemetry.num_faults = 3;
   draw(view);
   EXPECT_TRUE(ui_.drawn().shows("Arm again"));
-  (void)after_key<operate::Rearm>(view, {Key::kEnter, true});
+  EXPECT_FALSE(ui_.drawn().find("rearm")->enabled) << "a double click is no arming";
+  view.telemetry.arming_wait_s = 0.0;
+  draw(view);
+  EXPECT_EQ(after_key<operate::Rearm>(view, {Key::kEnter, true}).num_faults_seen, 3U);
 }
 
 TEST_F(RunView, ADeviceThatNobodyHasArmedIsNoFault) {
