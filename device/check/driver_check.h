@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "device/check/device_rule.h"
+#include "device/check/hand_check.h"
 #include "device/haptic_device.h"
 
 namespace jnd::device {
@@ -11,6 +14,10 @@ struct DriverCheck {
   bool pushes = false;
   /// Else one tick follows the other at once: of a simulation without a clock of its own.
   bool is_paced = true;
+  /// A person moves it as the prompts say, and nothing pushes it: how long one prompt is; none:
+  /// nobody does.
+  std::optional<double> by_hand_step_s{};
+  TellPrompt prompt{};
 };
 
 /// Tries what `HapticDevice` promises of a device that is closed: it opens, is punctual, tells
