@@ -90,6 +90,7 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
               : device.capabilities().tells_acting_force),
       acts_at_once_(watches_port_ && !device.capabilities().tells_acting_force),
       may_be_armed_(device.capabilities().simulated || watches_port_),
+      tells_acted_(device.capabilities().tells_acting_force),
       guards_({.port_energy = parameters.port_energy,
                .oscillation = parameters.oscillation,
                .velocity_check = parameters.velocity_check,
@@ -550,6 +551,25 @@ void HapticLoop::add_exposure() noexcept {
   if (whole_n >= kFeltN) telemetry_.exposure.under_force_s += duration_s;
 }
 
+/// What a device tells may be late by some ticks, and so may be counted in what comes next.
+void HapticLoop::count_forces() noexcept {
+  bool is_moved = false, is_sent = false, acted = false, is_measured = false;
+  for (int i = 0; i < kNumContactPoints; ++i) {
+    is_moved |= state_.attached[i] && !state_.tip_velocity_m_per_s[i].isZero(0.0);
+    is_sent |= !force_on_hand_n_[i].isZero(0.0);
+    acted |= !state_.acted_n[i].isZero(0.0);
+    is_measured |= state_.channels.force_n[i] != core::PlainVector{};
+  }
+  if (!tells_acted_) acted = is_sent;
+  if (state_.channels.has(core::kMeasuredForce)) acted = acted && is_measured;
+  core::ForceCounts& counts = telemetry_.force_counts;
+  counts.num_held += attached_bits_ != 0 ? 1 : 0;
+  counts.num_immersed += (attached_bits_ & immersed_bits_) != 0 ? 1 : 0;
+  counts.num_moved += is_moved ? 1 : 0;
+  counts.num_sent += is_sent ? 1 : 0;
+  counts.num_acted += acted ? 1 : 0;
+}
+
 void HapticLoop::report() noexcept {
   const core::HapticCommand& command = exchange_.commands.value();
   core::Sample& sample = telemetry_.sample;
@@ -581,6 +601,7 @@ void HapticLoop::report() noexcept {
   if (channels_ != 0) sample.channels = state_.channels;
 
   add_exposure();
+  count_forces();
   guards_.end_tick(fault_ == Fault::kNone);
   flight_recorder_.record(sample);
   if (core::is_failure(fault_)) flight_recorder_.freeze();

@@ -198,6 +198,7 @@ class HapticLoop {
   [[nodiscard]] core::PointVectors force_of_medium() const noexcept;
   void write_device() noexcept;
   void add_exposure() noexcept;
+  void count_forces() noexcept;
 
   Parameters parameters_;
   HapticDevice& device_;
@@ -224,6 +225,7 @@ class HapticLoop {
   bool watches_port_;
   bool acts_at_once_;  ///< What was sent last is taken for the force that acted.
   bool may_be_armed_;
+  bool tells_acted_;  ///< The device does.
   core::Guards guards_;
   core::FlightRecorder flight_recorder_;
   std::atomic<std::uint64_t> rearm_requested_{0};  ///< Faults seen, and one; 0: nobody asks.

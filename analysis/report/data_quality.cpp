@@ -79,6 +79,8 @@ void count_events(const core::StudyStore& store, SessionQuality& quality) {
   std::int64_t first_ns = 0;
   std::int64_t last_ns = 0;
   bool any = false;
+  std::int64_t num_without_force = 0;
+  std::string missing_force_cause;
   std::map<std::string, std::pair<std::int64_t, std::int64_t>> guards;  // Warned, shadowed.
   for (const core::EventRow& event : store.events(quality.session.session)) {
     // Acts on a session long after it do not make it longer.
@@ -111,6 +113,10 @@ void count_events(const core::StudyStore& store, SessionQuality& quality) {
       ++quality.num_faults;
       remark(said("fault: {}", string_at(object_in(event.data), "fault")));
     }
+    if (event.kind == "force_missing") {
+      ++num_without_force;
+      missing_force_cause = string_at(object_in(event.data), "cause");
+    }
     if (event.kind == "guard_noticed") {
       const json noticed = object_in(event.data);
       auto& [num_warnings, num_shadowed] = guards[string_at(noticed, "guard")];
@@ -127,6 +133,11 @@ void count_events(const core::StudyStore& store, SessionQuality& quality) {
       if (quality.ended_early.empty()) quality.ended_early = said("no reason given");
       remark(said("ended early: {}", quality.ended_early));
     }
+  }
+  if (num_without_force > 0) {
+    quality.remarks.push_back(
+        said("CAUTION, no force acted in {} presentations of stimuli that ask for one: {}",
+             std::to_string(num_without_force), missing_force_cause));
   }
   for (const auto& [guard, counts] : guards) {
     std::string words = said("guard {}: warned {} times", guard, std::to_string(counts.first));

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,8 +35,21 @@ struct DeviceCheckOptions {
   double rate_hz = 1000.0;
   bool with_force = false;
   bool releases_stop = false;
+  bool by_hand = false;
+  double step_s = 4.0;
   bool json = false;
+
+  [[nodiscard]] std::optional<double> by_hand_step_s() const {
+    return by_hand ? std::optional(step_s) : std::nullopt;
+  }
 };
+
+/// For people and programs alike: on stderr, a line when a step begins and every second after.
+void print_prompt(const device::HandPrompt& prompt) {
+  fmt::print(stderr, "PROMPT {}: {} ({:.0f} s left)\n", prompt.step, prompt.text,
+             std::ceil(prompt.left_s));
+  std::fflush(stderr);
+}
 
 /// The table, line by line as outcomes come in.
 class Outcomes {
@@ -59,7 +74,7 @@ class Outcomes {
     std::fflush(stdout);
   }
 
-  void end(const std::string& device, bool is_real) const {
+  void end(const std::string& device, bool is_real, bool is_by_hand) const {
     const auto count = [&](Verdict verdict) {
       return counts_[static_cast<std::size_t>(verdict)];
     };
@@ -73,6 +88,11 @@ class Outcomes {
       out["rules"] = rules_;
       fmt::print("{}\n", json_text(out));
       return;
+    }
+    if (!is_by_hand) {
+      fmt::print(
+          "Directions, order of points, buttons and workspace are tried by a person who moves "
+          "the device: --by-hand.\n");
     }
     fmt::print("{} rules kept, {} broken, {} not tried\n", count(Verdict::kPassed),
                count(Verdict::kFailed), count(Verdict::kSkipped));
@@ -118,9 +138,11 @@ int check_network(const DeviceCheckOptions& options, Outcomes& outcomes) {
        .server = server,
        .key = key,
        .pushes = options.with_force,
-       .believes_simulated = believes_simulated},
+       .believes_simulated = believes_simulated,
+       .by_hand_step_s = options.by_hand_step_s(),
+       .prompt = print_prompt},
       [&](const RuleOutcome& outcome) { outcomes.add(outcome); });
-  outcomes.end(options.device, !believes_simulated);
+  outcomes.end(options.device, !believes_simulated, options.by_hand);
   return is_kept ? kDone : kHasProblems;
 }
 
@@ -142,18 +164,27 @@ int check_local(const DeviceCheckOptions& options, const device::RealtimeReport&
   } catch (const core::Error& error) {
     throw EnvironmentError(error.what());
   }
-  if (options.with_force && !device->capabilities().simulated) {
+  if (options.with_force && !options.by_hand && !device->capabilities().simulated) {
     require_stop_released(stops_folder(), options.device, options.releases_stop);
   }
   stop_on_signals();
-  const bool is_kept = device::check_driver(
-      *device, {.pushes = options.with_force, .is_cancelled = stop_requested},
-      [&](const RuleOutcome& outcome) { outcomes.add(outcome); });
-  outcomes.end(options.device, !device->capabilities().simulated);
+  const bool is_kept =
+      device::check_driver(*device,
+                           {.pushes = options.with_force,
+                            .is_cancelled = stop_requested,
+                            .by_hand_step_s = options.by_hand_step_s(),
+                            .prompt = print_prompt},
+                           [&](const RuleOutcome& outcome) { outcomes.add(outcome); });
+  outcomes.end(options.device, !device->capabilities().simulated, options.by_hand);
   return is_kept ? kDone : kHasProblems;
 }
 
 int run_device_check(const DeviceCheckOptions& options) {
+  if (options.by_hand && options.with_force) {
+    throw UsageError(
+        "--by-hand: expected no --with-force beside it, for a hand is in the device, found "
+        "both; run one after the other");
+  }
   Outcomes outcomes(options.json);
   device::RealtimeReport report;
   device::obtain_scheduler(80, report);
@@ -186,6 +217,13 @@ void add_device_check(CLI::App& program, Invocation& invocation) {
       ->add_option("--rate-hz", options->rate_hz, "Ticks a second of a plug-in (default 1000)")
       ->check(number_between(10.0, 10'000.0));
   add_release_stop_option(*command, options->releases_stop);
+  command->add_flag("--by-hand", options->by_hand,
+                    "Ask you to move the device, to see that directions, points, buttons and "
+                    "workspace are told truly; it is not pushed, whatever it is");
+  command
+      ->add_option("--step-s", options->step_s,
+                   "With --by-hand, how long you have for each prompt (default 4)")
+      ->check(number_between(0.5, 60.0));
   command->add_flag("--json", options->json, "Print one JSON document");
   command->callback([options, &invocation] {
     invocation.run = [options] { return run_device_check(*options); };

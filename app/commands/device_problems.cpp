@@ -20,12 +20,13 @@ namespace {
 using experiments::StudyProblem;
 
 std::string too_strong(const experiments::RangeEntry& entry, const std::string& device,
-                       const experiments::RangeLimits& limits) {
+                       const experiments::RangeLimits& limits, const std::string& own_limit) {
   return fmt::format(
       "expected a stimulus that `{}` can render at {:g} m/s (at most {:g} N at a point and "
-      "{:g} N in all), found {:.3g} N at a point and {:.3g} N in all{}",
+      "{:g} N in all{}), found {:.3g} N at a point and {:.3g} N in all{}",
       device, limits.expected_speed_m_per_s, limits.max_force_per_point_n,
-      limits.max_total_force_n, entry.largest_point_force_n, entry.total_force_n,
+      limits.max_total_force_n, own_limit.empty() ? "" : "; " + own_limit,
+      entry.largest_point_force_n, entry.total_force_n,
       entry.fits_up_to_m_per_s
           ? fmt::format("; it fits up to {:.2g} m/s", *entry.fits_up_to_m_per_s)
           : "");
@@ -92,6 +93,7 @@ std::vector<StudyProblem> device_problems(const std::filesystem::path& study_fil
   }
   const experiments::RangeLimits limits = range_limits_of(capabilities, expected_speed_m_per_s);
   const std::vector<experiments::RangeEntry> range = experiments::planned_range(study, limits);
+  const std::string own_limit = own_limit_words(device, capabilities);
   std::optional<StabilityCheck> stability;
   if (of_device.stability) {
     stability = check_stability(*of_device.stability, study, range, expected_speed_m_per_s);
@@ -99,7 +101,7 @@ std::vector<StudyProblem> device_problems(const std::filesystem::path& study_fil
   for (std::size_t i = 0; i < range.size(); ++i) {
     const std::string pointer =
         stimulus_pointer(located.root(), range[i].stage, range[i].setting);
-    if (!range[i].fits) add(pointer, too_strong(range[i], device, limits));
+    if (!range[i].fits) add(pointer, too_strong(range[i], device, limits, own_limit));
     if (stability && !stability->is_stable[i]) add(pointer, unstable(*stability, device));
   }
   std::stable_sort(problems.begin(), problems.end(),

@@ -1,11 +1,14 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/command_line/command.h"
 #include "app/command_line/json_text.h"
@@ -54,6 +57,10 @@ struct LoopOutcome {
   const device::LoopTiming& timing;
   const device::RealtimeReport& report;
   const device::ThreadUse& use;
+  const device::DeviceCapabilities& can;
+  core::ForceCounts forces{};
+  std::int64_t num_samples = 0;  ///< Measurements that were new.
+  std::int64_t num_moved = 0;    ///< Of them, with another position than the one before.
   std::uint64_t num_dropped_samples = 0;
 
   [[nodiscard]] double cpu_time_ratio() const {
@@ -62,7 +69,53 @@ struct LoopOutcome {
   }
 };
 
-std::string verdict(const LoopOutcome& outcome) {
+/// New measurements, and those that moved.
+class MovedSamples {
+ public:
+  void feed(const core::Sample& sample) {
+    const bool is_new = !last_ || sample.device_time_ns != last_->device_time_ns ||
+                        sample.tip_position_m != last_->tip_position_m;
+    if (!is_new) return;
+    ++num_samples_;
+    num_moved_ += last_ && sample.tip_position_m != last_->tip_position_m ? 1 : 0;
+    last_ = sample;
+  }
+  [[nodiscard]] std::int64_t num_samples() const noexcept { return num_samples_; }
+  [[nodiscard]] std::int64_t num_moved() const noexcept { return num_moved_; }
+
+ private:
+  std::optional<core::Sample> last_;
+  std::int64_t num_samples_ = 0, num_moved_ = 0;
+};
+
+/// What this run cannot know of the device, a part of a sentence each: a loop that is punctual
+/// says nothing of these.
+std::vector<std::string> not_measured(const LoopOutcome& outcome) {
+  std::vector<std::string> lacks;
+  if (outcome.num_moved == 0) {
+    lacks.emplace_back(
+        "movement (no measurement differed from the one before; move the device meanwhile)");
+  }
+  if (outcome.forces.num_acted == 0) {
+    lacks.emplace_back(outcome.can.simulated
+                           ? "force (none acted)"
+                           : "force (a real device gets none here; `jnd commission` measures "
+                             "how it gives forces)");
+  }
+  if (!outcome.can.tells_acting_force &&
+      (outcome.can.has_own_clock || !outcome.can.simulated)) {
+    lacks.emplace_back(
+        "which force acts (the device does not tell, and a real one is then never armed)");
+  }
+  if (!outcome.can.simulated) {
+    lacks.emplace_back(
+        "the delay of the closed loop, from a force to its effect (`jnd commission` measures "
+        "it)");
+  }
+  return lacks;
+}
+
+std::string punctuality(const LoopOutcome& outcome, bool is_all_measured) {
   if (outcome.timing.missed_ticks() > 0) {
     return fmt::format(
         "Not fit for a person: {} ticks were missed. Close other programs, or give "
@@ -80,7 +133,16 @@ std::string verdict(const LoopOutcome& outcome) {
   if (percentiles_us(outcome.timing.lateness()).p999 > 0.2 * period_us) {
     return "Usable, but one tick in a thousand came later than a fifth of its period.";
   }
-  return "Fit for a person: no tick was missed and every force came in time.";
+  return is_all_measured ? "Fit for a person: no tick was missed and every force came in time."
+                         : "Punctual enough for a person: no tick was missed. Whether the "
+                           "device is fit for one, this does not say.";
+}
+
+std::string verdict(const LoopOutcome& outcome) {
+  const std::vector<std::string> lacks = not_measured(outcome);
+  const std::string words = punctuality(outcome, lacks.empty());
+  if (lacks.empty()) return words;
+  return fmt::format("{} Not measured: {}.", words, fmt::join(lacks, "; "));
 }
 
 void print_for_people(const LoopOutcome& outcome) {
@@ -96,6 +158,8 @@ void print_for_people(const LoopOutcome& outcome) {
   fmt::print("  {:<12} {:>10} {:>10} {:>10} {:>10}\n", "us", "p50", "p99", "p99.9", "max");
   print_line("lateness", percentiles_us(outcome.timing.lateness()));
   print_line("tick cost", percentiles_us(outcome.timing.tick_cost()));
+  fmt::print("\n{} new measurements, {} of them moved; a force acted in {} ticks\n",
+             outcome.num_samples, outcome.num_moved, outcome.forces.num_acted);
   fmt::print("\n{}\n", verdict(outcome));
 }
 
@@ -115,6 +179,11 @@ void print_json(const LoopOutcome& outcome) {
   out["num_page_faults"] = outcome.use.num_page_faults;
   out["num_dropped_samples"] = outcome.num_dropped_samples;
   out["device"] = outcome.options.device;
+  out["num_new_samples"] = outcome.num_samples;
+  out["num_moved_samples"] = outcome.num_moved;
+  out["num_ticks_with_force"] = outcome.forces.num_acted;
+  out["not_measured"] = not_measured(outcome);
+  out["verdict"] = verdict(outcome);
   fmt::print("{}\n", json_text(out));
 }
 
@@ -156,16 +225,27 @@ int run_loop(const LoopOptions& options) {
   if (device::SimulatedHand* hand = device->simulated_hand()) {
     hand->begin_strokes({}, core::RandomStream(1, "loop"));
   }
+  MovedSamples moved;
   const auto end =
       std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);
   while (std::chrono::steady_clock::now() < end && !stop_requested()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    run->take([](const core::Sample&) {});
+    run->take([&](const core::Sample& sample) { moved.feed(sample); });
   }
+  // Known while it is open.
+  const std::string said_by_device = device->words_of_fault();
   run->stop();
 
-  const LoopOutcome outcome{options, run->thread().timing(), run->thread().report(),
-                            run->thread().use(), run->num_dropped_samples()};
+  const device::DeviceCapabilities can = device->capabilities();
+  const LoopOutcome outcome{.options = options,
+                            .timing = run->thread().timing(),
+                            .report = run->thread().report(),
+                            .use = run->thread().use(),
+                            .can = can,
+                            .forces = run->telemetry().force_counts,
+                            .num_samples = moved.num_samples(),
+                            .num_moved = moved.num_moved(),
+                            .num_dropped_samples = run->num_dropped_samples()};
   if (options.json) {
     print_json(outcome);
   } else {
@@ -174,7 +254,8 @@ int run_loop(const LoopOptions& options) {
   const core::Fault fault = run->telemetry().fault;
   const bool was_ended = fault == core::Fault::kEmergencyStop && stop_requested();
   if (!core::is_failure(fault) || was_ended) return kDone;
-  fmt::print(stderr, "jnd: {}\n", core::words(fault));
+  fmt::print(stderr, "jnd: {}{}\n", core::words(fault),
+             said_by_device.empty() ? "" : " The driver says: " + said_by_device + ".");
   return kHasProblems;
 }
 

@@ -258,17 +258,21 @@ ordered_json to_json(const PlanOutcome& outcome, const PlanOptions& options) {
                        {"balance", std::move(balance)}};
   add_to_json(outcome.statistics, json);
   add_to_json(outcome.lapses, json);
-  json.update(ordered_json{{"duration_s", to_decimals(outcome.duration_s, 6)},
-                           {"longest_duration_s", to_decimals(outcome.longest_duration_s, 6)},
-                           {"device", options.device},
-                           {"device_profile", profile_json(outcome)},
-                           {"limits",
-                            {{"max_force_per_point_n", outcome.limits.max_force_per_point_n},
-                             {"max_total_force_n", outcome.limits.max_total_force_n},
-                             {"expected_speed_m_per_s", outcome.limits.expected_speed_m_per_s},
-                             {"expected_depth_m", outcome.limits.expected_depth_m}}},
-                           {"stability", stability_json(outcome)},
-                           {"range", std::move(range)}});
+  json.update(
+      ordered_json{{"duration_s", to_decimals(outcome.duration_s, 6)},
+                   {"longest_duration_s", to_decimals(outcome.longest_duration_s, 6)},
+                   {"device", options.device},
+                   {"device_profile", profile_json(outcome)},
+                   {"limits",
+                    {{"max_force_per_point_n", outcome.limits.max_force_per_point_n},
+                     {"max_total_force_n", outcome.limits.max_total_force_n},
+                     {"expected_speed_m_per_s", outcome.limits.expected_speed_m_per_s},
+                     {"expected_depth_m", outcome.limits.expected_depth_m},
+                     {"device_max_force_per_point_n", outcome.device.max_force_per_point_n},
+                     {"device_max_total_force_n", outcome.device.max_total_force_n},
+                     {"remark", own_limit_words(options.device, outcome.device)}}},
+                   {"stability", stability_json(outcome)},
+                   {"range", std::move(range)}});
   return json;
 }
 
@@ -370,6 +374,8 @@ void print_range(const PlanOutcome& outcome, const PlanOptions& options) {
       "{:g} m deep in what is solid\n",
       options.device, outcome.limits.max_force_per_point_n, outcome.limits.max_total_force_n,
       outcome.limits.expected_speed_m_per_s, outcome.limits.expected_depth_m);
+  const std::string own_limit = own_limit_words(options.device, outcome.device);
+  if (!own_limit.empty()) fmt::print("Note: {}.\n", own_limit);
   if (outcome.profile) {
     fmt::print("`{}` {}: {}\n", options.device, age_words(outcome.profile->profile, today()),
                outcome.profile->place);
@@ -421,6 +427,10 @@ void print(const PlanOutcome& outcome, const PlanOptions& options) {
   print_range(outcome, options);
 }
 
+std::string in_brackets(const std::string& words) {
+  return words.empty() ? "" : " (" + words + ")";
+}
+
 /// What speaks against running the study on this device, a sentence each.
 std::vector<std::string> problems_of(const PlanOutcome& outcome, const PlanOptions& options) {
   std::vector<std::string> problems;
@@ -430,9 +440,10 @@ std::vector<std::string> problems_of(const PlanOutcome& outcome, const PlanOptio
   if (too_strong > 0) {
     problems.push_back(fmt::format(
         "{}: expected stimuli that `{}` can render at {:g} m/s, found {} of {} too strong: {}; "
-        "weaken them or plan for another device",
+        "weaken them or plan for another device{}",
         options.file, options.device, outcome.limits.expected_speed_m_per_s, too_strong,
-        outcome.range.size(), too_strong_words(outcome.range)));
+        outcome.range.size(), too_strong_words(outcome.range),
+        in_brackets(own_limit_words(options.device, outcome.device))));
   }
   if (outcome.stability && outcome.stability->num_unstable() > 0) {
     problems.push_back(options.file + ": " +

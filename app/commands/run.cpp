@@ -27,6 +27,7 @@
 #include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
 #include "app/session/laboratory_run.h"
+#include "app/session/missing_force.h"
 #include "app/session/pseudonym.h"
 #include "app/session/session_setup.h"
 #include "app/session/shipped_files.h"
@@ -148,12 +149,30 @@ void tell_of_markers(const core::EventRow& row) {
                std::get<experiments::MarkersFailed>(event.data).problem.c_str());
 }
 
+/// As soon as it is known, and once: what is felt may be nothing from here on.
+class MissingForce {
+ public:
+  void tell(const core::EventRow& row) {
+    if (is_told_ || row.kind != "force_missing") return;
+    is_told_ = true;
+    const experiments::Event event = experiments::event_from_row(row);
+    const auto& missing = std::get<experiments::ForceMissing>(event.data);
+    std::fprintf(stderr, "jnd: CAUTION, trial %lld: %s; the session goes on\n",
+                 static_cast<long long>(missing.trial),
+                 missing_force_words(1, missing.cause).c_str());
+  }
+
+ private:
+  bool is_told_ = false;
+};
+
 int run_session(const RunOptions& options, core::StudyStore& store,
                 const experiments::Study& study, const experiments::Laboratory& laboratory,
                 std::int64_t session) {
   stop_on_signals();
   Acknowledgements acknowledgements(options.acknowledge);
   LaboratoryRunResult result;
+  MissingForce missing_force;
   DeviceWait wait(options.wait_s);
   bool has_begun = false;
   ProgressBar bar(study.name);
@@ -176,6 +195,7 @@ int run_session(const RunOptions& options, core::StudyStore& store,
              [&](const core::EventRow& event) {
                has_begun = true;
                tell_of_markers(event);
+               missing_force.tell(event);
                acknowledgements.tell(event);
              },
          .on_progress = [&](double done) { bar.show(done); },

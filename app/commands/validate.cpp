@@ -13,6 +13,7 @@
 #include "app/commands/device_problems.h"
 #include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
+#include "app/session/device_limits.h"
 #include "app/session/shipped_files.h"
 #include "experiments/device_profile/profile_reader.h"
 #include "experiments/protocol/study_reader.h"
@@ -42,7 +43,8 @@ std::vector<experiments::StudyProblem> problems_of(const std::filesystem::path& 
 }
 
 /// What is said of a file without a problem.
-std::string praise(const std::filesystem::path& file, const ValidateOptions& options) {
+std::string praise(const std::filesystem::path& file, const ValidateOptions& options,
+                   const std::string& own_limit) {
   if (is_profile(file)) {
     const experiments::DeviceProfile profile = experiments::read_device_profile(file);
     return fmt::format(
@@ -52,17 +54,20 @@ std::string praise(const std::filesystem::path& file, const ValidateOptions& opt
   }
   return options.device.empty()
              ? "no problem; --device NAME tells whether that device can render it"
-             : "no problem on " + options.device;
+             : "no problem on " + options.device + (own_limit.empty() ? "" : "; " + own_limit);
 }
 
 int run_validate(const ValidateOptions& options) {
   std::optional<KnownProfile> profile;
+  std::string own_limit;
   if (!options.device.empty()) {
     require_device(options.device);
     constexpr double kAnyRateHz = 1000.0;
     profile = choose_profile(device_of_profile(options.device, kAnyRateHz), options.profile,
                              profile_folders(), today())
                   .known;
+    own_limit = own_limit_words(options.device,
+                                limits_of_device(options.device, kAnyRateHz, profile).can);
   }
   std::vector<experiments::StudyProblem> problems, doubts;
   const auto add = [](auto& all, std::vector<experiments::StudyProblem> found) {
@@ -73,7 +78,7 @@ int run_validate(const ValidateOptions& options) {
     const std::filesystem::path file = user_or_shipped(name, "protocols", /*keep_near=*/true);
     std::vector<experiments::StudyProblem> found = problems_of(file, options, profile);
     if (!options.json && found.empty()) {
-      fmt::print("{}: {}\n", name, praise(file, options));
+      fmt::print("{}: {}\n", name, praise(file, options, own_limit));
     }
     const bool is_sound_study = found.empty() && !is_profile(file);
     add(problems, std::move(found));

@@ -30,6 +30,7 @@ class QualityCount {
   template <typename Data>
   void count(const Data&) const {}
   void count(const FaultRaised&) const { ++quality_.num_faults; }
+  void count(const ForceMissing&) const { ++quality_.num_without_force; }
   void count(const PresentationStarted& e) { first_tick_ = e.first_tick; }
   void count(const PresentationEnded& e) {
     const std::int64_t missed = e.summary.measures.missed_ticks;
@@ -68,7 +69,8 @@ bool SessionQuality::is_doubtful() const noexcept {
   constexpr double kManyMissed = 0.001;
   const bool misses =
       static_cast<double>(num_missed_ticks) > kManyMissed * static_cast<double>(num_ticks);
-  return misses || num_faults > 0 || num_unlikely > 0 || num_unstroked > 0 || !problem.empty();
+  return misses || num_faults > 0 || num_without_force > 0 || num_unlikely > 0 ||
+         num_unstroked > 0 || !problem.empty();
 }
 
 SessionQuality quality_of(const core::StudyStore& store, const core::SessionRow& row,

@@ -20,7 +20,8 @@ struct SessionQuality {
   int num_repeated = 0;               ///< Trials that were run more than once.
   int num_unlikely = 0;               ///< Answers that something speaks against.
   int num_unstroked = 0;  ///< Trials with a stimulus that was never stroked; 0 where hidden.
-  std::string problem;    ///< Why its log cannot be read; "" where it can.
+  int num_without_force = 0;  ///< Presentations in which none acted, though one was asked for.
+  std::string problem;        ///< Why its log cannot be read; "" where it can.
 
   /// Something of it should be looked at.
   [[nodiscard]] bool is_doubtful() const noexcept;

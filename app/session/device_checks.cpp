@@ -1,10 +1,13 @@
 #include "app/session/device_checks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 
 #include "app/command_line/command.h"
 #include "core/error.h"
+#include "core/safety/force_limiter.h"
 #include "device/registry/device_registry.h"
 
 namespace jnd::app {
@@ -67,13 +70,28 @@ void require_device_holds(const std::string& name, double rate_hz, int min_conta
   if (!missing.empty()) throw UsageError("--device " + name + ": " + missing);
 }
 
+/// As the loop of a session has them.
+constexpr core::ForceLimiter::Parameters kOwnLimits;
+
 experiments::RangeLimits range_limits_of(const device::DeviceCapabilities& can,
                                          double expected_speed_m_per_s) {
   return {
-      .max_force_per_point_n = can.max_force_per_point_n,
-      .max_total_force_n = can.max_total_force_n,
+      .max_force_per_point_n = std::min(can.max_force_per_point_n, kOwnLimits.per_point_n),
+      .max_total_force_n = std::min(can.max_total_force_n, kOwnLimits.total_n),
       .largest_share_ratio = *std::max_element(can.share_ratio.begin(), can.share_ratio.end()),
       .expected_speed_m_per_s = expected_speed_m_per_s};
+}
+
+std::string own_limit_words(const std::string& device, const device::DeviceCapabilities& can) {
+  if (can.max_force_per_point_n <= kOwnLimits.per_point_n &&
+      can.max_total_force_n <= kOwnLimits.total_n) {
+    return "";
+  }
+  return fmt::format(
+      "this program renders at most {:g} N at a point and {:g} N in all, although `{}` says "
+      "{:g} N and {:g} N",
+      kOwnLimits.per_point_n, kOwnLimits.total_n, device, can.max_force_per_point_n,
+      can.max_total_force_n);
 }
 
 }  // namespace jnd::app

@@ -37,8 +37,14 @@ void require_device_keeps_pace(const std::string& name, const std::string& place
 /// `EnvironmentError` with what the device says.
 void require_device_starts(const std::string& name, double rate_hz);
 
-/// What a study's stimuli have to keep within on this device.
+/// What a study's stimuli have to keep within on this device: no more than it renders, and no
+/// more than this program's own limiter lets through.
 [[nodiscard]] experiments::RangeLimits range_limits_of(const device::DeviceCapabilities& can,
                                                        double expected_speed_m_per_s);
+
+/// "this program renders at most 10 N at a point and 30 N in all, although `NAME` says 15 N and
+/// 40 N": where the device says more than the program gives; else "".
+[[nodiscard]] std::string own_limit_words(const std::string& device,
+                                          const device::DeviceCapabilities& can);
 
 }  // namespace jnd::app

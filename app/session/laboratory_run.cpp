@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/session/missing_force.h"
 #include "app/session/running_session.h"
 #include "app/session/trial_player.h"
 #include "core/error.h"
@@ -71,6 +72,11 @@ class SimulatedSession {
       result.ended = true;
       result.ended_early = !session_.state().completed;
       result.cautions = std::move(cautions_);
+      const SessionState& state = session_.state();
+      if (state.num_without_force > 0) {
+        result.cautions.push_back(
+            missing_force_words(state.num_without_force, state.missing_force_cause));
+      }
     } catch (const Cancelled&) {
       // First of all: the disk may take its time.
       running_.apparatus().render(core::free_space());

@@ -48,7 +48,8 @@ struct LaboratoryRunResult {
   bool ended_early = false;  ///< Ended before its last stage, by somebody's choice.
   std::int64_t num_ticks = 0;
   std::string realtime;  ///< "simulated", or what the real-time thread was given.
-  /// What the answers of a block say against it, "BLOCK: ..."; see `Procedure::caution`.
+  /// What the answers of a block say against it, "BLOCK: ..."; see `Procedure::caution`. At the
+  /// end, that no force acted where there should have been one.
   std::vector<std::string> cautions;
   core::GuardCounts guards;  ///< What the loop's guards have noticed.
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "app/session/missing_force.h"
 #include "experiments/procedures/stimulus.h"
 
 namespace jnd::app {
@@ -55,7 +56,10 @@ bool Presenter::ramp_has_passed() const {
 }
 
 void Presenter::ramp_is_over() {
-  sums_before_ = apparatus_.telemetry().contact_sums;
+  const core::Telemetry& now = apparatus_.telemetry();
+  sums_before_ = now.contact_sums;
+  forces_before_ = now.force_counts;
+  ticks_before_ = now.num_ticks;
   apparatus_.meter_strokes();
   measuring_ = true;
 }
@@ -93,6 +97,7 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
   session_.end_presentation(felt.last_tick,
                             {.measures = measures, .exposure = exposure_since_last()});
   tell_guards();
+  if (measuring_) tell_missing_force(last);
   under_way_ = false;
   measuring_ = false;
   return felt;
@@ -103,6 +108,21 @@ std::optional<core::Exposure> Presenter::exposure_since_last() {
   if (apparatus_.is_simulated() && !session_.limits().limits_exposure()) return std::nullopt;
   const core::Exposure now = apparatus_.telemetry().exposure;
   return now - std::exchange(told_, now);
+}
+
+/// Of what is felt for a moment alone nobody can tell.
+void Presenter::tell_missing_force(const core::Telemetry& last) {
+  constexpr double kShortest_s = 0.2;
+  const auto felt_ticks = static_cast<double>(last.num_ticks - ticks_before_);
+  if (!asks_for_force(amounts_) || felt_ticks < kShortest_s * needs_.rate_hz) return;
+  const std::string cause = missing_force_cause(last.force_counts - forces_before_);
+  if (cause.empty()) return;
+  const std::int64_t number = *session_.state().current_trial();
+  const TrialState& trial = session_.state().trial(number);
+  session_.force_missing({.trial = number,
+                          .attempt = trial.attempt,
+                          .presentation = static_cast<std::int64_t>(trial.presentations.size()),
+                          .cause = cause});
 }
 
 std::string Presenter::missed_reason(const Felt& felt) const {

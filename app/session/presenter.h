@@ -76,6 +76,7 @@ class Presenter {
  private:
   [[nodiscard]] std::optional<core::Exposure> exposure_since_last();
   void tell_guards();
+  void tell_missing_force(const core::Telemetry& last);
   void give_cue(experiments::CueMoment moment);
   void stimulus_is_gone();
 
@@ -93,6 +94,8 @@ class Presenter {
   std::int64_t missed_before_ = 0;
   core::MediumAmounts amounts_;
   core::ContactSums sums_before_;
+  core::ForceCounts forces_before_;
+  std::int64_t ticks_before_ = 0;  ///< Of the loop, when the ramp was over.
   core::Exposure told_;            ///< In events of this apparatus.
   core::GuardCounts told_guards_;  ///< In events of this apparatus.
 };

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "app/session/missing_force.h"
 #include "core/error.h"
 #include "core/storage/stream_file.h"
 #include "experiments/session/session_state.h"
@@ -30,6 +31,11 @@ class ReplayCheck {
     check_trials();
     check_presentations();
     check_questions();
+    if (state_.num_without_force > 0) {
+      integrity_.remarks.push_back(
+          {session_, "CAUTION, " + missing_force_words(state_.num_without_force,
+                                                       state_.missing_force_cause)});
+    }
   }
 
  private:

@@ -8,6 +8,7 @@
 #include "core/clock_comparison.h"
 #include "core/contact_sums.h"
 #include "core/exposure.h"
+#include "core/force_counts.h"
 #include "core/safety/fault.h"
 #include "core/safety/guard.h"
 #include "core/sample.h"
@@ -41,6 +42,7 @@ struct Telemetry {
   std::array<std::uint32_t, kNumContactPoints> num_detachments{};
   std::uint64_t num_limited_ticks = 0;     ///< So far; a difference over a trial marks it.
   Exposure exposure;                       ///< Since the loop began, to forces as sent.
+  ForceCounts force_counts;                ///< Likewise.
   ContactSums contact_sums;                ///< Zeros from a device that does not know them.
   std::optional<ClockDrift> device_clock;  ///< Of a device with a clock of its own, in time.
   double arming_wait_s = 0.0;  ///< Until somebody may arm after the stop was released.

@@ -78,6 +78,8 @@ struct MediumAmounts {
                                                const MediumAmounts& right) noexcept {
     return left += right;
   }
+  [[nodiscard]] friend bool operator==(const MediumAmounts&,
+                                       const MediumAmounts&) noexcept = default;
 };
 
 static_assert(std::is_trivially_copyable_v<MediumAmounts>);

@@ -1,5 +1,9 @@
 #include "device/check/device_rule.h"
 
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
 #include <utility>
 
 namespace jnd::device {
@@ -14,6 +18,32 @@ int pushed_point(const DeviceCapabilities& can) {
   int point = 0;
   while (point + 1 < core::kNumContactPoints && !can.has_point(point)) ++point;
   return point;
+}
+
+std::string unlikely_numbers(const DeviceCapabilities& can) {
+  struct Number {
+    const char* what;
+    double value, least, most;
+    const char* unit;
+  };
+  const std::array numbers = {
+      Number{"half width in x", can.workspace.half_width_x_m, 0.005, 5.0, "m"},
+      Number{"half width in y", can.workspace.half_width_y_m, 0.005, 5.0, "m"},
+      Number{"half width in z", can.workspace.half_width_z_m, 0.005, 5.0, "m"},
+      Number{"largest speed", can.max_speed_m_per_s, 0.05, 50.0, "m/s"},
+      Number{"change of the force", can.max_slew_n_per_s, 10.0, 1e7, "N/s"},
+      Number{"most force at a point", can.max_force_per_point_n, 0.1, 500.0, "N"},
+      Number{"own mass", can.own_mass_kg, 0.0, 100.0, "kg"},
+      Number{"own damping", can.own_damping_n_s_per_m, 0.0, 1000.0, "N s/m"},
+      Number{"delay", can.closed_loop_delay_s, 0.0, 0.5, "s"}};
+  std::string words;
+  for (const Number& number : numbers) {
+    if (!std::isfinite(number.value)) continue;
+    if (number.value >= number.least && number.value <= number.most) continue;
+    words += fmt::format("{}{} {:g} {}", words.empty() ? "" : ", ", number.what, number.value,
+                         number.unit);
+  }
+  return words;
 }
 
 std::string_view name(RuleOutcome::Verdict verdict) noexcept {

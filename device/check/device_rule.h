@@ -20,6 +20,13 @@ inline constexpr DeviceRule kForceSign = {
     "force_sign", "A push moves the hand along with it, in each direction of the workspace.",
     "Forces are those on the hand, in the workspace frame: +x right, +y away, +z up."};
 
+inline constexpr DeviceRule kTellsOfAHand = {
+    "description", "What the device says of itself is in SI units and of a hand's size.",
+    "Tell lengths in m, speeds in m/s, times in s, masses in kg and forces in N."};
+
+/// Which numbers are not, with their units; "": all are, as far as it says them.
+[[nodiscard]] std::string unlikely_numbers(const DeviceCapabilities& can);
+
 /// A force on one point alone.
 [[nodiscard]] core::PointVectors push_of(int point, const Eigen::Vector3d& force_n);
 /// The first that the device has: where it is pushed.
@@ -54,6 +61,9 @@ class RuleJudge {
   const TellOutcome& tell_;
   bool all_kept_ = true;
 };
+
+/// What only a person who moves the device can find out, and how to be asked.
+inline constexpr char kHandIsIn[] = "a hand is in the device, which is not pushed then";
 
 /// Why a rule that takes a push is not tried.
 inline constexpr char kNoPush[] =

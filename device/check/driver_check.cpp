@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/safety/force_limiter.h"
+#include "device/check/velocity_lag.h"
 
 namespace jnd::device {
 namespace {
@@ -55,9 +56,10 @@ class DriverChecker {
         can_(device.capabilities()),
         point_(static_cast<std::size_t>(pushed_point(can_))),
         push_n_(can_.simulated ? 2.0 : 0.5),
-        can_push_(check.pushes || can_.simulated),
+        can_push_((check.pushes || can_.simulated) && !check.by_hand_step_s),
         is_paced_(check.is_paced),
         is_cancelled_(check.is_cancelled),
+        check_(check),
         limiter_({.per_point_n = push_n_,
                   .total_n = push_n_,
                   .slew_n_per_s = can_.simulated ? 2000.0 : 100.0,
@@ -74,9 +76,11 @@ class DriverChecker {
       judge_limits();
     } else {
       for (const DeviceRule& rule : {kDriverVelocity, kForceSign, kDriverHalt, kDriverLimits}) {
-        judge_.skip(rule, kNoPush);
+        judge_.skip(rule, check_.by_hand_step_s ? kHandIsIn : kNoPush);
       }
+      if (!check_.by_hand_step_s) judge_.skip(kSlowVelocity, kNoPush);
     }
+    if (check_.by_hand_step_s) judge_by_hand();
     device_.close();
     if (opens(kDriverReopens)) device_.close();
     return judge_.all_kept();
@@ -141,6 +145,21 @@ class DriverChecker {
     return all;
   }
 
+  void judge_by_hand() {
+    check_by_hand({.can = can_,
+                   .step_s = *check_.by_hand_step_s,
+                   .watch =
+                       [this](double duration_s) {
+                         std::vector<core::HapticState> states;
+                         for (Measured& one : ticks(duration_s, core::zero_vectors())) {
+                           states.push_back(one.state);
+                         }
+                         return states;
+                       },
+                   .prompt = check_.prompt},
+                  judge_);
+  }
+
   void judge_measurements() {
     (void)ticks(0.3, core::zero_vectors());
     num_not_taken_ = 0;
@@ -162,6 +181,8 @@ class DriverChecker {
     constexpr double kLargestOfAHand = 20.0;
     judge_.judge(kDriverUnits, largest < kLargestOfAHand,
                  fmt::format("the largest position or velocity is {:.3g}", largest));
+    const std::string unlikely = unlikely_numbers(can_);
+    judge_.judge(kTellsOfAHand, unlikely.empty(), unlikely);
     int num_absent = 0;
     for (int point = 0; point < core::kNumContactPoints; ++point) {
       if (can_.has_point(point)) continue;
@@ -218,7 +239,7 @@ class DriverChecker {
       force_n[axis] = push_n_;
       const std::vector<Measured> pushed =
           ticks(0.15, push_of(static_cast<int>(point_), force_n));
-      (void)ticks(0.3, core::zero_vectors());
+      observe_lag(pushed, ticks(0.3, core::zero_vectors()));
       if (before.empty() || pushed.size() < 2) {
         wrong = fast = "no measurement came while it was pushed";
         break;
@@ -252,6 +273,16 @@ class DriverChecker {
       judge_.judge(kForceSign, wrong.empty(), wrong);
     }
     judge_.judge(kDriverVelocity, fast.empty(), fast);
+    lag_.judge(judge_);
+  }
+
+  /// While it is pushed, and while it comes back.
+  void observe_lag(const std::vector<Measured>& pushed, const std::vector<Measured>& after) {
+    std::vector<core::HapticState> states;
+    for (const auto* some : {&pushed, &after}) {
+      for (const Measured& one : *some) states.push_back(one.state);
+    }
+    lag_.observe(states, point_);
   }
 
   /// By what the device tells, or else by where the hand goes.
@@ -301,10 +332,19 @@ class DriverChecker {
     }
     double most_n = 0.0;
     const double asked_n = 3.0 * can_.max_force_per_point_n;
-    for (int i = 0; i < 30; ++i) {
+    // What acts is seen by the device's own time: of one with a clock of its own that is ours.
+    const auto period = std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(1.0 / can_.rate_hz));
+    const double told_delay_s = std::min(can_.closed_loop_delay_s, kMostDelay_s);
+    const auto num_ticks =
+        std::max<std::int64_t>(30, std::llround((kLimitsTime_s + told_delay_s) * can_.rate_hz));
+    auto due = Clock::now();
+    for (std::int64_t i = 0; i < num_ticks; ++i) {
       core::HapticState state;
       if (device_.read(state)) most_n = std::max(most_n, state.acted_n[point_].norm());
       (void)device_.write(push_of(static_cast<int>(point_), {asked_n, 0.0, 0.0}));
+      due += period;
+      if (is_paced_ || can_.has_own_clock) std::this_thread::sleep_until(due);
     }
     (void)ticks(0.3, core::zero_vectors());
     constexpr double kRounding_n = 1e-6;
@@ -315,6 +355,7 @@ class DriverChecker {
   }
 
   static constexpr double kLeastMoved_m = 0.0002;
+  static constexpr double kLimitsTime_s = 0.03, kMostDelay_s = 0.1;
   static constexpr std::size_t kOfDelay = 20;  ///< Measurements that may show what was before.
 
   HapticDevice& device_;
@@ -323,6 +364,8 @@ class DriverChecker {
   double push_n_;
   bool can_push_, is_paced_;
   std::function<bool()> is_cancelled_;
+  const DriverCheck& check_;
+  VelocityLagJudge lag_;
   core::ForceLimiter limiter_;  ///< A push that gets away ends.
   RuleJudge judge_;
   Clock::time_point begin_;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "device/check/device_rule.h"
+#include "device/check/hand_check.h"
 #include "device/haptic_device.h"
 
 namespace jnd::device {
@@ -15,6 +17,10 @@ struct DriverCheck {
   bool is_paced = true;
   /// The program is to stop: no force then, the device is closed, and `core::Error` is thrown.
   std::function<bool()> is_cancelled{};
+  /// A person moves it as the prompts say, and nothing pushes it: how long one prompt is; none:
+  /// nobody does.
+  std::optional<double> by_hand_step_s{};
+  TellPrompt prompt{};
 };
 
 /// Tries what `HapticDevice` promises of a device that is closed: it opens, is punctual, tells

@@ -113,6 +113,9 @@ void LinkProbe::receive() {
     } else {
       ++num_refused_;
       last_problem_ = problem;
+      const std::size_t seal = seal_.has_key() ? DatagramSeal::kBytes : 0;
+      refused_.assign(bytes.begin(),
+                      bytes.begin() + static_cast<std::ptrdiff_t>(size - std::min(seal, size)));
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "core/hand.h"
@@ -67,6 +68,11 @@ class LinkProbe {
   /// Datagrams that were none of ours, and the last one's problem.
   [[nodiscard]] int num_refused() const noexcept { return num_refused_; }
   [[nodiscard]] wire::Problem last_problem() const noexcept { return last_problem_; }
+  /// What was wrong with the last one, see `wire::problem_words`.
+  [[nodiscard]] std::string last_problem_words() const {
+    return last_problem_ == wire::Problem::kOtherKey ? "one with another seal"
+                                                     : wire::problem_words(refused_);
+  }
 
  private:
   void receive();
@@ -91,6 +97,7 @@ class LinkProbe {
   std::set<std::int64_t> sent_ns_{0};
   int num_refused_ = 0;
   wire::Problem last_problem_ = wire::Problem::kNone;
+  std::vector<std::byte> refused_;  ///< The last one.
 };
 
 }  // namespace jnd::device

@@ -12,6 +12,7 @@
 
 #include "device/check/link_probe.h"
 #include "device/check/network_rules.h"
+#include "device/check/velocity_lag.h"
 #include "device/haptic_device.h"
 #include "device/network/crc32.h"
 
@@ -58,12 +59,13 @@ class NetworkChecker {
     } else {
       skip_pushes(program);
     }
+    if (check_.by_hand_step_s) judge_by_hand(program);
     judge_others(program);
     judge_.judge(kDatagrams, program.num_refused() == 0,
                  program.num_refused() == 0
                      ? ""
-                     : fmt::format("{} of another kind, the last one: {}",
-                                   program.num_refused(), wire::name(program.last_problem())));
+                     : fmt::format("{} that are none of these, the last one {}",
+                                   program.num_refused(), program.last_problem_words()));
     return judge_.all_kept();
   }
 
@@ -73,12 +75,21 @@ class NetworkChecker {
     if (!program.connect(kPatience_s)) {
       const auto refusal = program.refusal();
       std::string why =
-          "found no answer; is it started, and is the key the same on both sides?";
-      if (refusal == wire::RefusalReason::kBusy) why = "found one that a program uses";
+          program.num_refused() > 0
+              ? "found one whose datagrams are not those of device/network/README.md, the last "
+                "one " +
+                    program.last_problem_words() + "; mend what it sends"
+              : "found no answer; start its program, and see that address, port and key are "
+                "the same on both sides";
+      if (refusal == wire::RefusalReason::kBusy)
+        why = "found one that a program uses; end that program";
       if (refusal == wire::RefusalReason::kOtherKey)
-        why = "found one with another key, or none";
+        why =
+            "found one with another key, or none; use the same file of `jnd device-key` on "
+            "both sides";
       if (refusal == wire::RefusalReason::kOtherVersion) {
-        why = "found one of another version of the datagrams";
+        why = "found one of another version of the datagrams; this program speaks version " +
+              std::to_string(wire::kVersion);
       }
       throw DeviceUnreachable("device-check: expected a device that nobody uses, " + why);
     }
@@ -88,7 +99,7 @@ class NetworkChecker {
     most_force_n_ = can.max_force_per_point_n;
     stand_in_s_ = can.max_stale_s;
     is_simulated_ = can.simulated && check_.believes_simulated;
-    can_push_ = check_.pushes || is_simulated_;
+    can_push_ = (check_.pushes || is_simulated_) && !check_.by_hand_step_s;
     push_n_ = is_simulated_ ? 2.0 : 0.5;
     if (!is_simulated_) {
       program.limit_by(core::ForceLimiter({.per_point_n = push_n_,
@@ -225,6 +236,8 @@ class NetworkChecker {
     constexpr double kLargestOfAHand = 20.0;
     judge_.judge(kUnits, largest_m < kLargestOfAHand,
                  fmt::format("the largest position or velocity is {:.3g}", largest_m));
+    const std::string unlikely = unlikely_numbers(program.welcome().capabilities);
+    judge_.judge(kTellsOfAHand, unlikely.empty(), unlikely);
     judge_.judge(
         kStale, static_cast<double>(num_risen) > 0.5 * num_states,
         fmt::format("the device time rose {} times in {} states", num_risen, states.size()));
@@ -242,10 +255,27 @@ class NetworkChecker {
     judge_.judge(kEcho, are_echoes, are_echoes ? "" : "a clock that was never sent");
   }
 
+  void judge_by_hand(LinkProbe& program) {
+    check_by_hand(
+        {.can = program.welcome().capabilities,
+         .step_s = *check_.by_hand_step_s,
+         .watch =
+             [&](double duration_s) {
+               std::vector<core::HapticState> states;
+               for (const Seen& seen : program.talk(duration_s, 0, core::zero_vectors())) {
+                 states.push_back(seen.state.measured);
+               }
+               return states;
+             },
+         .prompt = check_.prompt},
+        judge_);
+  }
+
   void skip_pushes(LinkProbe&) {
+    if (!check_.by_hand_step_s) judge_.skip(kSlowVelocity, kNoPush);
     for (const DeviceRule& rule : {kArmsWithForce, kArming, kForceSign, kVelocity, kToldAsSent,
                                    kNoLimits, kReplay, kSilence, kRearms, kHalt}) {
-      judge_.skip(rule, kNoPush);
+      judge_.skip(rule, check_.by_hand_step_s ? kHandIsIn : kNoPush);
     }
   }
 
@@ -278,6 +308,7 @@ class NetworkChecker {
   void judge_pushes(LinkProbe& program) {
     std::string wrong, fast;
     bool any_acted = false, is_told_in_time = true;
+    VelocityLagJudge lag;
     for (int axis = 0; axis < 3; ++axis) {
       (void)program.arm(arm_number_++);
       const States before = program.talk(0.3, arm_number_ - 1, core::zero_vectors());
@@ -285,6 +316,12 @@ class NetworkChecker {
       force_n[axis] = push_n_;
       const States states =
           program.talk(0.15, arm_number_ - 1, push_of(static_cast<int>(point_), force_n));
+      std::vector<core::HapticState> moved;
+      for (const Seen& seen : states) moved.push_back(seen.state.measured);
+      for (const Seen& seen : program.talk(0.3, arm_number_ - 1, core::zero_vectors())) {
+        moved.push_back(seen.state.measured);
+      }
+      lag.observe(moved, point_);
       const auto acting = std::ranges::find_if(states, acts);
       if (acting == states.end() || before.empty()) {
         wrong += fmt::format("{}not at all along {}", wrong.empty() ? "" : ", ", "xyz"[axis]);
@@ -319,9 +356,11 @@ class NetworkChecker {
           "no state tells that a force acted: tell it in acted_n, and arm when asked to");
       judge_.skip(kToldAsSent, "no force acted");
       judge_.skip(kVelocity, "no force acted");
+      judge_.skip(kSlowVelocity, "no force acted");
       return;
     }
     judge_.judge(kVelocity, fast.empty(), fast);
+    lag.judge(judge_);
     judge_.judge(kForceSign, wrong.empty(),
                  wrong.empty() ? "" : "pushed along the axis it moved " + wrong);
     judge_.judge(kToldAsSent, is_told_in_time,

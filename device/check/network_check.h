@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "device/check/device_rule.h"
+#include "device/check/hand_check.h"
 #include "device/network/datagram_port.h"
 #include "device/network/device_key.h"
 
@@ -20,6 +21,10 @@ struct NetworkCheck {
   bool pushes = false;
   /// The operator says that it is a simulation, and it has to say so, too.
   bool believes_simulated = false;
+  /// A person moves it as the prompts say, and nothing pushes it: how long one prompt is; none:
+  /// nobody does.
+  std::optional<double> by_hand_step_s{};
+  TellPrompt prompt{};
 };
 
 /// Tries the rules of device/network/README.md at a device that nobody uses, one after the

@@ -1,6 +1,7 @@
 #include "device/network/datagram.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <type_traits>
@@ -386,6 +387,118 @@ Problem decode(std::span<const std::byte> bytes, Datagram& datagram) noexcept {
   ByteReader contents(bytes.subspan(kHeaderBytes, end - kHeaderBytes));
   visit_content(datagram.content, [&contents](auto& content) { fields(contents, content); });
   return contents.problem();
+}
+
+namespace {
+
+/// By device/network/README.md, where a field of a kind begins.
+struct FieldPlace {
+  std::uint16_t kind;
+  std::size_t offset;
+  std::string_view name;
+};
+constexpr std::uint16_t kWelcomeKind = 2, kStateKind = 4;
+constexpr std::array kFieldPlaces = {
+    FieldPlace{kWelcomeKind, 40, "token"},
+    FieldPlace{kWelcomeKind, 48, "rate"},
+    FieldPlace{kWelcomeKind, 56, "most force at a point"},
+    FieldPlace{kWelcomeKind, 64, "most force in all"},
+    FieldPlace{kWelcomeKind, 72, "time for which a measurement may stand in"},
+    FieldPlace{kWelcomeKind, 80, "set of contact points"},
+    FieldPlace{kWelcomeKind, 84, "number of joints"},
+    FieldPlace{kWelcomeKind, 88, "flag of a simulation"},
+    FieldPlace{kWelcomeKind, 89, "number that says who moves it"},
+    FieldPlace{kWelcomeKind, 90, "name in printable ASCII"},
+    FieldPlace{kWelcomeKind, 122, "challenge"},
+    FieldPlace{kWelcomeKind, 130, "share of the force at a point (together 1)"},
+    FieldPlace{kWelcomeKind, 170, "change of the force that it follows"},
+    FieldPlace{kWelcomeKind, 178, "largest speed"},
+    FieldPlace{kWelcomeKind, 186, "half width of the workspace"},
+    FieldPlace{kWelcomeKind, 210, "own mass"},
+    FieldPlace{kWelcomeKind, 218, "own damping"},
+    FieldPlace{kWelcomeKind, 226, "delay"},
+    FieldPlace{kWelcomeKind, 234, "set of what it measures"},
+    FieldPlace{kWelcomeKind, 235, "flag of an enabling switch"},
+    FieldPlace{kWelcomeKind, 236, "serial number in printable ASCII"},
+    FieldPlace{kWelcomeKind, 268, "firmware in printable ASCII"},
+    FieldPlace{kStateKind, 40, "time of the measurement"},
+    FieldPlace{kStateKind, 48, "position of a point"},
+    FieldPlace{kStateKind, 168, "velocity of a point"},
+    FieldPlace{kStateKind, 288, "position of the end effector"},
+    FieldPlace{kStateKind, 312, "joint angle"},
+    FieldPlace{kStateKind, 488, "joint torque"},
+    FieldPlace{kStateKind, 664, "sum over ticks"},
+    FieldPlace{kStateKind, 696, "number of strokes"},
+    FieldPlace{kStateKind, 704, "number of the arming or of the order"},
+    FieldPlace{kStateKind, 712, "set of points that are held"},
+    FieldPlace{kStateKind, 713, "flag `armed`"},
+    FieldPlace{kStateKind, 714, "flag `measured`"},
+    FieldPlace{kStateKind, 715, "flag of a hand at home"},
+    FieldPlace{kStateKind, 716, "number of a fault"},
+    FieldPlace{kStateKind, 717, "level of the connection"},
+    FieldPlace{kStateKind, 718, "force that acted"},
+    FieldPlace{kStateKind, 838, "flag `enabled`"},
+    FieldPlace{kStateKind, 839, "measured force"},
+    FieldPlace{kStateKind, 959, "orientation"},
+    FieldPlace{kStateKind, 991, "torque"},
+    FieldPlace{kStateKind, 1015, "opening of the gripper"},
+    FieldPlace{kStateKind, 1023, "set of buttons"}};
+
+std::string kind_words(std::uint16_t kind) {
+  constexpr std::array<std::string_view, std::variant_size_v<Content>> kKindNames = {
+      "hello", "welcome", "refusal", "state", "command", "order", "halt", "goodbye"};
+  if (kind == 0 || kind > kKindNames.size()) return "kind " + std::to_string(kind);
+  return std::string(kKindNames[kind - 1U]);
+}
+
+std::string field_words(std::uint16_t kind, std::size_t offset) {
+  std::string_view found = "value";
+  for (const FieldPlace& place : kFieldPlaces) {
+    if (place.kind == kind && place.offset <= offset) found = place.name;
+  }
+  return std::string(found) + " (offset " + std::to_string(offset) + ")";
+}
+
+}  // namespace
+
+std::string problem_words(std::span<const std::byte> bytes) {
+  Datagram datagram;
+  const Problem problem = decode(bytes, datagram);
+  const std::string size = std::to_string(bytes.size());
+  if (problem == Problem::kNone) return "";
+  if (problem == Problem::kTooShort) return "one of " + size + " bytes, which holds no header";
+  if (problem == Problem::kWrongMagic) {
+    return "one of " + size + " bytes that does not begin with the letters JDLK";
+  }
+  ByteReader head(bytes.subspan(kKindAt));
+  std::uint16_t kind = 0;
+  head.number(kind);
+  const std::string what = "a datagram `" + kind_words(kind) + "` of " + size + " bytes";
+  ByteReader head_of_size(bytes.subspan(kSizeAt));
+  std::uint32_t size_told = 0;
+  head_of_size.number(size_told);
+  switch (problem) {
+    case Problem::kWrongVersion:
+      return "a datagram of version " + std::to_string(version_of(bytes));
+    case Problem::kWrongSize:
+      return what + (size_told == bytes.size()
+                         ? ", which is not the size of this kind"
+                         : " whose header says " + std::to_string(size_told));
+    case Problem::kWrongChecksum:
+      return what + " whose last four bytes are not its CRC-32";
+    case Problem::kUnknownKind:
+      return what + ", of which there is no such kind";
+    case Problem::kNotFinite:
+    case Problem::kOutOfRange:
+      break;
+    default:
+      return what + " with " + std::string(name(problem));
+  }
+  ByteReader contents(
+      bytes.subspan(kHeaderBytes, bytes.size() - kChecksumBytes - kHeaderBytes));
+  visit_content(datagram.content, [&contents](auto& content) { fields(contents, content); });
+  return what + " whose " + field_words(kind, kHeaderBytes + contents.problem_at()) +
+         (problem == Problem::kNotFinite ? " is not finite" : " is out of its range");
 }
 
 }  // namespace jnd::device::wire

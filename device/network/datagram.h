@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -148,6 +149,11 @@ enum class Problem : std::uint8_t {
 
 /// "wrong_checksum", as JSON spells it. Real time.
 [[nodiscard]] std::string_view name(Problem problem) noexcept;
+
+/// What is wrong with bytes that `decode` refuses, a part of a sentence with the kind, the
+/// field and its offset: "a welcome whose share of the force at a point (offset 130) is out of
+/// its range". "": nothing. Not real time.
+[[nodiscard]] std::string problem_words(std::span<const std::byte> bytes);
 
 /// Returns how many bytes were written. Real time.
 [[nodiscard]] std::size_t encode(const Datagram& datagram,

@@ -153,6 +153,7 @@ void NetworkDevice::take_in(std::int64_t now_ns) noexcept {
     const wire::Problem problem = seal_.read(received, incoming_);
     if (problem != wire::Problem::kNone) {
       quality_.refused();
+      if (problem != wire::Problem::kOtherKey && phase_ != Phase::kUp) keep_refused(received);
       has_other_key_ |= problem == wire::Problem::kOtherKey;
       if (problem == wire::Problem::kWrongVersion) other_version_ = wire::version_of(received);
       continue;
@@ -162,6 +163,15 @@ void NetworkDevice::take_in(std::int64_t now_ns) noexcept {
     wire::visit_content(incoming_.content,
                         [&](const auto& content) { take(incoming_.header, content, now_ns); });
   }
+}
+
+/// So that it can be said what was wrong with it.
+void NetworkDevice::keep_refused(std::span<const std::byte> bytes) noexcept {
+  ++num_refused_;
+  // Without the seal, which was sound.
+  const std::size_t seal = seal_.has_key() ? DatagramSeal::kBytes : 0;
+  refused_size_ = std::min(bytes.size() - std::min(seal, bytes.size()), refused_.size());
+  std::copy_n(bytes.begin(), refused_size_, refused_.begin());
 }
 
 void NetworkDevice::take(const wire::Header& header, const wire::Welcome& welcome,

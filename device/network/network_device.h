@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -90,6 +93,7 @@ class NetworkDevice final : public HapticDevice {
   };
 
   void take_in(std::int64_t now_ns) noexcept;
+  void keep_refused(std::span<const std::byte> bytes) noexcept;
   void take(const wire::Header& header, const wire::Welcome& welcome,
             std::int64_t now_ns) noexcept;
   void take(const wire::Header& header, const wire::Refusal& refusal,
@@ -124,6 +128,9 @@ class NetworkDevice final : public HapticDevice {
   std::optional<wire::RefusalReason> refusal_;
   std::uint16_t other_version_ = 0;
   bool has_other_key_ = false;
+  int num_refused_ = 0;  ///< Datagrams while it was being opened that are none of the page's.
+  std::array<std::byte, wire::kMaxBytes> refused_{};  ///< The last of them.
+  std::size_t refused_size_ = 0;
 
   Phase phase_ = Phase::kClosed;
   core::Fault fault_ = core::Fault::kNone;

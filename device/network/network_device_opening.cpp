@@ -1,4 +1,5 @@
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "core/error.h"
@@ -41,6 +42,7 @@ NetworkDevice::~NetworkDevice() { close(); }
 
 void NetworkDevice::ask() {
   device_.reset();
+  num_refused_ = 0;
   const std::int64_t deadline_ns = port_->now_ns() + nanoseconds(parameters_.patience_s);
   last_hello_ns_ = 0;
   for (std::int64_t now_ns = port_->now_ns(); now_ns < deadline_ns; now_ns = port_->now_ns()) {
@@ -70,6 +72,7 @@ void NetworkDevice::open() {
   require_rate();
   hand_.reset();
   ++token_;
+  num_refused_ = 0;
   refusal_.reset();
   is_another_ = false;
   phase_ = Phase::kSeeking;
@@ -108,13 +111,27 @@ std::string NetworkDevice::what_is_wrong() const {
     return place + "the same device as before, found another; start the one that was there, " +
            "or this program anew";
   }
+  const bool are_states_good = phase_ == Phase::kArming && quality_.is_settled();
+  if (num_refused_ > 0 && !are_states_good && !refusal_) {
+    return place + "datagrams as device/network/README.md has them, found " +
+           std::to_string(num_refused_) + " that are none, the last one " +
+           wire::problem_words(std::span(refused_).first(refused_size_)) +
+           "; mend what the device sends";
+  }
   if (phase_ == Phase::kArming) {
     const LinkCounts& counts = quality_.counts();
+    if (quality_.is_settled() && !is_silent(port_->now_ns()) && !newest_.is_measured) {
+      return place +
+             "states with a measurement, found that each says by `measured` 0 that the device "
+             "could not be read; look at the robot and at its own program";
+    }
     if (quality_.is_settled() && !is_silent(port_->now_ns())) {
-      return place + "the device to arm, found that it does not (" +
-             std::string(newest_.fault == Fault::kNone ? device::name(newest_.level)
-                                                       : core::name(newest_.fault)) +
-             "); look at the device's own program";
+      return place + "the device to arm on a command without force, found that it does not (" +
+             (newest_.fault == Fault::kNone
+                  ? "it tells no fault, and finds the connection " +
+                        std::string(device::name(newest_.level))
+                  : "it tells the fault " + std::string(core::name(newest_.fault))) +
+             "); look at the device's own program, and try it with `jnd device-check`";
     }
     if (quality_.level() >= LinkLevel::kGood && !quality_.has_round_trip()) {
       return place +

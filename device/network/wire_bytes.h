@@ -46,6 +46,7 @@ class ByteReader {
   template <std::unsigned_integral T>
   void number(T& value) noexcept {
     value = 0;
+    begin_ = at_;
     if (bytes_.size() - at_ < sizeof(T)) return refuse(Problem::kWrongSize);
     for (std::size_t i = 0; i < sizeof(T); ++i) {
       value =
@@ -64,8 +65,12 @@ class ByteReader {
     if (!std::isfinite(value)) refuse(Problem::kNotFinite);
   }
   void refuse(Problem problem) noexcept {
-    if (problem_ == Problem::kNone) problem_ = problem;
+    if (problem_ != Problem::kNone) return;
+    problem_ = problem;
+    problem_at_ = begin_;
   }
+  /// Where the value begins that was the first problem.
+  [[nodiscard]] std::size_t problem_at() const noexcept { return problem_at_; }
 
   /// `kWrongSize` too where something is left over.
   [[nodiscard]] Problem problem() const noexcept {
@@ -76,7 +81,9 @@ class ByteReader {
  private:
   std::span<const std::byte> bytes_;
   std::size_t at_ = 0;
+  std::size_t begin_ = 0;  ///< Of the value that was read last.
   Problem problem_ = Problem::kNone;
+  std::size_t problem_at_ = 0;
 };
 
 }  // namespace jnd::device::wire

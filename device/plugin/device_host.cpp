@@ -205,7 +205,8 @@ class DeviceHost {
   void answer(DriverSession& session, std::uint64_t read_number) noexcept {
     last_question_ns_ = monotonic_ns();
     const Fault found = session.read(answer_.measured);
-    if (found == Fault::kDeviceReadFailed) session.words_of_failure(answer_.words);
+    if (found == Fault::kDeviceReadFailed || found == Fault::kNonFiniteState)
+      session.words_of_failure(answer_.words);
     answer_.is_measured = found == Fault::kNone ? 1 : 0;
     answer_.fault = static_cast<std::uint32_t>(found != Fault::kNone ? found : write_fault_);
     answer_.read_number = read_number;

@@ -105,7 +105,7 @@ Eigen::Vector3d vector_of(const double (&numbers)[kCount]) noexcept {
 
 }  // namespace
 
-void require_description(const jnd_device_description& description) {
+static void require_fields(const jnd_device_description& description) {
   const auto require = core::require;
   require(description.struct_size == sizeof description, "struct_size",
           "what the program set, left as it is", description.struct_size);
@@ -146,6 +146,35 @@ void require_description(const jnd_device_description& description) {
   }
 }
 
+void require_description(const jnd_device_description& description) {
+  try {
+    require_fields(description);
+  } catch (const core::Error& error) {
+    throw core::Error(std::string(error.what()) + "; mend it in jnd_device_describe");
+  }
+}
+
+static std::string different_field(const jnd_device_description& before,
+                                   const jnd_device_description& now) {
+  const auto differs = [](const auto& one, const auto& other) {
+    return std::memcmp(&one, &other, sizeof one) != 0;
+  };
+  if (differs(before.flags, now.flags)) return "flags";
+  if (differs(before.name, now.name)) return "name";
+  if (before.contact_point_bits != now.contact_point_bits) return "contact_point_bits";
+  if (differs(before.area_share_ratio, now.area_share_ratio)) return "area_share_ratio";
+  if (differs(before.rate_hz, now.rate_hz)) return "rate_hz";
+  if (differs(before.workspace_half_width_m, now.workspace_half_width_m)) {
+    return "workspace_half_width_m";
+  }
+  if (differs(before.max_force_per_point_n, now.max_force_per_point_n)) {
+    return "max_force_per_point_n";
+  }
+  if (differs(before.max_total_force_n, now.max_total_force_n)) return "max_total_force_n";
+  if (differs(before.own_mass_kg, now.own_mass_kg)) return "own_mass_kg";
+  return "another limit, the damping, the delay or the time of opening";
+}
+
 void require_same_device(const jnd_device_description& before,
                          const jnd_device_description& now) {
   require_description(now);
@@ -156,7 +185,8 @@ void require_same_device(const jnd_device_description& before,
   if (std::memcmp(&compared, &before, sizeof compared) == 0) return;  // NOLINT: bytes are meant
   throw core::Error(
       "expected a device that is described alike before and after it is opened, "
-      "but for serial and firmware, found that it is not");
+      "but for serial and firmware, found that " +
+      different_field(before, now) + " differs; tell the same in jnd_device_describe");
 }
 
 DeviceCapabilities capabilities_of(const jnd_device_description& description, double rate_hz,
@@ -237,6 +267,29 @@ Fault checked_state(const jnd_device_description& description, const jnd_device_
   }
   take_channels(description, measured, state.channels);
   return Fault::kNone;
+}
+
+const char* state_problem(const jnd_device_description& description,
+                          const jnd_device_state& measured) noexcept {
+  constexpr int kNumCoordinates = 3 * JND_DEVICE_MAX_POINTS;
+  if (!is_finite(&measured.position_m[0][0], kNumCoordinates)) {
+    return "jnd_device_read: position_m holds a number that is not finite";
+  }
+  if (!is_finite(&measured.velocity_m_per_s[0][0], kNumCoordinates)) {
+    return "jnd_device_read: velocity_m_per_s holds a number that is not finite";
+  }
+  if (!is_finite(&measured.acted_n[0][0], kNumCoordinates)) {
+    return "jnd_device_read: acted_n holds a number that is not finite";
+  }
+  if (!is_finite(&measured.measured_force_n[0][0], kNumCoordinates)) {
+    return "jnd_device_read: measured_force_n holds a number that is not finite";
+  }
+  if ((measured.attached_bits & ~description.contact_point_bits) != 0) {
+    return "jnd_device_read: attached_bits has a point that contact_point_bits has not";
+  }
+  if (measured.enabled > 1) return "jnd_device_read: enabled is neither 0 nor 1";
+  return "jnd_device_read: orientation_wxyz is no unit quaternion, or another field is not "
+         "finite";
 }
 
 double command_timeout_s(bool simulated) noexcept { return simulated ? 0.250 : 0.020; }

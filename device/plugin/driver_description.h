@@ -39,6 +39,10 @@ void require_rate(const jnd_device_description& description, double rate_hz,
                                         const jnd_device_state& measured,
                                         core::HapticState& state) noexcept;
 
+/// Which field of a measurement that `checked_state` refuses is wrong, and how. Real time.
+[[nodiscard]] const char* state_problem(const jnd_device_description& description,
+                                        const jnd_device_state& measured) noexcept;
+
 /// How long forces may last without another command, in seconds: by the watchdogs on either
 /// side. Longer where nobody can be hurt. Real time.
 [[nodiscard]] double command_timeout_s(bool simulated) noexcept;

@@ -220,6 +220,20 @@ bool DriverProcess::has_ended() noexcept {
   return true;
 }
 
+std::string DriverProcess::words_of_end() const {
+  if (process_ <= 0) return "";
+  // It is left to be waited for.
+  siginfo_t info{};
+  if (::waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+      info.si_pid != process_) {
+    return "";
+  }
+  if (info.si_code == CLD_EXITED) {
+    return "its process ended by itself (exit code " + std::to_string(info.si_status) + ")";
+  }
+  return std::string("its process crashed (") + ::strsignal(info.si_status) + ")";
+}
+
 void DriverProcess::end() noexcept {
   if (process_ <= 0) return;
   program_page().request.store({.ends = 1});

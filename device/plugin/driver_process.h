@@ -49,6 +49,10 @@ class DriverProcess {
   /// Wakes the process where `wakes`: it answers what has risen. Real time.
   void request(const DriverRequest& request, bool wakes) noexcept;
 
+  /// "its process crashed (Aborted)": where it ended without being asked to; else "". Not real
+  /// time.
+  [[nodiscard]] std::string words_of_end() const;
+
   /// The newest answer, as the process has written it, to be checked. False: none. Real time.
   [[nodiscard]] bool answer(DriverAnswer& answer) const noexcept {
     return host_page().answer.load(answer);

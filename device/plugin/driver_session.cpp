@@ -11,13 +11,29 @@ namespace {
 
 using core::Fault;
 
+/// "found: the cable is out", in the words of the driver.
+std::string found_words(const DriverLibrary& library, jnd_device* device) {
+  const std::string words = text_in_sentence(library.error(device));
+  if (!words.empty()) return "found: " + words;
+  return "found that it failed and that jnd_device_error says nothing; have it say why";
+}
+
+void require_known(int outcome, const char* function) {
+  if (outcome == JND_DEVICE_OK || outcome == JND_DEVICE_FAILED) return;
+  throw core::Error(std::string(function) +
+                    ": expected JND_DEVICE_OK or JND_DEVICE_FAILED, found " +
+                    std::to_string(outcome) + "; return one of these");
+}
+
 jnd_device_description described(const DriverLibrary& library, jnd_device* device,
                                  const std::string& options) {
   jnd_device_description description{};
   description.struct_size = sizeof description;
-  if (library.describe(device, options.c_str(), &description) != JND_DEVICE_OK) {
-    throw core::Error("expected the driver to describe its device, found: " +
-                      text_in_sentence(library.error(device)));
+  const int outcome = library.describe(device, options.c_str(), &description);
+  require_known(outcome, "jnd_device_describe");
+  if (outcome != JND_DEVICE_OK) {
+    throw core::Error("expected the driver to describe its device, " +
+                      found_words(library, device));
   }
   require_description(description);
   return description;
@@ -48,10 +64,16 @@ DriverSession::DriverSession(const std::filesystem::path& file, std::string opti
 void DriverSession::open() {
   close();
   jnd_device* device = nullptr;
-  if (library_.open(options_.c_str(), rate_hz_, &device) != JND_DEVICE_OK ||
-      device == nullptr) {
-    throw core::Error("expected the driver to open its device, found: " +
-                      text_in_sentence(library_.error(nullptr)));
+  const int outcome = library_.open(options_.c_str(), rate_hz_, &device);
+  require_known(outcome, "jnd_device_open");
+  if (outcome != JND_DEVICE_OK) {
+    throw core::Error("expected the driver to open its device, " +
+                      found_words(library_, nullptr));
+  }
+  if (device == nullptr) {
+    throw core::Error(
+        "jnd_device_open: expected a device in *device, found a null pointer although it "
+        "returned JND_DEVICE_OK; set *device before it returns");
   }
   device_ = device;
   halt_.reset();
@@ -82,6 +104,7 @@ Fault DriverSession::read(jnd_device_state& measured) noexcept {
   jnd_device_state now{};
   now.struct_size = sizeof now;
   const int outcome = library_.read(device, &now);
+  problem_ = nullptr;
   if (outcome == JND_DEVICE_NO_SAMPLE && newest_) {
     measured = *newest_;
     return Fault::kNone;
@@ -89,6 +112,7 @@ Fault DriverSession::read(jnd_device_state& measured) noexcept {
   if (outcome != JND_DEVICE_OK) return Fault::kDeviceReadFailed;
   core::HapticState state;
   if (const Fault found = checked_state(description_, now, state); found != Fault::kNone) {
+    problem_ = state_problem(description_, now);
     return found;
   }
   if (newest_ && now.sample_number == newest_->sample_number) {
@@ -150,12 +174,14 @@ Fault DriverSession::pass_on(const core::PointVectors& force_on_hand_n) noexcept
   }
   if (library_.write(device, &command) == JND_DEVICE_OK) return Fault::kNone;
   halt();
+  problem_ = nullptr;
   return Fault::kDeviceWriteFailed;
 }
 
 void DriverSession::words_of_failure(std::array<char, 128>& words) noexcept {
   jnd_device* device = device_.load(std::memory_order_relaxed);
   const char* said = device == nullptr ? nullptr : library_.error(device);
+  if (problem_ != nullptr) said = problem_;
   words.fill('\0');
   for (std::size_t i = 0; said != nullptr && i + 1 < words.size() && said[i] != '\0'; ++i) {
     words[i] = said[i];

@@ -69,7 +69,8 @@ class DriverSession {
   std::atomic<int> num_halting_{0};  ///< Threads inside `halt`: none may be when it is closed.
   std::uint64_t num_writes_ = 0;
   std::optional<jnd_device_state> newest_;
-  core::HapticState state_;  ///< `newest_`, as the loop has it.
+  const char* problem_ = nullptr;  ///< Of the measurement that was refused last; or none.
+  core::HapticState state_;        ///< `newest_`, as the loop has it.
 };
 
 }  // namespace jnd::device

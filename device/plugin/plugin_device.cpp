@@ -171,6 +171,7 @@ bool PluginDevice::stand_in(core::HapticState& state, std::int64_t now_ns) noexc
 }
 
 std::string PluginDevice::words_of_fault() const {
+  if (std::string ended = process_.words_of_end(); !ended.empty()) return ended;
   DriverAnswer answer;
   if (!process_.answer(answer)) return "";
   answer.words.back() = '\0';

@@ -42,8 +42,11 @@ void require_as_told(bool driver_says_simulated, const PluginOptions& options,
                       ":real to use it as if it were not");
   }
   if (!driver_says_simulated && options.says_simulated) {
-    throw core::Error(place +
-                      ": expected a simulated device, as \"simulated\" says, found a real one");
+    throw core::Error(
+        place +
+        ": expected a simulated device, as \"simulated\" says, found one that says "
+        "it is real; leave \"simulated\" away, or set JND_DEVICE_IS_SIMULATED in "
+        "its description if nobody can be hurt by it");
   }
   if (options.in_process && !options.says_simulated) {
     throw core::Error(place +

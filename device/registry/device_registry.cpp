@@ -44,8 +44,22 @@ void require_as_told(const NetworkDevice& device, const NetworkOptions& options,
                       ",real to use it as if it were not");
   }
   if (!device.says_simulated() && options.is_simulated.value_or(false)) {
-    throw core::Error(place + "a simulated device, as \",simulated\" says, found a real one");
+    throw core::Error(place +
+                      "a simulated device, as \",simulated\" says, found one that says it is "
+                      "real; leave \",simulated\" away, or have its program say in the welcome "
+                      "that nobody can be hurt by it");
   }
+}
+
+std::unique_ptr<NetworkDevice> unasked_network_device(const NetworkOptions& options,
+                                                      const Address& server, double rate_hz) {
+  std::random_device draw;
+  return std::make_unique<NetworkDevice>(
+      UdpPort::connected_to(server), server,
+      NetworkDevice::Parameters{.rate_hz = rate_hz,
+                                .token = std::uint64_t{draw()} << 32 | draw(),
+                                .key = key_for(options, server),
+                                .believes_simulated = options.is_simulated.value_or(false)});
 }
 
 /// Asked what it can do, unless there is no address: then it is there to be listed.
@@ -54,13 +68,7 @@ std::unique_ptr<HapticDevice> network_device(std::string_view argument, double r
       argument.empty() ? NetworkOptions{.endpoint = {.host = "127.0.0.1", .port = 1}}
                        : network_options(argument);
   const Address server = resolved(options.endpoint);
-  std::random_device draw;
-  auto device = std::make_unique<NetworkDevice>(
-      UdpPort::connected_to(server), server,
-      NetworkDevice::Parameters{.rate_hz = rate_hz,
-                                .token = std::uint64_t{draw()} << 32 | draw(),
-                                .key = key_for(options, server),
-                                .believes_simulated = options.is_simulated.value_or(false)});
+  std::unique_ptr<NetworkDevice> device = unasked_network_device(options, server, rate_hz);
   if (argument.empty()) return device;
   device->ask();
   require_as_told(*device, options, server);
@@ -145,6 +153,15 @@ std::string_view kind_of(std::string_view name) noexcept {
 std::string_view argument_of(std::string_view name) noexcept {
   const std::size_t colon = name.find(':');
   return colon == std::string_view::npos ? std::string_view() : name.substr(colon + 1);
+}
+
+std::unique_ptr<NetworkDevice> asked_network_device(std::string_view argument) {
+  const NetworkOptions options = network_options(argument);
+  constexpr double kUsualRate_hz = 1000.0;
+  std::unique_ptr<NetworkDevice> device =
+      unasked_network_device(options, resolved(options.endpoint), kUsualRate_hz);
+  device->ask();
+  return device;
 }
 
 std::span<const DeviceEntry> devices() noexcept { return kDevices; }

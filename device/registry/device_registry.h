@@ -35,4 +35,10 @@ struct DeviceEntry {
 /// to be asked what it can do and does not answer. Not real time.
 [[nodiscard]] std::unique_ptr<HapticDevice> make_device(std::string_view name, double rate_hz);
 
+class NetworkDevice;
+
+/// What answers at "127.0.0.1:4700,key=robot", to look at what it says of itself: whether it is
+/// a simulation is not compared with the options. Throws as `make_device`. Not real time.
+[[nodiscard]] std::unique_ptr<NetworkDevice> asked_network_device(std::string_view argument);
+
 }  // namespace jnd::device

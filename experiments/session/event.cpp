@@ -28,7 +28,7 @@ constexpr std::array<const char*, std::variant_size_v<EventData>> kKinds = {
     "stream_failed",      "sound_started",        "cues_played",
     "sound_measured",     "sound_missing",        "markers_opened",
     "markers_sent",       "markers_closed",       "markers_failed",
-    "session_completed",  "session_ended_early"};
+    "force_missing",      "session_completed",    "session_ended_early"};
 
 json exposure_json(const core::Exposure& exposure) {
   return {{"force_time_n_s", exposure.force_time_n_s},
@@ -174,6 +174,10 @@ struct Writer {
     row.supersedes = e.answer_sequence;
     data = {{"response", json_of(e.response)}, {"reason", e.reason}};
     if (e.chosen_interval) data["chosen_interval"] = *e.chosen_interval;
+  }
+  void operator()(const ForceMissing& e) const {
+    place(e.trial, e.attempt);
+    data = {{"presentation", e.presentation}, {"cause", e.cause}};
   }
   void operator()(const AttemptDiscarded& e) const {
     place(e.trial, e.attempt);
@@ -399,6 +403,11 @@ struct Reader {
     if (data.contains("chosen_interval")) {
       e.chosen_interval = whole_number(data.at("chosen_interval"), "chosen_interval");
     }
+  }
+  void operator()(ForceMissing& e) const {
+    place(e);
+    e.presentation = whole_number(data.at("presentation"), "presentation");
+    data.at("cause").get_to(e.cause);
   }
   void operator()(AttemptDiscarded& e) const {
     place(e);

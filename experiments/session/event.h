@@ -334,6 +334,12 @@ struct MarkersFailed {
   std::string problem;  ///< A sentence.
 };
 
+/// A stimulus that asks for a force was presented, and no force acted on the hand meanwhile.
+struct ForceMissing {
+  std::int64_t trial = 0, attempt = 1, presentation = 1;
+  std::string cause;  ///< What was missing, a part of a sentence.
+};
+
 /// Ended before its last stage; not resumable.
 struct SessionEndedEarly {
   std::string reason;
@@ -347,7 +353,7 @@ using EventData = std::variant<
     ArmingChanged, ExposureTold, GuardNoticed, FittingKept, QuestionAnswered, TurnTaken,
     PauseExplained, StreamOpened, StreamClosed, StreamFailed, SoundStarted, CuesPlayed,
     SoundMeasured, SoundMissing, MarkersOpened, MarkersSent, MarkersClosed, MarkersFailed,
-    SessionCompleted, SessionEndedEarly>;
+    ForceMissing, SessionCompleted, SessionEndedEarly>;
 
 struct Event {
   std::int64_t sequence = 0;  ///< 1, 2, 3 ...

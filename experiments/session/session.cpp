@@ -558,6 +558,8 @@ void Session::stream_opened(const StreamOpened& stream) { commit(stream); }
 
 void Session::stream_closed(const StreamClosed& stream) { commit(stream); }
 
+void Session::force_missing(const ForceMissing& missing) { commit(missing); }
+
 void Session::stream_failed(const StreamFailed& stream) { commit(stream); }
 
 void Session::sound_started(const SoundStarted& sound) { commit(sound); }

@@ -161,6 +161,7 @@ class Session {
   void arming_changed(const std::string& arming, const std::string& cause);
   void exposed(const core::Exposure& exposure);
   void guard_noticed(const GuardNoticed& noticed);
+  void force_missing(const ForceMissing& missing);
   void stream_opened(const StreamOpened& stream);
   void stream_closed(const StreamClosed& stream);
   void stream_failed(const StreamFailed& stream);

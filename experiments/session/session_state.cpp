@@ -181,6 +181,10 @@ struct Fold {
   void operator()(const MarkersClosed&) const {}
   void operator()(const MarkersFailed&) const {}
   void operator()(const FittingKept&) const {}
+  void operator()(const ForceMissing& e) const {
+    ++state.num_without_force;
+    state.missing_force_cause = e.cause;
+  }
   void operator()(const ExposureTold& e) const { state.exposure += e.exposure; }
   void operator()(const SessionCompleted&) const {
     state.ended = true;

@@ -73,6 +73,9 @@ struct SessionState {
   bool missed_deadline = false;  ///< The last answer did; until the next trial begins.
   std::vector<std::string> notes;
   core::Exposure exposure;  ///< As far as presentations tell of it.
+  /// Presentations of stimuli that ask for a force and in which none acted; why, of the last.
+  std::int64_t num_without_force = 0;
+  std::string missing_force_cause;
   std::int64_t last_sequence = 0;
   std::int64_t last_time_ns = 0;
   std::int64_t last_tick = -1;  ///< The last tick that any event speaks of.

@@ -917,7 +917,9 @@ int main(int num_words, char **words) {
   if (device.socket < 0 || fcntl(device.socket, F_SETFL, O_NONBLOCK) != 0 ||
       bind(device.socket, (struct sockaddr *)&own, sizeof own) != 0 ||
       getsockname(device.socket, (struct sockaddr *)&own, &own_size) != 0) {
-    fail(host, strerror(errno));
+    fail(host, errno == EADDRINUSE
+                   ? "the port is used already; end what uses it, or name another --port"
+                   : strerror(errno));
   }
   printf("listening on %s:%d\n", host, ntohs(own.sin_port));
   fflush(stdout);

@@ -197,7 +197,11 @@ def opened_socket(host, port, key):
     if not key and not ipaddress.ip_address(socket.gethostbyname(host)).is_loopback:
         raise SystemExit(f"{host} can be reached by others: name a key of `jnd device-key`")
     opened = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    opened.bind((host, port))
+    try:
+        opened.bind((host, port))
+    except OSError as error:
+        raise SystemExit(f"{host}:{port}: expected an address and a port that are free here, found: "
+                         f"{error.strerror}; end what uses it, or name another one")
     opened.setblocking(False)
     return opened
 

@@ -45,6 +45,18 @@ WRONG = {
     "no_limits": "has no limit of force and none of its change",
     "echo": "echoes a clock that nobody sent, a second ahead",
     "told_as_sent": "gives every force 30 ms late and tells it as if it acted at once",
+    "slow_velocity": "filters velocities by a low-pass of first order that lags by 40 ms",
+    "description": "tells the half widths of its workspace in mm",
+    # What only a person finds, with --follow.
+    "still": "tells a velocity of 5 cm/s when the hand is at rest",
+    "moves": "does not tell what happens along y",
+    "distance": "tells positions in inches",
+    "swapped_axes": "tells y for x and x for y",
+    "mirrored_axes": "tells x with the other sign, as a left-handed frame does",
+    "points_order": "tells the index finger for the thumb and the thumb for the index finger",
+    "buttons": "tells of buttons that never change",
+    "gripper": "tells a gripper that is larger when it is closed",
+    "workspace": "tells a workspace of 5 cm to either side, although the hand goes 20 cm",
 }
 
 
@@ -155,6 +167,98 @@ class Robot:
             self._at_m[i] += velocity_m_per_s[i] * self._dt_s
 
 
+class FollowedRobot(Robot):
+    """A hand without a robot that does what `jnd device-check --by-hand` asks a person to do: it
+    reads the prompts from the file that its standard error goes to."""
+
+    name, moves_by_itself = "python person", False
+    half_width_m = (0.25, 0.25, 0.25)
+    _PLACES_M = {"right": (0.1, 0.0, 0.1), "away": (0.0, 0.1, 0.1), "up": (0.0, 0.0, 0.2)}
+    _ENDS_M = ((0.2, 0.0, 0.1), (-0.2, 0.0, 0.1), (0.0, 0.12, 0.1), (0.0, -0.2, 0.1),
+               (0.0, 0.0, 0.2), (0.0, 0.0, -0.2))
+    _QUICKNESS_PER_S = 25.0  # Of a mass on a spring that just does not swing.
+
+    def __init__(self, rate_hz, points, file_name, wrong):
+        self._file_name, self._wrong = file_name, wrong
+        self._step, self._began_ns, self._line = "", 0, ""
+        super().__init__(rate_hz, points, 24)  # gripper and buttons
+        if wrong == "workspace":
+            self.half_width_m = (0.05, 0.05, 0.05)
+        self._finger_m = [0.0] * jd.NUM_POINTS
+
+    def reset(self):
+        super().reset()
+        self._began_ns = 0
+
+    def _read_prompts(self):
+        """Which step is asked for, 40 times a second."""
+        if self._time_ns % 25_000_000 >= self._dt_s * 1e9:
+            return
+        try:
+            with open(self._file_name, encoding="utf-8", errors="replace") as prompts:
+                lines = [line for line in prompts if line.startswith("PROMPT ")]
+        except OSError:
+            return
+        step = lines[-1].split()[1].rstrip(":") if lines else ""
+        if step != self._step:
+            self._step, self._began_ns = step, self._time_ns
+
+    def _wanted_m(self):
+        since_s = (self._time_ns - self._began_ns) / 1e9
+        if self._step == "workspace":
+            return self._ENDS_M[int(since_s / 0.3) % len(self._ENDS_M)]
+        return self._PLACES_M.get(self._step, self._HOME_M)
+
+    def _move(self):
+        self._time_ns += round(self._dt_s * 1e9)
+        self._read_prompts()
+        wanted_m, quick = self._wanted_m(), self._QUICKNESS_PER_S
+        for i in range(3):
+            velocity = self._velocity_m_per_s[i]
+            velocity += self._dt_s * quick * (
+                quick * (wanted_m[i] - self._at_m[i]) - 2.0 * velocity)
+            self._velocity_m_per_s[i] = velocity
+            self._at_m[i] += velocity * self._dt_s
+        since_s = (self._time_ns - self._began_ns) / 1e9
+        fingers = ("thumb", "index", "middle")
+        self._finger_m = [0.0] * jd.NUM_POINTS
+        if self._step in fingers:
+            self._finger_m[2 + fingers.index(self._step)] = 0.01 * math.sin(12.0 * since_s)
+
+    def read_robot(self):
+        time_ns, position_m, velocity_m_per_s, held, enabled = super().read_robot()
+        for point, way_m in enumerate(self._finger_m):
+            position_m[3 * point + 1] += way_m
+        for vectors in (position_m, velocity_m_per_s):
+            self._spoil(vectors)
+        if self._wrong == "still":
+            velocity_m_per_s[0::3] = [value + 0.05 for value in velocity_m_per_s[0::3]]
+        return time_ns, position_m, velocity_m_per_s, held, enabled
+
+    def _spoil(self, vectors):
+        if self._wrong == "moves":
+            vectors[1::3] = [0.0] * jd.NUM_POINTS
+        elif self._wrong == "distance":
+            vectors[:] = [value / 0.0254 for value in vectors]
+        elif self._wrong == "swapped_axes":
+            vectors[0::3], vectors[1::3] = vectors[1::3], vectors[0::3]
+        elif self._wrong == "mirrored_axes":
+            vectors[0::3] = [-value for value in vectors[0::3]]
+        elif self._wrong == "points_order":
+            vectors[6:9], vectors[9:12] = vectors[9:12], vectors[6:9]
+
+    def read_more(self):
+        since_s = (self._time_ns - self._began_ns) / 1e9
+        buttons, gripper_m = 0, 0.02
+        if self._step == "buttons" and self._wrong != "buttons":
+            buttons = 1 << int(since_s / 0.2) % 2
+        if self._step == "gripper":
+            gripper_m = 0.08 if since_s < 0.4 else 0.0
+            if self._wrong == "gripper":
+                gripper_m = 0.08 - gripper_m
+        return [0.0] * 15, (1.0, 0.0, 0.0, 0.0), [0.0] * 3, gripper_m, buttons
+
+
 class Server:
     """The protocol, one `tick` after the other."""
 
@@ -169,6 +273,7 @@ class Server:
         self._was_enabled = False
         self._acted_n = [0.0] * 15  # what the motors were told last
         self._waiting_n = []        # only for the wrong device that is late
+        self._slow_m_per_s = [0.0] * 15  # likewise, of the one with a slow filter
         self._measured = None
         self.num_ticks, self.num_missed, self.num_clients, self.num_armings = 0, 0, 0, 0
         self._forget()
@@ -391,6 +496,11 @@ class Server:
             self._disarm(2)
             self._fault = 2
             return
+        if self._wrong == "slow_velocity":
+            part = 1.0 / (1.0 + 0.04 * self._rate_hz)
+            self._slow_m_per_s = [slow + part * (now - slow) for slow, now
+                                  in zip(self._slow_m_per_s, measured[2])]
+            measured = (*measured[:2], list(self._slow_m_per_s), *measured[3:])
         self._measured = measured
 
     def _give(self, force_n):
@@ -504,15 +614,23 @@ def main():
     words.add_argument("--seconds", type=float, default=math.inf, help="how long; until stopped")
     words.add_argument("--log", help="file to which each tick adds a record of 128 bytes: time "
                        "(monotonic, ns, int64) and the 15 forces that the robot is given")
+    words.add_argument("--follow", metavar="FILE",
+                       help="move as the prompts in it say: where `jnd device-check --by-hand` "
+                       "writes its standard error")
     words.add_argument("--wrong", default="", choices=["", *WRONG], metavar="NAME",
                        help="behave wrongly, to try a check of devices")
     given = words.parse_args()
     key = jd.read_key(given.key)
     socket = jd.opened_socket(given.listen, given.port, key)
-    robot = Robot(given.rate_hz, (1 << given.points) - 1, 31 if given.measures else 0)
+    points = (1 << given.points) - 1
+    robot = Robot(given.rate_hz, points, 31 if given.measures else 0)
+    if given.follow:
+        robot = FollowedRobot(given.rate_hz, points, given.follow, given.wrong)
     log = None
     if given.log:
         log = os.open(given.log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o600)
+    if given.wrong == "description":
+        robot.half_width_m = tuple(1000.0 * value for value in robot.half_width_m)
     server = Server(socket, robot, given.rate_hz, key, given.wrong, log)
     print("listening on {}:{}".format(*socket.getsockname()), flush=True)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))

@@ -31,6 +31,15 @@ class PluginCommandTest : public CommandTest {
         test_support::source_folder() / "tests" / "device" / "plugin" / "hostile_driver.c",
         temporary_.path(), "hostile" + definition, definition);
   }
+  /// The example with one line of it changed, as a wrong driver of somebody else's.
+  void build_changed(const std::string& name, const std::string& from, const std::string& to) {
+    std::string source = test_support::read_file(device::example_source());
+    const std::size_t at = source.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    source.replace(at, from.size(), to);
+    test_support::write_file(path(name + ".c"), source);
+    (void)device::built_driver(path(name + ".c"), temporary_.path(), name);
+  }
   static std::vector<std::string> run_words(const std::string& device) {
     return {"run",    "short_tour", "--study",    "tour.study", "--participant", "P01",
             "--seed", "7",          "--headless", "--device",   device};
@@ -127,7 +136,92 @@ TEST_F(PluginCommandTest, TheLoopAndThePlanTakeItToo) {
   EXPECT_GT(document(loop.out)["num_ticks"], 100);
   const ProgramOutcome plan =
       jnd({"plan", "short_tour", "--device", "plugin:example:simulated", "--json"});
-  EXPECT_EQ(plan.exit_code, 0) << plan.err << plan.out;
+  // The device says 30 N, but no more than 10 N are rendered at one point.
+  EXPECT_EQ(plan.exit_code, 1) << plan.err << plan.out;
+  EXPECT_NE(plan.err.find("too strong"), std::string::npos) << plan.err;
+  EXPECT_NE(plan.err.find("this program renders at most 10 N at a point"), std::string::npos)
+      << plan.err;
+}
+
+/// The example says 30 N, and no session gives more than 10 N at a point.
+TEST_F(PluginCommandTest, APlanKeepsToWhatTheProgramRendersWhateverTheDeviceSays) {
+  const ProgramOutcome plan =
+      jnd({"plan", "short_tour", "--device", "plugin:example:simulated", "--json"});
+  const auto limits = document(plan.out)["limits"];
+  EXPECT_EQ(limits["max_force_per_point_n"], 10.0);
+  EXPECT_EQ(limits["device_max_force_per_point_n"], 30.0);
+  const std::string said =
+      "this program renders at most 10 N at a point and 30 N in all, although "
+      "`plugin:example:simulated` says 30 N and 30 N";
+  EXPECT_EQ(limits["remark"], said);
+  const ProgramOutcome table =
+      jnd({"plan", "short_tour", "--device", "plugin:example:simulated"});
+  EXPECT_NE(table.out.find("Note: " + said + "."), std::string::npos) << table.out;
+  const ProgramOutcome valid =
+      jnd({"validate", "short_tour", "--device", "plugin:example:simulated"});
+  EXPECT_NE((valid.out + valid.err).find(said), std::string::npos) << valid.out << valid.err;
+  EXPECT_EQ(document(jnd({"plan", "short_tour", "--json"}).out)["limits"]["remark"], "");
+}
+
+TEST_F(PluginCommandTest, ASessionInWhichNoForceActedSaysSoAndKeepsIt) {
+  build_changed("loose", "state->attached_bits = 1;", "state->attached_bits = 0;");
+  const ProgramOutcome run = jnd(run_words("plugin:loose:simulated"));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const std::string cause = "the device tells of no point that it holds the hand";
+  EXPECT_NE(run.err.find("CAUTION, trial 1: no force acted in 1 presentation of stimuli that "
+                         "ask for one: " +
+                         cause),
+            std::string::npos)
+      << run.err;
+  const std::size_t last = run.err.rfind("CAUTION, no force acted in ");
+  ASSERT_NE(last, std::string::npos) << run.err;
+  EXPECT_NE(run.err.find(cause, last), std::string::npos) << run.err;
+  const ProgramOutcome verified = jnd({"verify", "tour.study"});
+  EXPECT_EQ(verified.exit_code, 0) << verified.out;
+  EXPECT_NE(verified.out.find("CAUTION, no force acted in "), std::string::npos)
+      << verified.out;
+  const ProgramOutcome reported = jnd({"report", "tour.study", "--out", "report"});
+  std::string report;
+  for (const auto& entry : fs::recursive_directory_iterator(path("report"))) {
+    if (entry.path().extension() == ".html") report += test_support::read_file(entry.path());
+  }
+  EXPECT_NE(report.find("CAUTION, no force acted in "), std::string::npos) << reported.err;
+}
+
+TEST_F(PluginCommandTest, ADeviceWhoseSensorsMeasureNoForceDeliversNone) {
+  build_changed("weak", "JND_DEVICE_HAS_DEVICE_TIME |",
+                "JND_DEVICE_HAS_DEVICE_TIME | JND_DEVICE_MEASURES_FORCE |");
+  const ProgramOutcome run = jnd(run_words("plugin:weak:simulated"));
+  EXPECT_NE(run.err.find("forces were sent, and the device tells or measures that none acted"),
+            std::string::npos)
+      << run.err;
+  const ProgramOutcome good =
+      jnd({"run", "short_tour", "--study", "good.study", "--participant", "P01", "--seed", "7",
+           "--headless", "--device", "plugin:example:simulated"});
+  EXPECT_EQ(good.err.find("no force acted"), std::string::npos) << good.err;
+  EXPECT_EQ(jnd({"verify", "good.study"}).out.find("CAUTION"), std::string::npos);
+}
+
+TEST_F(PluginCommandTest, TheLoopSaysWhatItDidNotMeasure) {
+  build_changed("stuck",
+                "memcpy(state->position_m[0], device->position_m, sizeof device->position_m);",
+                "");
+  const auto stuck = document(
+      jnd({"loop", "--device", "plugin:stuck:simulated", "--seconds", "0.3", "--json"}).out);
+  EXPECT_EQ(stuck["num_moved_samples"], 0);
+  ASSERT_GE(stuck["not_measured"].size(), 1U);
+  EXPECT_TRUE(stuck["not_measured"][0].get<std::string>().starts_with("movement ("));
+  EXPECT_NE(stuck["verdict"].get<std::string>().find("Not measured: movement ("),
+            std::string::npos)
+      << stuck["verdict"];
+  EXPECT_EQ(stuck["verdict"].get<std::string>().find("Fit for a person"), std::string::npos);
+  build_changed("loose", "state->attached_bits = 1;", "state->attached_bits = 0;");
+  const auto loose = document(
+      jnd({"loop", "--device", "plugin:loose:simulated", "--seconds", "0.3", "--json"}).out);
+  EXPECT_EQ(loose["num_ticks_with_force"], 0);
+  EXPECT_EQ(loose["not_measured"], nlohmann::json::array({"force (none acted)"}));
+  const auto good = document(jnd({"loop", "--seconds", "0.3", "--json"}).out);
+  EXPECT_TRUE(good["not_measured"].empty()) << good["not_measured"];
 }
 
 TEST_F(PluginCommandTest, ADriverThatCannotBeUsedIsALackOfThisMachine) {

@@ -233,8 +233,85 @@ INSTANTIATE_TEST_SUITE_P(Names, WrongReferenceDevice,
                                            "bad_key", "replay", "stale", "sequence_wrap",
                                            "sequence_step", "half_rate", "rearms",
                                            "arms_with_force", "no_limits", "echo",
-                                           "told_as_sent"),
+                                           "told_as_sent", "slow_velocity", "description"),
                          [](const auto& info) { return info.param; });
+
+/// One that a person moves: what its mistakes are is seen only then.
+class FollowedReferenceDevice : public ReferenceDevice {
+ protected:
+  /// Its prompts go to the file that the device follows.
+  ProgramOutcome checked_by_hand(const std::vector<std::string>& words) {
+    std::vector<std::string> all = {"--follow", path("prompts").string()};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_TRUE(start("python", all));
+    ProgramOptions options = options_;
+    options.wrapper = {"sh", "-c", "exec \"$@\" 2>prompts", "sh"};
+    return test_support::run_program(
+        {"device-check", "network:" + place_ + ",simulated", "--by-hand", "--step-s", "1"},
+        options);
+  }
+};
+
+TEST_F(FollowedReferenceDevice, KeepsTheRulesOfAHand) {
+  ProgramOutcome told = checked_by_hand({});
+  for (int i = 0; i < 2 && told.exit_code != 0; ++i) told = checked_by_hand({});
+  EXPECT_EQ(told.exit_code, 0) << told.out << test_support::read_file(path("prompts"));
+  for (const char* rule : {"still", "moves", "distance", "swapped_axes", "mirrored_axes",
+                           "points_order", "buttons", "gripper", "workspace"}) {
+    EXPECT_NE(told.out.find("\npass  " + std::string(rule) + " "), std::string::npos)
+        << rule << told.out;
+  }
+  EXPECT_NE(
+      test_support::read_file(path("prompts"))
+          .find("PROMPT right: Move it 10 cm to your right, and hold it there (1 s left)"),
+      std::string::npos);
+}
+
+class WrongFollowedDevice : public FollowedReferenceDevice,
+                            public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(WrongFollowedDevice, IsFoundByTheRuleOfItsName) {
+  const ProgramOutcome told = checked_by_hand({"--wrong", GetParam()});
+  EXPECT_EQ(told.exit_code, 1) << told.out;
+  EXPECT_NE(told.out.find("\nfail  " + GetParam() + " "), std::string::npos) << told.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Names, WrongFollowedDevice,
+                         ::testing::Values("still", "moves", "distance", "swapped_axes",
+                                           "mirrored_axes", "points_order", "buttons",
+                                           "gripper", "workspace"),
+                         [](const auto& info) { return info.param; });
+
+TEST_F(ReferenceDevice, AHandAndAPushExcludeEachOther) {
+  const ProgramOutcome told =
+      jnd({"device-check", "network:127.0.0.1:1,simulated", "--by-hand", "--with-force"});
+  EXPECT_EQ(told.exit_code, 2);
+  EXPECT_NE(told.err.find("a hand is in the device"), std::string::npos) << told.err;
+}
+
+/// What one device says of itself, as table and as JSON.
+TEST_F(ReferenceDevice, DevicesTellsWhatOneSaysOfItself) {
+  ASSERT_TRUE(start("python", {"--points", "1"}));
+  const ProgramOutcome told = jnd({"devices", "--device", "network:" + place_, "--json"});
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  const auto out = document(told.out);
+  EXPECT_EQ(out["name"], "python reference");
+  EXPECT_EQ(out["num_contact_points"], 1);
+  EXPECT_EQ(out["share_ratio"].size(), 1U);
+  EXPECT_EQ(out["share_ratio"]["palm_inner"], 1.0);
+  EXPECT_EQ(out["rate_hz"], 1000.0);
+  EXPECT_EQ(out["max_force_per_point_n"], 8.0);
+  EXPECT_EQ(out["workspace_half_width_m"], nlohmann::json({1.0, 1.0, 1.0}));
+  EXPECT_EQ(out["closed_loop_delay_s"], 0.001);
+  EXPECT_TRUE(out["simulated"].get<bool>());
+  EXPECT_EQ(out["lacks"], nlohmann::json({"enable_switch", "measured_force", "orientation",
+                                          "torque", "gripper", "buttons"}));
+  const ProgramOutcome table = jnd({"devices", "--device", "network:" + place_});
+  EXPECT_NE(table.out.find("closed_loop_delay_s            0.001\n"), std::string::npos)
+      << table.out;
+  EXPECT_NE(table.out.find("measured_force, orientation"), std::string::npos) << table.out;
+  EXPECT_EQ(jnd({"devices", "--device", "network:127.0.0.1:1"}).exit_code, 3);
+}
 
 TEST_F(ReferenceDevice, ARealDeviceIsNotPushedUnlessSomebodySaysSo) {
   ASSERT_TRUE(start("python"));
@@ -243,7 +320,7 @@ TEST_F(ReferenceDevice, ARealDeviceIsNotPushedUnlessSomebodySaysSo) {
   EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
   const auto out = document(told.out);
   EXPECT_FALSE(out["simulated"].get<bool>());
-  EXPECT_EQ(out["num_skipped"].get<int>(), 10);
+  EXPECT_EQ(out["num_skipped"].get<int>(), 11);
   for (const auto& rule : out["rules"]) {
     if (rule["rule"] != "halt") continue;
     EXPECT_EQ(rule["verdict"], "skip");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <map>
 #include <string>
 
@@ -14,7 +15,8 @@ namespace driver_check_test {
 /// A simulated hand whose driver breaks one rule.
 class WrongDevice final : public HapticDevice {
  public:
-  explicit WrongDevice(std::string wrong) : wrong_(std::move(wrong)) {}
+  explicit WrongDevice(std::string wrong, bool has_own_clock = false)
+      : wrong_(std::move(wrong)), has_own_clock_(has_own_clock) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return "wrong"; }
   [[nodiscard]] DeviceCapabilities capabilities() const noexcept override {
@@ -22,6 +24,8 @@ class WrongDevice final : public HapticDevice {
     can.share_ratio = core::area_shares_of_first(2);
     can.tells_acting_force = true;
     can.simulated = wrong_ != "real" && wrong_ != "blind";
+    can.has_own_clock = has_own_clock_;
+    if (wrong_ == "description") can.workspace.half_width_y_m = 400.0;
     return can;
   }
   void open() override {
@@ -37,9 +41,18 @@ class WrongDevice final : public HapticDevice {
     if (wrong_ == "time") state.device_time_ns += state.device_time_ns / 10;
     for (auto& at : state.tip_position_m) at *= wrong_ == "units" ? 1000.0 : 1.0;
     for (auto& speed : state.tip_velocity_m_per_s) speed *= wrong_ == "velocity" ? 0.001 : 1.0;
+    // A low-pass of first order at 4 Hz.
+    for (std::size_t i = 0; i < 5; ++i) {
+      slow_m_per_s_[i] += (state.tip_velocity_m_per_s[i] - slow_m_per_s_[i]) / 41.0;
+      if (wrong_ == "slow_velocity") state.tip_velocity_m_per_s[i] = slow_m_per_s_[i];
+    }
     state.attached = {true, true, false, false, false};
     state.attached[4] = wrong_ == "absent_points";
     state.acted_n = acted_n_;
+    // What it was told acts a while later, by its own clock.
+    if (has_own_clock_ && Clock::now() - told_at_ < std::chrono::milliseconds(3)) {
+      state.acted_n = core::zero_vectors();
+    }
     return true;
   }
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override {
@@ -50,6 +63,7 @@ class WrongDevice final : public HapticDevice {
       given_n[0] *= most_n / given_n[0].norm();
     if (given_n[0].isZero(0.0)) is_halted_ = false;
     if (is_halted_) given_n = core::zero_vectors();
+    if (acted_n_[0].isZero(0.0) && !given_n[0].isZero(0.0)) told_at_ = Clock::now();
     acted_n_ = given_n;
     if (wrong_ == "force_sign") given_n[0].y() = -given_n[0].y();
     return hand_.write(given_n);
@@ -60,9 +74,13 @@ class WrongDevice final : public HapticDevice {
   [[nodiscard]] double largest_n() const { return largest_n_; }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   std::string wrong_;
+  bool has_own_clock_;
+  Clock::time_point told_at_;
   LumpedHandDevice hand_{LumpedHandDevice::Parameters{}};
-  core::PointVectors acted_n_ = core::zero_vectors();
+  core::PointVectors acted_n_ = core::zero_vectors(), slow_m_per_s_ = core::zero_vectors();
   bool is_halted_ = false;
   int num_opened_ = 0, num_reads_ = 0;
   double largest_n_ = 0.0;
@@ -85,7 +103,7 @@ TEST(DriverCheck, AGoodDriverKeepsEveryRule) {
   WrongDevice device("nothing");
   const Told told = told_of(device);
   EXPECT_TRUE(told.is_kept);
-  EXPECT_EQ(told.outcomes.size(), 10U);
+  EXPECT_EQ(told.outcomes.size(), 12U);
   for (const auto& [rule, outcome] : told.outcomes) {
     EXPECT_EQ(outcome.verdict, RuleOutcome::Verdict::kPassed) << rule << ": " << outcome.found;
   }
@@ -105,9 +123,42 @@ TEST_P(EachWrongDriver, IsFoundByItsRuleAndByNoOther) {
 
 // One of other units has positions and velocities that agree, and moves far.
 INSTANTIATE_TEST_SUITE_P(Rules, EachWrongDriver,
-                         ::testing::Values("opens", "pace", "time", "velocity", "absent_points",
-                                           "force_sign", "halt", "limits", "reopens"),
+                         ::testing::Values("opens", "pace", "time", "velocity", "description",
+                                           "absent_points", "force_sign", "halt", "limits",
+                                           "reopens"),
                          [](const auto& info) { return std::string(info.param); });
+
+/// Of one with a clock of its own no force acts before its time goes on.
+TEST(DriverCheck, TheLimitsOfADeviceWithAClockOfItsOwnAreTried) {
+  WrongDevice good("nothing", /*has_own_clock=*/true);
+  EXPECT_EQ(told_of(good).outcomes.at("limits").verdict, RuleOutcome::Verdict::kPassed);
+  WrongDevice wrong("limits", /*has_own_clock=*/true);
+  EXPECT_EQ(told_of(wrong).outcomes.at("limits").verdict, RuleOutcome::Verdict::kFailed);
+}
+
+TEST(DriverCheck, ASlowFilterOfTheVelocityIsFound) {
+  WrongDevice device("slow_velocity");
+  const Told told = told_of(device);
+  EXPECT_EQ(told.outcomes.at("slow_velocity").verdict, RuleOutcome::Verdict::kFailed)
+      << told.outcomes.at("slow_velocity").found;
+}
+
+TEST(DriverCheck, ADeviceWithAHandInItIsNeverPushed) {
+  WrongDevice device("nothing");
+  int num_prompts = 0;
+  Told told;
+  told.is_kept = check_driver(device,
+                              {.pushes = true,
+                               .is_paced = false,
+                               .by_hand_step_s = 0.2,
+                               .prompt = [&](const HandPrompt&) { ++num_prompts; }},
+                              [&](const RuleOutcome& outcome) {
+                                told.outcomes[std::string(outcome.rule.name)] = outcome;
+                              });
+  EXPECT_EQ(device.largest_n(), 0.0);
+  EXPECT_EQ(told.outcomes.at("limits").verdict, RuleOutcome::Verdict::kSkipped);
+  EXPECT_TRUE(told.outcomes.contains("mirrored_axes"));
+}
 
 TEST(DriverCheck, MillimetresAreFound) {
   WrongDevice device("units");

@@ -405,5 +405,47 @@ TEST(Datagram, APlanThatComesThroughIsValid) {
   EXPECT_GT(num_passed, 100);
 }
 
+/// Whoever writes a device reads kind, field and offset of the page of datagrams.
+TEST(Datagram, WhatIsWrongWithOneIsSaidInWords) {
+  const std::vector<Datagram> all = one_of_each_kind(5);
+  const Bytes welcome = encoded(all[1]), state = encoded(all[3]);
+  EXPECT_EQ(wire::problem_words(welcome), "");
+  Bytes wrong = welcome;
+  put_double(wrong, 56, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(wire::problem_words(sealed(wrong)),
+            "a datagram `welcome` of 304 bytes whose most force at a point (offset 56) is not "
+            "finite");
+  wrong = welcome;
+  put_double(wrong, 146, 0.7);
+  EXPECT_EQ(
+      wire::problem_words(sealed(wrong)),
+      "a datagram `welcome` of 304 bytes whose share of the force at a point (together 1) "
+      "(offset 162) is out of its range");
+  wrong = welcome;
+  wrong[80] = std::byte{0};
+  EXPECT_NE(wire::problem_words(sealed(wrong)).find("set of contact points (offset 80)"),
+            std::string::npos);
+  wrong = state;
+  put_double(wrong, 168 + 8 * 4, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(wire::problem_words(sealed(wrong)),
+            "a datagram `state` of 1031 bytes whose velocity of a point (offset 200) is not "
+            "finite");
+  wrong = state;
+  wrong[716] = std::byte{255};
+  EXPECT_NE(wire::problem_words(sealed(wrong)).find("number of a fault (offset 716)"),
+            std::string::npos);
+  EXPECT_NE(wire::problem_words(wrong).find("whose last four bytes are not its CRC-32"),
+            std::string::npos);
+  wrong = welcome;
+  wrong.resize(200);
+  EXPECT_EQ(wire::problem_words(wrong),
+            "a datagram `welcome` of 200 bytes whose header says 304");
+  wrong = welcome;
+  wrong[0] = std::byte{'X'};
+  EXPECT_NE(wire::problem_words(wrong).find("the letters JDLK"), std::string::npos);
+  EXPECT_NE(wire::problem_words(std::span(welcome).first(9)).find("9 bytes"),
+            std::string::npos);
+}
+
 }  // namespace datagram_test
 }  // namespace jnd::device

@@ -31,6 +31,8 @@ static const char* word(const char* options, const char* key) {
   return word_text;
 }
 
+static int is_silent = 0;
+
 static int is(const char* trouble, const char* name) { return strcmp(trouble, name) == 0; }
 
 static void hang(void) {
@@ -92,6 +94,10 @@ int jnd_device_open(const char* options, double rate_hz, jnd_device** made) {
   if (is(device->trouble, "exit_in_open")) exit(7);
   if (is(device->trouble, "hang_in_open")) hang();
   if (is(device->trouble, "fail_in_open")) return JND_DEVICE_FAILED;
+  is_silent = is(device->trouble, "fail_in_open_without_words");
+  if (is_silent) return JND_DEVICE_FAILED;
+  if (is(device->trouble, "answers_42")) return 42;
+  if (is(device->trouble, "opens_nothing")) return JND_DEVICE_OK;
   *made = device;
   return JND_DEVICE_OK;
 }
@@ -139,5 +145,6 @@ void jnd_device_close(jnd_device* device) {
 
 const char* jnd_device_error(jnd_device* device) {
   (void)device;
+  if (is_silent) return "";
   return "the emergency stop\nof the \"robot\" is pressed.";
 }

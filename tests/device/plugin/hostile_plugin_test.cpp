@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "device/haptic_loop.h"
@@ -90,6 +91,41 @@ TEST_F(HostilePluginTest, NumbersThatNoDeviceHasAreNamed) {
   expect_refused(troubled("nine_points"), "contact_point_bits: expected 1 to 31");
   expect_refused(troubled("no_limit"), "max_force_per_point_n: expected");
   expect_refused(troubled("other_shares"), "area_share_ratio: expected numbers that sum to 1");
+  expect_refused(troubled("no_limit"), "; mend it in jnd_device_describe");
+  expect_refused(troubled("changes_its_mind"),
+                 "max_force_per_point_n differs; tell the same in jnd_device_describe");
+}
+
+TEST_F(HostilePluginTest, AnOpeningThatSaysNothingOfItsFailureIsNamed) {
+  expect_refused(troubled("fail_in_open_without_words"), "jnd_device_error says nothing");
+  expect_refused(troubled("opens_nothing"), "set *device before it returns");
+  expect_refused(troubled("answers_42"),
+                 "expected JND_DEVICE_OK or JND_DEVICE_FAILED, found 42");
+}
+
+TEST_F(HostilePluginTest, WhichFieldOfAMeasurementIsWrongIsSaid) {
+  for (const auto& [trouble, words] :
+       {std::pair("nan", "velocity_m_per_s holds a number that is not finite"),
+        std::pair("sixth_point",
+                  "attached_bits has a point that contact_point_bits has not")}) {
+    const auto device = opened(troubled(trouble, ",after=20"));
+    EXPECT_TRUE(comes_to([&, words = std::string(words)] {
+      core::HapticState state;
+      (void)device->read(state);
+      (void)device->write(core::zero_vectors());
+      return device->words_of_fault().find(words) != std::string::npos;
+    })) << trouble
+        << device->words_of_fault();
+  }
+}
+
+TEST_F(HostilePluginTest, HowTheProcessOfADriverEndedIsSaid) {
+  const auto device = opened(troubled("crash_in_read", ",after=20"));
+  EXPECT_TRUE(comes_to([&] {
+    core::HapticState state;
+    (void)device->read(state);
+    return device->words_of_fault().starts_with("its process crashed (");
+  })) << device->words_of_fault();
 }
 
 TEST_F(HostilePluginTest, WhatADriverSaysOfItsFailureIsKept) {

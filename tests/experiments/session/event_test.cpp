@@ -118,6 +118,7 @@ std::vector<EventData> one_of_each() {
           MarkersSent{.pulses = {{17, 4, 12345.6789012, 1.0 / 3e5}, {0, 32, 12346.0, 0.0}}},
           MarkersClosed{.port = "/dev/ttyUSB0", .num_sent = 100, .num_dropped = 1},
           MarkersFailed{"/dev/ttyUSB0", "expected a port, found none"},
+          ForceMissing{.trial = 4, .attempt = 2, .presentation = 3, .cause = "no point held"},
           SessionCompleted{},
           SessionEndedEarly{"why"}};
 }
