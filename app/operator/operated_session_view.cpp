@@ -378,7 +378,7 @@ SessionView OperatedSession::view() const {
   if (running_.sound() != nullptr) view.sound_warning = running_.sound()->warning();
   if (view.advice.empty()) view.advice = running_.markers_problem();
   // Where levels are hidden, a single one must not be told from others.
-  if (state().num_without_force >= (hides_levels_ ? 3 : 1)) {
+  if (view.advice.empty() && state().num_without_force >= (hides_levels_ ? 3 : 1)) {
     view.advice =
         trn("No force acted in {} presentation: {}", "No force acted in {} presentations: {}",
             state().num_without_force, tr(state().missing_force_cause.c_str()));
