@@ -18,7 +18,7 @@ constexpr std::array kViewPages = {
     ViewPage{"sessions", "docs/how-to/run_a_session.md"},
     ViewPage{"overview", "docs/how-to/see_where_a_study_stands.md"},
     ViewPage{"record", "docs/how-to/look_through_a_session.md"},
-    ViewPage{"results", "docs/methods/reading_results.md"},
+    ViewPage{"results", "docs/how-to/read_the_results.md"},
     ViewPage{"study", "docs/how-to/check_a_study_while_you_write.md"},
     ViewPage{"device", "docs/commissioning.md"},
     ViewPage{"data", "docs/from_my_csv_to_a_figure.md"}};
