@@ -252,7 +252,7 @@ TEST_F(ApplicationTest, FromTheKeysThePageOfTheManualAboutTheViewOpens) {
   EnvironmentVariable desktop("PATH", path.c_str());
   EnvironmentVariable share("JND_SHARE", (temporary_.path() / "share/jnd").c_str());
   const fs::path pages = temporary_.path() / "share/doc/jnd/docs";
-  fs::create_directories(pages / "methods");
+  fs::create_directories(pages / "how-to");
 
   after({letter('2'), true});
   after({Key::kF1});
@@ -260,10 +260,10 @@ TEST_F(ApplicationTest, FromTheKeysThePageOfTheManualAboutTheViewOpens) {
   EXPECT_EQ(after({letter('H')}), "results");
   draw();
   EXPECT_TRUE(ui_.drawn().shows("The manual cannot be opened"));
-  EXPECT_TRUE(ui_.drawn().shows("docs/methods/reading_results.md")) << "where it should be";
+  EXPECT_TRUE(ui_.drawn().shows("docs/how-to/read_the_results.md")) << "where it should be";
   after({Key::kEnter});
 
-  write_file(pages / "methods/reading_results.md", "x");
+  write_file(pages / "how-to/read_the_results.md", "x");
   after({Key::kF1});
   after({letter('H')});
   draw();
@@ -272,7 +272,7 @@ TEST_F(ApplicationTest, FromTheKeysThePageOfTheManualAboutTheViewOpens) {
   for (int i = 0; i < 1000 && !fs::exists(opened); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  EXPECT_EQ(test_support::read_file(opened), (pages / "methods/reading_results.md").string());
+  EXPECT_EQ(test_support::read_file(opened), (pages / "how-to/read_the_results.md").string());
 }
 
 // Another window would take the keyboard, and with it Escape, from the one that stops.
