@@ -139,7 +139,8 @@ void Session::answer_item(const std::string& item, const std::string& answer) {
                           .sequence = state_.last_sequence + 1,
                           .stage = stage->name,
                           .item = item,
-                          .answer = answer});
+                          .answer = answer,
+                          .stage_index = state_.stage});
   commit(ItemAnswered{state_.stage, stage->name, item, answer}, std::move(rows));
 }
 
