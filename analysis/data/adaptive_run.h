@@ -12,8 +12,9 @@ struct TrackPoint {
   std::int64_t trial = 0;  ///< Within the block, from 1.
   double level = 0.0;      ///< As it was presented, unit of the quantity.
   bool yes = false;
-  bool is_reversal = false;  ///< It turned the staircase.
-  bool is_averaged = false;  ///< One of the reversals that the threshold is the mean of.
+  bool is_reversal = false;   ///< It turned the staircase.
+  bool is_averaged = false;   ///< One of the reversals that the threshold is the mean of.
+  bool is_after_end = false;  ///< A correction put the end before it: it decides nothing.
 };
 
 /// One staircase, one series of the method of limits, or all trials of QUEST+.
@@ -60,7 +61,8 @@ struct AdaptiveRun {
   std::vector<PosteriorEstimate> posterior;
   std::vector<std::string> reached_ends;  ///< "the lower end of `pse_viscosity_pa_s` (12)".
   int num_set_aside = 0;                  ///< Trials; QUEST+ alone leaves them out.
-  std::string problem;                    ///< Why nothing can be said; "" if it can.
+  int num_after_end = 0;  ///< Trials that a correction put behind the end of the rule.
+  std::string problem;    ///< Why nothing can be said; "" if it can.
 };
 
 }  // namespace jnd::analysis

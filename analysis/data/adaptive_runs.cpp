@@ -63,6 +63,14 @@ AdaptiveTrack track_of(int series, const std::vector<LevelTrial>& trials) {
   return track;
 }
 
+/// The last points of a track, which the rule did not need.
+void mark_after_end(AdaptiveTrack& track, int num_after_end) {
+  for (std::size_t i = track.points.size() - static_cast<std::size_t>(num_after_end);
+       i < track.points.size(); ++i) {
+    track.points[i].is_after_end = true;
+  }
+}
+
 AdaptiveTrack staircase_track(const Staircase& staircase, int series,
                               const std::vector<LevelTrial>& trials) {
   AdaptiveTrack track = track_of(series, trials);
@@ -71,6 +79,7 @@ AdaptiveTrack staircase_track(const Staircase& staircase, int series,
   track.threshold = threshold.level;
   track.num_reversals = threshold.num_reversals;
   track.num_at_bound = threshold.num_at_bound;
+  mark_after_end(track, state.num_after_end);
   const std::size_t first =
       state.reversals.size() - static_cast<std::size_t>(threshold.num_reversals);
   for (std::size_t i = 0; i < state.reversals.size(); ++i) {
@@ -121,7 +130,7 @@ PlannedSeries planned_series(const LimitsRule& rule, double first_level) {
 void run_limits(const Block& block, const std::vector<LevelTrial>& trials, AdaptiveRun& run) {
   const Limits limits(limits_rule_of(block));
   std::vector<PlannedSeries> plan;
-  std::vector<LevelAnswer> answers;
+  std::vector<std::vector<LevelAnswer>> answers;
   for (int series = 1; series <= limits.rule().num_series; ++series) {
     const std::vector<LevelTrial> own = of_series(trials, series);
     if (own.empty()) break;
@@ -129,11 +138,13 @@ void run_limits(const Block& block, const std::vector<LevelTrial>& trials, Adapt
     run.tracks.push_back(track_of(series, own));
     run.tracks.back().direction =
         plan.back().direction == SeriesDirection::kAscending ? "ascending" : "descending";
-    for (const LevelTrial& trial : own) answers.push_back(trial.answer);
+    answers.push_back(answers_of(own));
   }
-  const LimitsState state = limits.after(plan, answers);
+  const LimitsState state = limits.after_series(plan, answers);
   for (std::size_t i = 0; i < state.series.size(); ++i) {
     run.tracks[i].threshold = state.series[i].transition;
+    mark_after_end(run.tracks[i],
+                   static_cast<int>(answers[i].size()) - state.series[i].num_trials);
   }
   const LimitsThreshold found = limits.threshold(state);
   run.is_logarithmic = limits.rule().scale == LevelScale::kLogarithmic;
@@ -208,6 +219,10 @@ AdaptiveRun adaptive_run_of(const Block& block, const std::vector<core::TrialRow
         break;
       case AdaptiveRule::kNone:
         break;
+    }
+    for (const AdaptiveTrack& track : run.tracks) {
+      run.num_after_end +=
+          static_cast<int>(std::ranges::count(track.points, true, &TrackPoint::is_after_end));
     }
   } catch (const core::Error& error) {
     run.problem = std::string("the answers do not follow the block's rule, ") + error.what();

@@ -120,7 +120,11 @@ std::vector<PlannedTrial> LimitsProcedure::draw_next(const Block& block,
   const Limits limits(limits_rule_of(block));
   const std::vector<PlannedSeries> series =
       planned_series(block, limits.rule(), answered, stream);
-  const LimitsState state = limits.after(series, level_answers(answered));
+  std::vector<std::vector<LevelAnswer>> answers;
+  for (int number = 1; number <= limits.rule().num_series; ++number) {
+    answers.push_back(level_answers(answered, number));
+  }
+  const LimitsState state = limits.after_series(series, answers);
   if (!state.next_level) return {};
   const bool goes_on = !state.series.empty() && state.series.back().end == SeriesEnd::kRunning;
   const auto number = static_cast<int>(state.series.size()) + (goes_on ? 0 : 1);
