@@ -123,10 +123,12 @@ class Conduct {
     for (const core::SessionOverview& overview : store.overview()) {
       const core::SessionRow session = store.session(overview.session);
       if (session.pilot && !with_pilots) continue;
+      look_at_events(session);
+      if (overview.is_set_aside) continue;  // What is told of it is that it is.
       protocols.insert(session.protocol_sha256);
       devices.insert(session.device);
       versions.insert(session.program_version);
-      num_complete += overview.completed ? 1 : 0;
+      num_complete += overview.counts() ? 1 : 0;
       if (overview.ended_early) ended_early.insert(session.participant);
       if (!overview.completed && !overview.ended_early) open.insert(session.participant);
       if (++sessions_of[session.participant] > 1) came_again.insert(session.participant);
@@ -134,7 +136,6 @@ class Conduct {
       if (!session.simulated && session.started_time_ns < registered_ns) {
         before.insert(session.participant);
       }
-      look_at_events(session);
     }
   }
 
