@@ -190,8 +190,12 @@ void compare_conduct(const Json& plan, const Conduct& conduct, const analysis::S
   std::set<std::string> set_aside;
   std::size_t num_set_aside = 0;
   for (const analysis::ParticipantData& participant : data.participants) {
-    num_set_aside += participant.excluded_trials.size();
-    if (!participant.excluded_trials.empty()) set_aside.insert(participant.participant);
+    for (const core::TrialRow& trial : participant.excluded_trials) {
+      if (participant.left_out.contains(trial.block))
+        continue;  // By the analysis, not by hand.
+      ++num_set_aside;
+      set_aside.insert(participant.participant);
+    }
   }
   const std::string exclusions = plan.value("exclusions", "");
   tell(set_aside, "exclusions", exclusions.empty() ? "none" : exclusions.c_str(),
