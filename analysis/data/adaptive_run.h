@@ -16,6 +16,7 @@ using experiments::TrackPoint;
 struct AdaptiveRun : experiments::RuleOutcome {
   std::string participant, block, procedure;
   int num_set_aside = 0;  ///< Trials; QUEST+ alone leaves them out.
+  int num_after_end = 0;  ///< Trials that a correction put behind the end of the rule.
   std::string problem;    ///< Why nothing can be said; "" if it can.
 };
 

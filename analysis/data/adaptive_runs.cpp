@@ -64,6 +64,10 @@ AdaptiveRun adaptive_run_of(const Block& block, const std::vector<core::TrialRow
   }
   try {
     procedure_named(block.procedure).run(block, own, run);
+    for (const AdaptiveTrack& track : run.tracks) {
+      run.num_after_end +=
+          static_cast<int>(std::ranges::count(track.points, true, &TrackPoint::is_after_end));
+    }
   } catch (const core::Error& error) {
     run.problem = std::string("the answers do not follow the block's rule, ") + error.what();
   }

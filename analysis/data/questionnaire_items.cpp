@@ -1,6 +1,8 @@
 #include "analysis/data/questionnaire_items.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <variant>
 
 #include "analysis/data/stored_studies.h"
@@ -75,6 +77,25 @@ void merge_items(std::vector<QuestionnaireItem>& items, std::vector<Questionnair
       *known = std::move(one);
     }
   }
+}
+
+std::vector<std::string> answers_by_time(const std::vector<core::AnswerRow>& answers,
+                                         const QuestionnaireItem& item) {
+  // Where the stage came in each session.
+  std::map<std::int64_t, std::set<std::optional<std::int64_t>>> places;
+  for (const core::AnswerRow& row : answers) {
+    if (row.stage == item.stage) places[row.session].insert(row.stage_index);
+  }
+  std::vector<std::string> by_time;
+  for (const core::AnswerRow& row : answers) {
+    if (row.stage != item.stage || row.item != item.name) continue;
+    const auto& of_session = places[row.session];
+    const auto time = static_cast<std::size_t>(
+        std::distance(of_session.begin(), of_session.find(row.stage_index)));
+    if (time >= by_time.size()) by_time.resize(time + 1);
+    if (!row.answer.empty()) by_time[time] = row.answer;
+  }
+  return by_time;
 }
 
 }  // namespace jnd::analysis

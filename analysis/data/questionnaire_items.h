@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/storage/study_rows.h"
 #include "experiments/study/study.h"
 
 namespace jnd::analysis {
@@ -40,5 +41,10 @@ inline constexpr char kFieldsStage[] = "participant";
 /// Adds the items that are new; one of the same stage and name is replaced, so that the last
 /// version of a study file is in force.
 void merge_items(std::vector<QuestionnaireItem>& items, std::vector<QuestionnaireItem> added);
+
+/// What one person answered to an item, for each time that its stage came, in order; "" where
+/// they left it out. `answers`: of all their sessions, of which the last one counts.
+[[nodiscard]] std::vector<std::string> answers_by_time(
+    const std::vector<core::AnswerRow>& answers, const QuestionnaireItem& item);
 
 }  // namespace jnd::analysis

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "analysis/data/questionnaire_items.h"
@@ -7,6 +9,7 @@
 #include "analysis/export/csv_table_writer.h"
 #include "analysis/export/study_tables.h"
 #include "analysis/export/table_rows.h"
+#include "core/storage/acknowledgement.h"
 
 namespace jnd::analysis {
 namespace {
@@ -22,17 +25,22 @@ bool is_simulated(const BidsDataset& dataset, const std::string& participant) {
   });
 }
 
-/// An answer given in the visits of a participant, the last one; "" if there is none.
-std::string answer_of(const core::StudyStore& store, const BidsDataset& dataset,
-                      const std::string& participant, const QuestionnaireItem& item) {
-  std::string answer;
+/// All answers of each participant outside of trials, in the order of the sessions.
+std::map<std::string, std::vector<core::AnswerRow>> answers_of_all(
+    const core::StudyStore& store, const BidsDataset& dataset) {
+  std::map<std::string, std::vector<core::AnswerRow>> all;
   for (const core::SessionRow& session : dataset.sessions) {
-    if (session.participant != participant) continue;
-    for (const core::AnswerRow& row : store.answers(session.session)) {
-      if (row.stage == item.stage && row.item == item.name) answer = row.answer;
-    }
+    std::vector<core::AnswerRow> its = store.answers(session.session);
+    std::ranges::move(its, std::back_inserter(all[session.participant]));
   }
-  return answer;
+  return all;
+}
+
+/// The last answer given in the visits of a participant; "" if there is none.
+std::string answer_of(const std::vector<core::AnswerRow>& answers,
+                      const QuestionnaireItem& item) {
+  const std::vector<std::string> by_time = answers_by_time(answers, item);
+  return by_time.empty() ? "" : by_time.back();
 }
 
 std::string described_item(const QuestionnaireItem& item) {
@@ -65,16 +73,38 @@ void write_phenotype(const fs::path& folder, const std::string& stage, const std
   ordered_json sidecar = {
       {"MeasurementToolMetadata", {{"Description", "Questions of the stage " + stage}}},
       {"simulated", {{"Description", kSimulatedMeaning}}}};
+  const std::map<std::string, std::vector<core::AnswerRow>> answers =
+      answers_of_all(store, dataset);
+  // How often the stage came in a session: an item has a column for each time.
+  std::size_t num_times = 1;
   for (const QuestionnaireItem& item : items) {
     if (item.stage != stage) continue;
-    names.push_back(item.name);
-    sidecar[item.name] = sidecar_of(item, described_item(item));
+    for (const auto& [participant, its] : answers) {
+      num_times = std::max(num_times, answers_by_time(its, item).size());
+    }
+  }
+  for (const QuestionnaireItem& item : items) {
+    if (item.stage != stage) continue;
+    for (std::size_t time = 1; time <= num_times; ++time) {
+      const std::string number = std::to_string(time);
+      const std::string name = item.name + (num_times == 1 ? "" : "_time_" + number);
+      names.push_back(name);
+      sidecar[name] = sidecar_of(
+          item,
+          described_item(item) +
+              (num_times == 1 ? "" : ", time " + number + " of " + std::to_string(num_times)));
+    }
   }
   CsvTableWriter table(folder / (label + ".tsv"), names, TableStyle::kBids);
   for (const auto& [participant, subject] : dataset.subjects) {
     table.cell("sub-" + subject).cell(is_simulated(dataset, participant));
+    const auto its = answers.find(participant);
     for (const QuestionnaireItem& item : items) {
-      if (item.stage == stage) table.cell(answer_of(store, dataset, participant, item));
+      if (item.stage != stage) continue;
+      std::vector<std::string> by_time;
+      if (its != answers.end()) by_time = answers_by_time(its->second, item);
+      by_time.resize(num_times);
+      for (const std::string& answer : by_time) table.cell(answer);
     }
     table.end_row();
   }
@@ -127,17 +157,39 @@ std::vector<PersonColumn> person_columns(const std::vector<QuestionnaireItem>& f
   return columns;
 }
 
+/// Of each note, fault and adverse event that somebody has read, the session that it is of.
+std::vector<std::int64_t> sessions_of_acknowledgements(const core::StudyStore& store) {
+  std::map<std::int64_t, std::int64_t> of_adverse_event;
+  for (const core::AdverseEventRow& row : store.adverse_events()) {
+    of_adverse_event[row.adverse_event] = row.session;
+  }
+  std::vector<std::int64_t> sessions;
+  for (const core::Acknowledgement& one : core::acknowledgements(store.folder())) {
+    sessions.push_back(one.what.adverse_event == 0 ? one.what.session
+                                                   : of_adverse_event[one.what.adverse_event]);
+  }
+  return sessions;
+}
+
 }  // namespace
 
 void write_bids_sessions(const fs::path& folder, const std::string& subject,
                          const std::vector<std::pair<std::string, core::SessionRow>>& sessions,
                          const core::StudyStore& store) {
-  std::vector<CsvColumn> columns = {{"session_id", "", "Label of the visit"}};
+  std::vector<CsvColumn> columns = {
+      {"session_id", "", "Label of the visit"},
+      {"num_set_aside", "", "Answered trials that are set aside"},
+      {"num_acknowledged", "",
+       "Notes, faults and adverse events of the visit that somebody has marked as read"}};
+  const std::vector<std::int64_t> acknowledged = sessions_of_acknowledgements(store);
   columns.insert(columns.end(), session_columns().begin(), session_columns().end());
   const fs::path front = folder / (subject + "_sessions");
   CsvTableWriter table(front.string() + ".tsv", columns, TableStyle::kBids);
   for (const auto& [label, session] : sessions) {
     table.cell(label);
+    table.cell(std::ssize(store.trials(session.session, /*include_excluded=*/true)) -
+               std::ssize(store.trials(session.session)));
+    table.cell(std::int64_t{std::ranges::count(acknowledged, session.session)});
     write_session(table, session, store.completed(session.session),
                   store.events(session.session));
   }
@@ -156,6 +208,7 @@ void write_bids_participants(const fs::path& folder, const BidsDataset& dataset,
                                     "num_sessions"};
   const std::vector<PersonColumn> asked = person_columns(fields, items, names);
   for (const PersonColumn& column : asked) names.emplace_back(column.name);
+  std::map<std::string, std::vector<core::AnswerRow>> answers = answers_of_all(store, dataset);
   CsvTableWriter table(folder / "participants.tsv", names, TableStyle::kBids);
   for (const auto& [participant, subject] : dataset.subjects) {
     const std::int64_t num_sessions =
@@ -164,7 +217,7 @@ void write_bids_participants(const fs::path& folder, const BidsDataset& dataset,
     table.cell("sub-" + subject).cell(participant).cell(simulated ? "SIMULATED" : "person");
     table.cell(num_sessions);
     for (const PersonColumn& column : asked) {
-      table.cell(answer_of(store, dataset, participant, column.item));
+      table.cell(answer_of(answers[participant], column.item));
     }
     table.end_row();
   }

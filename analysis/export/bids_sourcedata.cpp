@@ -70,6 +70,12 @@ void delete_rows(core::Database& database, const std::vector<core::SessionRow>& 
     database.execute("DELETE FROM " + table + " WHERE session NOT IN " + numbers_of(kept));
   }
   database.execute("DELETE FROM session WHERE session NOT IN " + numbers_of(kept));
+  // Who has read of an adverse event, which is of no session itself.
+  if (std::ranges::find(of_sessions, "acknowledgement") != of_sessions.end()) {
+    database.execute(
+        "DELETE FROM acknowledgement WHERE adverse_event IS NOT NULL"
+        " AND adverse_event NOT IN (SELECT adverse_event FROM adverse_event)");
+  }
   for (const auto& [name, sql] : all_guards) database.execute(sql);
   transaction.commit();
 }

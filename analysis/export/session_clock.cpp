@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -47,7 +48,7 @@ SessionClock::SessionClock(std::vector<core::EventRow> events, double rate_hz)
   std::int64_t next_tick = 0;
   for (const core::EventRow& event : events_) {
     if (parts_.empty() || event.kind == "session_resumed") {
-      parts_.push_back({.first_time_ns = event.time_ns,
+      parts_.push_back({.first_sequence = event.sequence,
                         .first_tick = event.kind == "session_resumed" && event.last_tick
                                           ? std::max(next_tick, *event.last_tick + 1)
                                           : next_tick});
@@ -65,7 +66,12 @@ SessionClock::SessionClock(std::vector<core::EventRow> events, double rate_hz)
 }
 
 void SessionClock::take(const core::Sample& sample) {
-  if (core::has_times(sample)) is_simulated_ = false;
+  if (core::has_times(sample)) {
+    is_simulated_ = false;
+    Part& part = parts_[part_of_tick(sample.tick)];
+    part.last_s = kSPerNs * static_cast<double>(sample.monotonic_ns);
+    if (!part.first_s) part.first_s = part.last_s;
+  }
   const auto asked = tick_times_s_.find(sample.tick);
   if (asked == tick_times_s_.end()) return;
   asked->second = is_simulated_ ? static_cast<double>(sample.tick) / rate_hz_
@@ -80,8 +86,8 @@ void SessionClock::finish() {
   for (const core::EventRow& event : events_) {
     const auto tick = tick_of(event);
     if (!tick || !std::isfinite(tick_times_s_.at(*tick))) continue;
-    parts_[part_of_time(event.time_ns)].ahead_by_ticks_s.push_back(day_s(event.time_ns) -
-                                                                   tick_times_s_.at(*tick));
+    parts_[part_of_event(event)].ahead_by_ticks_s.push_back(day_s(event.time_ns) -
+                                                            tick_times_s_.at(*tick));
   }
   bool is_known = false;
   double known_s = 0.0;
@@ -95,40 +101,96 @@ void SessionClock::finish() {
     }
     if (!is_known) known_s = part.ahead_s;
     is_known = true;
+  }
+  join_parts();
+  order_events();
+}
+
+/// By how much the clock of each part has to be put on, so that none begins before the end of
+/// the one before.
+void SessionClock::join_parts() {
+  double shift_s = 0.0;
+  std::optional<double> last_s;
+  for (Part& part : parts_) {
     const double leap_s = part.ahead_s - parts_.front().ahead_s;
-    if (std::abs(leap_s) > kAnotherStart_s) part.shift_s = leap_s;
+    // No machine starts earlier than it did before: less is a clock of the day that was set
+    // back.
+    if (leap_s < shift_s - kAnotherStart_s) {
+      part.shift_s = shift_s;
+    } else if (leap_s > kAnotherStart_s) {
+      part.shift_s = leap_s;
+    }
+    if (last_s && part.first_s) {
+      part.shift_s = std::max(part.shift_s, *last_s + 1.0 / rate_hz_ - *part.first_s);
+    }
+    shift_s = part.shift_s;
+    if (part.last_s) last_s = *part.last_s + shift_s;
   }
 }
 
-std::size_t SessionClock::part_of_time(std::int64_t day_time_ns) const {
-  const auto next = std::ranges::upper_bound(parts_, day_time_ns, {}, &Part::first_time_ns);
+/// What is told of no tick happened between what is told of the ticks around it, whatever the
+/// clock of the day says.
+void SessionClock::order_events() {
+  std::vector<double> latest_s(events_.size() + 1, std::numeric_limits<double>::infinity());
+  for (std::size_t i = events_.size(); i-- > 0;) {
+    latest_s[i] = std::min(latest_s[i + 1], told_s(events_[i]).value_or(latest_s[i + 1]));
+  }
+  double before_s = -std::numeric_limits<double>::infinity();
+  std::size_t place = 0;
+  std::optional<double> set_ahead_s;  // Since the clock of the day was set within a part.
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    const core::EventRow& event = events_[i];
+    if (part_of_event(event) != std::exchange(place, part_of_event(event))) set_ahead_s.reset();
+    const Part& part = parts_[place];
+    double time_s = 0.0;
+    if (const std::optional<double> told = told_s(event)) {
+      time_s = *told;
+      const double ahead_s = day_s(event.time_ns) - (*told - part.shift_s);
+      const bool was_set = std::abs(ahead_s - part.ahead_s) > kAnotherStart_s;
+      set_ahead_s = was_set ? std::optional(ahead_s) : std::nullopt;
+    } else {
+      const double by_day_s =
+          day_s(event.time_ns) - set_ahead_s.value_or(part.ahead_s) + part.shift_s;
+      time_s = std::max(before_s, std::min(by_day_s, latest_s[i]));
+    }
+    event_times_s_[event.sequence] = time_s;
+    before_s = std::max(before_s, time_s);
+  }
+}
+
+std::size_t SessionClock::part_of_event(const core::EventRow& event) const {
+  const auto next = std::ranges::upper_bound(parts_, event.sequence, {}, &Part::first_sequence);
   return next == parts_.begin() ? 0 : static_cast<std::size_t>(next - parts_.begin()) - 1;
 }
 
-const SessionClock::Part& SessionClock::part_of_tick(std::int64_t tick) const {
+std::size_t SessionClock::part_of_tick(std::int64_t tick) const {
   const auto next = std::ranges::upper_bound(parts_, tick, {}, &Part::first_tick);
-  return next == parts_.begin() ? parts_.front() : *(next - 1);
+  return next == parts_.begin() ? 0 : static_cast<std::size_t>(next - parts_.begin()) - 1;
+}
+
+/// By the sample of the tick that the event tells, where there is one.
+std::optional<double> SessionClock::told_s(const core::EventRow& event) const {
+  const auto tick = tick_of(event);
+  if (!tick) return std::nullopt;
+  const auto found = tick_times_s_.find(*tick);
+  if (found == tick_times_s_.end() || !std::isfinite(found->second)) return std::nullopt;
+  return found->second + (is_simulated_ ? 0.0 : parts_[part_of_tick(*tick)].shift_s);
 }
 
 double SessionClock::time_s(const core::Sample& sample) const {
   if (is_simulated_) return static_cast<double>(sample.tick) / rate_hz_;
-  return kSPerNs * static_cast<double>(sample.monotonic_ns) + part_of_tick(sample.tick).shift_s;
+  return kSPerNs * static_cast<double>(sample.monotonic_ns) +
+         parts_[part_of_tick(sample.tick)].shift_s;
 }
 
 double SessionClock::time_s(const core::EventRow& event) const {
-  if (const auto tick = tick_of(event)) {
-    const double told_s = tick_times_s_.at(*tick);
-    if (std::isfinite(told_s)) {
-      return told_s + (is_simulated_ ? 0.0 : part_of_tick(*tick).shift_s);
-    }
-  }
+  if (const std::optional<double> told = told_s(event)) return *told;
   if (is_simulated_) return day_s(event.time_ns);
-  const Part& part = parts_[part_of_time(event.time_ns)];
-  return day_s(event.time_ns) - part.ahead_s + part.shift_s;
+  return event_times_s_.at(event.sequence);
 }
 
-double SessionClock::shift_s(std::int64_t day_time_ns) const {
-  return is_simulated_ ? 0.0 : parts_[part_of_time(day_time_ns)].shift_s;
+double SessionClock::shift_s(const core::EventRow& event) const {
+  return is_simulated_ ? 0.0 : parts_[part_of_event(event)].shift_s;
 }
 
 }  // namespace jnd::analysis

@@ -17,9 +17,11 @@ namespace jnd::analysis {
 /// whose tick is recorded. Ticks of a session in simulated time are counted from 0 at its rate,
 /// as its events are. A machine that was started anew between two parts of a session has
 /// another monotonic clock in the second: its times go on from the first by the time of the
-/// day. Not real time.
+/// day. Where the clock of the day was set meanwhile, events and samples keep their order. Not
+/// real time.
 class SessionClock {
  public:
+  /// `events`: all of the session, by their sequence.
   SessionClock(std::vector<core::EventRow> events, double rate_hz);
 
   /// Each sample that is recorded, in the order of ticks, before anything is asked.
@@ -29,27 +31,32 @@ class SessionClock {
 
   [[nodiscard]] double time_s(const core::Sample& sample) const;
   [[nodiscard]] double time_s(const core::EventRow& event) const;
-  /// To be added to times of the monotonic clock at this time of the day; 0 unless the machine
-  /// was started anew since the session began.
-  [[nodiscard]] double shift_s(std::int64_t day_time_ns) const;
+  /// To be added to times of the monotonic clock at this event; 0 unless the machine was
+  /// started anew since the session began.
+  [[nodiscard]] double shift_s(const core::EventRow& event) const;
 
  private:
   /// From one start of the program to the next.
   struct Part {
-    std::int64_t first_time_ns = 0;  ///< Of the day.
+    std::int64_t first_sequence = 0;
     std::int64_t first_tick = 0;
-    std::optional<double> day_ahead_s;  ///< Of the monotonic clock, as a stream told it.
+    std::optional<double> first_s, last_s;  ///< Of its samples, by the monotonic clock.
+    std::optional<double> day_ahead_s;      ///< Of the monotonic clock, as a stream told it.
     std::vector<double> ahead_by_ticks_s;
     double ahead_s = 0.0;
     double shift_s = 0.0;
   };
-  [[nodiscard]] std::size_t part_of_time(std::int64_t day_time_ns) const;
-  [[nodiscard]] const Part& part_of_tick(std::int64_t tick) const;
+  [[nodiscard]] std::size_t part_of_event(const core::EventRow& event) const;
+  [[nodiscard]] std::size_t part_of_tick(std::int64_t tick) const;
+  [[nodiscard]] std::optional<double> told_s(const core::EventRow& event) const;
+  void join_parts();
+  void order_events();
 
   double rate_hz_;
   std::vector<core::EventRow> events_;
   std::vector<Part> parts_;
-  std::map<std::int64_t, double> tick_times_s_;  ///< Of ticks that events speak of.
+  std::map<std::int64_t, double> tick_times_s_;   ///< Of ticks that events speak of.
+  std::map<std::int64_t, double> event_times_s_;  ///< By sequence; in real time.
   bool is_simulated_ = true;
 };
 

@@ -106,6 +106,7 @@ struct QuestionCells {
   const core::SessionRow& session;
   const QuestionnaireItem& item;
   std::string given;
+  std::optional<std::int64_t> stage_index;
 };
 struct QuestionAnswerCells {
   const core::SessionRow& session;
@@ -262,6 +263,11 @@ const Columns<QuestionCells>& questionnaire_table() {
        }},
       {{"answer", "", "As it was given, the last one if corrected; empty: none"},
        [](auto& to, const auto& it) { to.cell(it.given); }},
+      {{"stage_index", "",
+        "Place of the questionnaire in the participant's list of stages, from 0; one that came "
+        "several times has a row for each. Empty: no answer",
+        kReal},
+       [](auto& to, const auto& it) { to.cell(it.stage_index); }},
   });
   return kColumns;
 }
@@ -501,11 +507,16 @@ void write_questionnaire(TableWriter& table, const core::SessionRow& session,
                          const std::vector<core::AnswerRow>& answers,
                          const std::vector<QuestionnaireItem>& questions) {
   for (const QuestionnaireItem& item : questions) {
-    std::string given;
+    std::map<std::optional<std::int64_t>, std::string> given;  // By the place of the stage.
     for (const core::AnswerRow& row : answers) {
-      if (row.stage == item.stage && row.item == item.name) given = row.answer;
+      if (row.stage != item.stage) continue;
+      std::string& its = given[row.stage_index];
+      if (row.item == item.name) its = row.answer;
     }
-    put(table, questionnaire_table(), {session, item, given}).end_row();
+    if (given.empty()) given[std::nullopt] = "";
+    for (const auto& [stage_index, answer] : given) {
+      put(table, questionnaire_table(), {session, item, answer, stage_index}).end_row();
+    }
   }
 }
 

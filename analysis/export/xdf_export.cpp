@@ -41,17 +41,17 @@ std::string study_name(const core::StudyStore& store, const core::SessionRow& se
   return store.folder().stem().string();
 }
 
-/// When each file of a stream was begun, by the time of the day.
-std::map<std::string, std::int64_t> opening_times(const std::vector<core::EventRow>& events) {
-  std::map<std::string, std::int64_t> times;
+/// By which event each file of a stream was begun.
+std::map<std::string, core::EventRow> openings(const std::vector<core::EventRow>& events) {
+  std::map<std::string, core::EventRow> found;
   for (const core::EventRow& event : events) {
     if (event.kind != "stream_opened") continue;
     const auto data = nlohmann::json::parse(event.data, nullptr, /*allow_exceptions=*/false);
     if (data.is_object() && data.contains("file") && data.at("file").is_string()) {
-      times.emplace(data.at("file").get<std::string>(), event.time_ns);
+      found.emplace(data.at("file").get<std::string>(), event);
     }
   }
-  return times;
+  return found;
 }
 
 class XdfSession {
@@ -140,9 +140,8 @@ class XdfSession {
 
   void write_stream(const fs::path& file) {
     const core::StreamFileReader reader(file);
-    const auto opened = opening_times_.find(file.filename().string());
-    const double shift_s =
-        opened == opening_times_.end() ? 0.0 : clock_.shift_s(opened->second);
+    const auto opened = openings_.find(file.filename().string());
+    const double shift_s = opened == openings_.end() ? 0.0 : clock_.shift_s(opened->second);
     XdfStream stream(file_, ++num_streams_, reader.info().format, reader.info().xml);
     try {
       reader.read([&stream](const core::StreamSample& sample) { stream.add(sample); });
@@ -172,7 +171,7 @@ class XdfSession {
   const core::SessionRow& session_;
   const ExportOptions& options_;
   std::vector<core::EventRow> events_;
-  std::map<std::string, std::int64_t> opening_times_ = opening_times(events_);
+  std::map<std::string, core::EventRow> openings_ = openings(events_);
   core::SessionStreamFacts facts_;
   SessionClock clock_;
   ExportedRecording recording_;

@@ -25,6 +25,7 @@ std::optional<EffectEstimate> hierarchical_contrast(
     const auto weight = weights.find(one.condition);
     if (weight == weights.end() || weight->second == 0.0) continue;
     if (of_pse) {
+      if (!one.pse || !std::isfinite(*one.pse) || !(*one.pse > 0.0)) return std::nullopt;
       effect += weight->second * one.place_number;
       by_number(num_conditions + at) = weight->second;
       continue;

@@ -20,15 +20,6 @@ std::optional<double> number_of(const std::string& text) {
   return value;
 }
 
-const core::AnswerRow* answer_of(const ParticipantData& participant,
-                                 const QuestionnaireItem& item) {
-  const core::AnswerRow* found = nullptr;
-  for (const core::AnswerRow& answer : participant.answers) {
-    if (answer.stage == item.stage && answer.item == item.name) found = &answer;
-  }
-  return found;
-}
-
 std::string in_words(std::string name, const std::string& unit) {
   if (!unit.empty() && name.ends_with("_" + unit)) name.resize(name.size() - unit.size() - 1);
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -43,15 +34,26 @@ std::string answer_words(const std::string& answer) {
   return words;
 }
 
+/// "3, –, 5": of an item whose stage came three times.
+std::string all_answers_words(const std::vector<std::string>& answers) {
+  std::string words;
+  for (const std::string& answer : answers) {
+    words += (words.empty() ? "" : ", ") + (answer.empty() ? "–" : answer_words(answer));
+  }
+  return words.empty() ? "–" : words;
+}
+
 /// "Age 27.3 ± 4.1 years (21 to 34, n = 13)", "gender: female 6, male 7".
 std::string described(const StudyData& data, const QuestionnaireItem& item) {
   std::vector<double> numbers;
   std::map<std::string, int> counts;
   for (const ParticipantData& participant : data.participants) {
-    const core::AnswerRow* const answer = answer_of(participant, item);
-    if (answer == nullptr || answer->answer.empty()) continue;
-    if (const auto number = number_of(answer->answer)) numbers.push_back(*number);
-    ++counts[answer->answer];
+    const std::vector<std::string> answers = answers_by_time(participant.answers, item);
+    // What changes within a session is no trait of a person; the results tell each time.
+    if (answers.size() > 1) return "";
+    if (answers.empty() || answers.front().empty()) continue;
+    if (const auto number = number_of(answers.front())) numbers.push_back(*number);
+    ++counts[answers.front()];
   }
   if (counts.empty()) return "";
   std::string words = in_words(item.name, item.unit);
@@ -295,9 +297,7 @@ void write_participants(HtmlText& html, const ChapterSource& source) {
   for (const ParticipantData& participant : data.participants) {
     std::vector<std::string> row = {participant.participant};
     for (const QuestionnaireItem& item : items) {
-      const core::AnswerRow* const answer = answer_of(participant, item);
-      row.push_back(answer == nullptr || answer->answer.empty() ? "–"
-                                                                : answer_words(answer->answer));
+      row.push_back(all_answers_words(answers_by_time(participant.answers, item)));
     }
     row.push_back(cell_words(participant.cells));
     table.rows.push_back(std::move(row));

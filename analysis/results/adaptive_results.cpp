@@ -108,6 +108,10 @@ class AdaptiveWriter {
     add_median_fraction(section_, full(name), {.name = full(name), .meaning = meaning}, values);
   }
   void tell_tracks(const AdaptiveRun& run);
+  /// How many answers a correction has put behind the end of the rule, where there are any.
+  void tell_after_end(const AdaptiveRun& run, const std::string& name) {
+    if (run.num_after_end > 0) tell(run, name, run.num_after_end, "");
+  }
   /// Of the estimates from `first` on: who brought what to an end of the grid.
   void caution_group(std::size_t first, int num_at_edge, int num_runs);
   /// What the rules of staircases and of QUEST+ know nothing of.
@@ -144,6 +148,7 @@ void AdaptiveWriter::write_staircase() {
     int at_bound = 0;
     for (const AdaptiveTrack& track : run->tracks) at_bound += track.num_at_bound;
     if (at_bound > 0) tell(*run, "staircase_reversals_at_bound", at_bound, "");
+    tell_after_end(*run, "staircase_answers_after_end");
     if (!run->threshold) continue;
     thresholds[run->participant] = *run->threshold;
     if (block_.identifies()) {
@@ -200,6 +205,7 @@ void AdaptiveWriter::write_limits() {
     tell(*run, "limits_descending", limits.descending, limits.descending ? "" : none);
     tell(*run, "limits_constant_error", limits.constant_error,
          limits.constant_error ? "" : said("no transition in one of the directions"));
+    tell_after_end(*run, "limits_answers_after_end");
     if (run->threshold) levels[run->participant] = *run->threshold;
     if (limits.ascending) ascending[run->participant] = *limits.ascending;
     if (limits.descending) descending[run->participant] = *limits.descending;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
+#include "analysis/fits/psychometric_warnings.h"
 #include "analysis/hierarchical/hierarchical_contrast.h"
 #include "analysis/results/contrast_answers.h"
 #include "analysis/results/contrast_words.h"
@@ -115,6 +117,7 @@ class HierarchicalTest {
     std::vector<DiscriminationAnswers> everything;
     for (std::size_t at = 0; at < conditions.conditions.size(); ++at) {
       std::map<int, int> num_people;
+      std::map<int, std::vector<AnswerCount>> rows;
       for (DiscriminationAnswers& one : condition_answers(data, conditions.conditions[at])) {
         const auto group = groups_.find(one.participant);
         if (group == groups_.end()) continue;
@@ -125,11 +128,16 @@ class HierarchicalTest {
         const std::string condition = of_group.empty() ? name : name + ", " + of_group;
         weights_[condition] = conditions.weights[static_cast<std::size_t>(group->second)][at];
         answers_.push_back({one.participant, condition, one.reference, one.rows()});
+        std::ranges::copy(one.rows(), std::back_inserter(rows[group->second]));
         everything.push_back(std::move(one));
       }
       for (std::size_t group = 0; group < conditions.groups.size(); ++group) {
         const auto place = static_cast<int>(group);
         const int num = num_people.contains(place) ? num_people.at(place) : 0;
+        if (conditions.weights[group][at] != 0.0) {
+          find_lack(conditions.conditions[at].name, conditions.groups[group].name, num,
+                    rows[place]);
+        }
         const auto [known, is_new] = num_people_.emplace(place, num);
         if (!is_new) known->second = std::min(known->second, num);
       }
@@ -139,14 +147,20 @@ class HierarchicalTest {
     is_paired_ = num_conditions_ == 2 && conditions.groups.size() == 1;
   }
 
-  /// Whether the model takes so many conditions.
+  /// Whether the model takes so many conditions; where one is empty, nothing is to be fitted.
   [[nodiscard]] bool is_possible() const {
+    if (!lack_.empty()) return true;
     return num_conditions_ >= 2 &&
            num_conditions_ <= (pse_ == HierarchicalPse::kPersonal ? std::size_t{4} : 8);
   }
 
   [[nodiscard]] ContrastTest test(std::optional<EffectEstimate>& estimate,
                                   std::vector<std::string>& cautions) const {
+    if (!lack_.empty()) {
+      return {.method = said("hierarchical fit"),
+              .num_participants = static_cast<int>(groups_.size()),
+              .reason = lack_};
+    }
     const HierarchicalFit fit = fit_hierarchical(
         answers_,
         {.pse = pse_,
@@ -168,7 +182,20 @@ class HierarchicalTest {
   }
 
  private:
+  /// What a condition lacks to have a number: people, or answers of both kinds for a pse.
+  void find_lack(const std::string& condition, const std::string& group, int num_people,
+                 const std::vector<AnswerCount>& rows) {
+    if (!lack_.empty()) return;
+    const std::string where = group.empty() ? condition : condition + ", " + group;
+    if (num_people == 0) {
+      lack_ = said("not estimable: nobody has answers in {}", where);
+    } else if (plan_.measure == ContrastMeasure::kPse && all_alike(rows)) {
+      lack_ = said("not estimable: there is no pse in {}, where all answers are alike", where);
+    }
+  }
+
   const PlannedContrast& plan_;
+  std::string lack_;  ///< Why there is no value; "" if nothing is missing.
   std::vector<ParticipantAnswers> answers_;
   std::map<std::string, double> weights_;
   std::map<std::string, int> groups_;
@@ -177,6 +204,21 @@ class HierarchicalTest {
   HierarchicalPse pse_ = HierarchicalPse::kPersonal;
   bool is_paired_ = false;
 };
+
+/// A group that has a weight and nobody with answers; "" for none.
+std::string absent_group(const StudyData& data, const ContrastConditions& conditions) {
+  for (std::size_t group = 0; group < conditions.groups.size(); ++group) {
+    if (conditions.groups[group].name.empty()) continue;  // Everybody.
+    const bool has_weight = std::ranges::any_of(conditions.weights[group],
+                                                [](double weight) { return weight != 0.0; });
+    const bool is_there =
+        std::ranges::any_of(data.participants, [&](const ParticipantData& participant) {
+          return group_of(participant, conditions) == group && !participant.trials.empty();
+        });
+    if (has_weight && !is_there) return conditions.groups[group].name;
+  }
+  return "";
+}
 
 ContrastResult result_of(const StudyData& data, const PlannedContrast& plan) {
   ContrastResult result{.plan = plan};
@@ -190,6 +232,10 @@ ContrastResult result_of(const StudyData& data, const PlannedContrast& plan) {
     return result;
   }
   result.conditions = condition_words(conditions);
+  if (const std::string absent = absent_group(data, conditions); !absent.empty()) {
+    result.test.reason = said("not estimable: nobody is in the group {}", absent);
+    return result;
+  }
   const Scores scores =
       scores_of(own_contrasts(condition_numbers(data, plan, conditions), conditions),
                 conditions.groups.size(), plan);

@@ -13,19 +13,28 @@ namespace {
 
 constexpr std::string_view kYesAnd = "yes: ";
 
-/// Answers to one item by participant, the last one of each.
+/// Answers to one item by participant.
 using ItemAnswers = std::map<std::string, std::string>;
 
-ItemAnswers answers_to(const StudyData& data, const QuestionnaireItem& item) {
-  ItemAnswers answers;
+/// The same for each time that the item's stage came in a session; once at least.
+std::vector<ItemAnswers> answers_to(const StudyData& data, const QuestionnaireItem& item) {
+  std::vector<ItemAnswers> times(1);
   for (const ParticipantData& participant : data.participants) {
-    for (const core::AnswerRow& row : participant.answers) {
-      if (row.stage == item.stage && row.item == item.name && !row.answer.empty()) {
-        answers[participant.participant] = row.answer;
-      }
+    const std::vector<std::string> answers = answers_by_time(participant.answers, item);
+    times.resize(std::max(times.size(), answers.size()));
+    for (std::size_t time = 0; time < answers.size(); ++time) {
+      if (!answers[time].empty()) times[time][participant.participant] = answers[time];
     }
   }
-  return answers;
+  return times;
+}
+
+/// The item as it was asked for this time of several.
+QuestionnaireItem at_time(QuestionnaireItem item, std::size_t time) {
+  const std::string number = std::to_string(time + 1);
+  item.name += ".time_" + number;
+  item.question = said("{} (time {})", item.question, number);
+  return item;
 }
 
 std::optional<double> number_of(const std::string& text) {
@@ -180,7 +189,10 @@ std::optional<ResultsSection> questionnaire_results(const StudyData& data) {
   if (data.items.empty()) return std::nullopt;
   ResultsSection section{.name = "questionnaires"};
   for (const QuestionnaireItem& item : data.items) {
-    add_item(section, item, answers_to(data, item));
+    const std::vector<ItemAnswers> times = answers_to(data, item);
+    for (std::size_t time = 0; time < times.size(); ++time) {
+      add_item(section, times.size() == 1 ? item : at_time(item, time), times[time]);
+    }
   }
   name_missing(section, data);
   return section;

@@ -122,15 +122,31 @@ Comparison of_arrangements(Comparison result, Comparison::Kind kind, const char*
   return result;
 }
 
+/// Where all values are alike t is undefined, but the arrangements are not: it is the clearest
+/// difference that there is. False where there are too few.
+bool is_possible(Comparison& result, double mean_difference, std::size_t fewest) {
+  if (result.status == FitStatus::kOk) return true;
+  if (fewest < 2) return false;
+  result.status = FitStatus::kOk;
+  result.reason.clear();
+  result.estimate = result.statistic = mean_difference;
+  return true;
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) /
+         static_cast<double>(values.size());
+}
+
 }  // namespace
 
 Comparison permutation_test(const std::vector<double>& a, const std::vector<double>& b) {
   Comparison result =
       of_arrangements(paired_t_test(a, b), Comparison::Kind::kPermutation,
                       "permutation test of the mean of the differences, all signs");
-  if (result.status != FitStatus::kOk) return result;
   std::vector<double> differences;
   for (std::size_t pair = 0; pair < a.size(); ++pair) differences.push_back(a[pair] - b[pair]);
+  if (!is_possible(result, mean_of(differences), a.size())) return result;
   const bool is_exact = std::exp2(static_cast<double>(a.size())) <= kMostArrangements;
   result.p_value = is_exact ? exact_of_signs(differences) : drawn_of_signs(differences);
   if (!is_exact) result.method += drawn_words();
@@ -141,11 +157,12 @@ Comparison group_permutation_test(const std::vector<double>& a, const std::vecto
   Comparison result =
       of_arrangements(welch_t_test(a, b), Comparison::Kind::kGroupPermutation,
                       "permutation test of the difference of the means, all groupings");
-  if (result.status != FitStatus::kOk) return result;
+  if (!is_possible(result, mean_of(a) - mean_of(b), std::min(a.size(), b.size()))) {
+    return result;
+  }
   std::vector<double> all = a;
   all.insert(all.end(), b.begin(), b.end());
-  const double mean =
-      std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+  const double mean = mean_of(all);
   for (double& value : all) value -= mean;
   const bool is_exact = num_ways(a.size(), all.size()) <= kMostArrangements;
   result.p_value = is_exact ? exact_of_groups(all, a.size()) : drawn_of_groups(all, a.size());

@@ -1,8 +1,10 @@
 #include "app/operator/operated_session.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "app/language/words.h"
 #include "app/operator/live_trace.h"
 #include "app/operator/remembered_stop.h"
 #include "app/operator/scope_trace.h"
@@ -30,6 +32,29 @@ bool is_urgent(const OperatorRequest& request) {
 bool is_answer(const OperatorRequest& request) {
   return std::holds_alternative<operate::Answer>(request) ||
          std::holds_alternative<operate::UseControl>(request);
+}
+
+/// What is only about what is felt next.
+bool moves_medium(const OperatorRequest& request) {
+  return std::holds_alternative<operate::Present>(request) ||
+         std::holds_alternative<operate::Adjust>(request);
+}
+
+/// Waits for nothing, wherever the session stands.
+bool is_said(const OperatorRequest& request) {
+  return std::holds_alternative<operate::AddNote>(request) ||
+         std::holds_alternative<operate::ReportAdverseEvent>(request);
+}
+
+/// What somebody wrote that must not be lost; "" in other requests.
+std::string written_in(const OperatorRequest& request) {
+  if (const auto* note = std::get_if<operate::AddNote>(&request)) return note->text;
+  if (const auto* event = std::get_if<operate::ReportAdverseEvent>(&request)) {
+    return event->text;
+  }
+  if (const auto* correct = std::get_if<operate::Correct>(&request)) return correct->reason;
+  if (const auto* why = std::get_if<operate::ExplainPause>(&request)) return why->reason;
+  return "";
 }
 
 Apparatus::Parameters apparatus_parameters(const OperatedSession::Parameters& parameters,
@@ -119,32 +144,30 @@ void OperatedSession::advance(double duration_s) {
     watch_sound();
   } catch (const core::Error& error) {
     give_up(error.what());
+    keep_what_was_written();
   }
 }
 
 void OperatedSession::carry_out_requests() {
   while (!requests_.empty() && failure_.empty() && !left_) {
     if (must_wait(requests_.front())) {
-      const auto urgent = std::find_if(requests_.begin(), requests_.end(), is_urgent);
-      if (urgent == requests_.end()) return;
-      const auto answer = std::find_if(requests_.begin(), urgent, is_answer);
-      if (answer == urgent) {
-        requests_.erase(requests_.begin(), urgent);
-      } else if (std::holds_alternative<operate::Undo>(*urgent)) {
-        // The answer meant is the one that still waits; those before it stay.
-        requests_.erase(answer, std::next(urgent));
+      const auto said = std::find_if(requests_.begin(), requests_.end(), is_said);
+      if (said != requests_.end()) {
+        std::rotate(requests_.begin(), said, std::next(said));
+      } else if (make_way_for_urgent()) {
         continue;
       } else {
-        return;  // No answer is dropped for a change of mind; the ramp is over soon.
+        return;
       }
     }
     watch_apparatus();  // The request before may have taken as long as a disk does.
-    const OperatorRequest next = std::move(requests_.front());
+    OperatorRequest next = std::move(requests_.front());
     requests_.pop_front();
     try {
       carry_out(next);
       refusal_.clear();
     } catch (const StorageError&) {
+      requests_.push_front(std::move(next));  // For `keep_what_was_written`.
       throw;
     } catch (const core::Error& error) {
       refusal_ = error.what();
@@ -158,7 +181,61 @@ void OperatedSession::carry_out_requests() {
         std::any_of(requests_.begin(), requests_.end(), [](const OperatorRequest& request) {
           return std::holds_alternative<operate::Leave>(request);
         });
-    requests_.clear();
+  }
+  if (left_ || !failure_.empty()) keep_what_was_written();
+}
+
+/// Lets an urgent request pass those that wait, of which goes what it makes pointless and
+/// nothing that somebody wrote. False where there is none, or an answer comes before it: no
+/// answer is dropped for a change of mind, and the ramp is over soon.
+bool OperatedSession::make_way_for_urgent() {
+  const auto urgent = std::find_if(requests_.begin(), requests_.end(), is_urgent);
+  if (urgent == requests_.end()) return false;
+  const auto answer = std::find_if(requests_.begin(), urgent, is_answer);
+  if (answer == urgent) {
+    requests_.erase(std::remove_if(requests_.begin(), urgent, moves_medium), urgent);
+    return true;
+  }
+  const auto* undo = std::get_if<operate::Undo>(&*urgent);
+  if (undo == nullptr) return false;
+  // The answer meant is the one that still waits; those before it stay.
+  const std::string note = taken_back_words(*answer, undo->reason);
+  const auto behind = std::next(urgent);
+  requests_.erase(std::remove_if(answer, behind,
+                                 [](const OperatorRequest& request) {
+                                   return is_answer(request) || moves_medium(request) ||
+                                          std::holds_alternative<operate::Undo>(request);
+                                 }),
+                  behind);
+  if (!note.empty()) session_.note(note);
+  return true;
+}
+
+/// Of an answer that nobody has stored yet, for the log; "" where a control meant none.
+std::string OperatedSession::taken_back_words(const OperatorRequest& request,
+                                              const std::string& reason) const {
+  std::optional<OperatorRequest> meant = request;
+  if (const auto* use = std::get_if<operate::UseControl>(&request)) meant = meaning_of(*use);
+  const auto* answer = meant ? std::get_if<operate::Answer>(&*meant) : nullptr;
+  if (answer == nullptr || !begun_) return "";
+  return as_is("an answer to trial ") + std::to_string(answer->trial) +
+         as_is(" was taken back before it was stored (") + reason + ")" + given_words(*answer);
+}
+
+/// Of what is left when nobody goes on with the session: it is stored all the same, and told
+/// where it cannot be.
+void OperatedSession::keep_what_was_written() {
+  for (const OperatorRequest& request : std::exchange(requests_, {})) {
+    const std::string written = written_in(request);
+    if (written.empty()) continue;
+    try {
+      carry_out(request);
+    } catch (const core::Error& error) {
+      const std::string told = tr("not stored: “{}” ({})", written, error.what());
+      if (!failure_.empty()) failure_ += "; " + told;
+      refusal_ = told;
+      ++num_refusals_;
+    }
   }
 }
 

@@ -72,6 +72,9 @@ class OperatedSession {
   [[nodiscard]] bool over() const noexcept { return left_; }
   /// Something requested has to wait: for a ramp, or the rest before a trial.
   [[nodiscard]] bool has_waiting_requests() const noexcept { return !requests_.empty(); }
+  /// After `over`: stores the notes, corrections and adverse events among what was requested
+  /// since.
+  void keep_what_was_written();
 
  private:
   struct Act;  ///< One overload for each request.
@@ -96,6 +99,9 @@ class OperatedSession {
   /// given in the window.
   [[nodiscard]] double given_before_s(const operate::Answer& answer) const;
   void carry_out_requests();
+  [[nodiscard]] bool make_way_for_urgent();
+  [[nodiscard]] std::string taken_back_words(const OperatorRequest& request,
+                                             const std::string& reason) const;
   void carry_out(const OperatorRequest& request);
   [[nodiscard]] bool must_wait(const OperatorRequest& request) const;
   void watch_apparatus();

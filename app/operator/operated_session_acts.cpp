@@ -176,6 +176,8 @@ struct OperatedSession::Act {
             : std::vector<AnswerDoubt>();
     if (doubts.empty()) return store(answer, response_time_s);
     my.doubted_ = Doubted{answer, trial.attempt, response_time_s, std::move(doubts)};
+    // Whatever happens before somebody confirms it, the log knows of it.
+    my.session_.note(my.note_of_doubt(as_is("not confirmed yet")));
   }
 
   void operator()(const operate::UseControl& use) const {
@@ -218,6 +220,7 @@ struct OperatedSession::Act {
     require_running();
     require_reason(undo.reason);
     my.session_.require_undo();
+    note_unconfirmed();
     my.abandon_presentation();
     my.session_.undo(undo.reason);
     my.resting_for_trial_ = 0;
@@ -227,6 +230,7 @@ struct OperatedSession::Act {
     require_running();
     require_reason(again.reason);
     my.session_.require_run_again(again.trial);
+    note_unconfirmed();
     my.abandon_presentation();
     my.session_.run_again(again.trial, again.reason);
     my.resting_for_trial_ = 0;
@@ -323,6 +327,7 @@ struct OperatedSession::Act {
   void operator()(const operate::EndEarly& end) const {
     if (!my.begun_ || my.state().ended) refuse(tr("there is no session under way"));
     require_reason(end.reason);
+    note_unconfirmed();
     my.abandon_presentation();
     my.running_.keep_timing();
     my.running_.close_streams();
@@ -332,8 +337,10 @@ struct OperatedSession::Act {
 
   void operator()(const operate::Leave& leave) const {
     my.left_ = true;  // Whatever the disk says to the rest.
+    const std::string unconfirmed = my.doubt_stands() ? unconfirmed_words() : "";
     my.abandon_presentation();
     if (!my.begun_ || my.state().ended) return;
+    if (!unconfirmed.empty()) my.session_.note(unconfirmed);
     my.running_.keep_timing();
     my.running_.close_streams();
     my.running_.close_sound();
@@ -355,6 +362,13 @@ struct OperatedSession::Act {
   void end_stimulus() const { end_presentation(Presenter::Afterwards::kFreeSpace); }
 
  private:
+  [[nodiscard]] std::string unconfirmed_words() const {
+    return my.note_of_doubt(as_is("not stored, for nobody confirmed it"));
+  }
+  /// The answer that was asked about is given up.
+  void note_unconfirmed() const {
+    if (my.doubt_stands()) my.session_.note(unconfirmed_words());
+  }
   void require_doubt(std::int64_t trial) const {
     (void)require_trial(trial);
     if (!my.doubt_stands()) refuse(tr("no answer waits to be confirmed"));

@@ -63,6 +63,12 @@ std::vector<OperatorRequest> SessionWorker::wait_for_requests() {
   return std::exchange(requests_, {});
 }
 
+std::vector<OperatorRequest> SessionWorker::taken_requests() {
+  const std::lock_guard guard(mutex_);
+  num_taken_ = num_requested_;
+  return std::exchange(requests_, {});
+}
+
 void SessionWorker::publish(const OperatedSession& session) {
   auto picture = std::make_shared<const SessionView>(session.view());
   {
@@ -121,6 +127,9 @@ void SessionWorker::work() {
     publish(session);
     next_picture = now + kBetweenPictures;
   }
+  // Who wrote something while the session was left.
+  for (const OperatorRequest& request : taken_requests()) session.request(request);
+  session.keep_what_was_written();
   publish(session);
 }
 

@@ -78,6 +78,7 @@ class SessionWorker {
   [[nodiscard]] double simulated_now_s() const;
   void publish(const OperatedSession& session);
   std::vector<OperatorRequest> wait_for_requests();
+  std::vector<OperatorRequest> taken_requests();
 
   Parameters parameters_;
   OperatorExchange& exchange_;

@@ -142,12 +142,13 @@ SessionLine line_of(const core::SessionRow& row, const core::SessionOverview& ov
           .when = day_in_words(overview.last_time_ns.value_or(row.started_time_ns), now_ns)};
 }
 
-void count(const SessionLine& line, std::set<std::string>& done, StudyFolder& study) {
+void count(const SessionLine& line, const core::SessionOverview& overview,
+           std::set<std::string>& done, StudyFolder& study) {
   ++study.num_sessions;
   study.num_open += line.status == SessionStatus::kOpen ? 1 : 0;
   study.num_pilots += line.pilot ? 1 : 0;
   study.simulated |= line.simulated;
-  if (!line.pilot && line.status == SessionStatus::kCompleted) done.insert(line.participant);
+  if (!line.pilot && overview.counts()) done.insert(line.participant);
 }
 
 fs::path data_folder() {
@@ -219,7 +220,7 @@ StudyFolder open_study_folder(const fs::path& folder, std::int64_t now_ns) {
     if (!opened.hides_levels) line.cells = cells_in_words(study, row.cells);
     // One that came to its end has drawn them all.
     if (line.status != SessionStatus::kCompleted) interruption.try_to_count(row, line);
-    count(line, done, opened);
+    count(line, overview, done, opened);
     last_ns = std::max(last_ns, overview.last_time_ns.value_or(row.started_time_ns));
     // What was interrupted goes on in the study itself.
     if (line.status == SessionStatus::kOpen && !opened.is_backup) {

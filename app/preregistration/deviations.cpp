@@ -123,10 +123,12 @@ class Conduct {
     for (const core::SessionOverview& overview : store.overview()) {
       const core::SessionRow session = store.session(overview.session);
       if (session.pilot && !with_pilots) continue;
+      look_at_events(session);
+      if (overview.is_set_aside) continue;  // What is told of it is that it is.
       protocols.insert(session.protocol_sha256);
       devices.insert(session.device);
       versions.insert(session.program_version);
-      num_complete += overview.completed ? 1 : 0;
+      num_complete += overview.counts() ? 1 : 0;
       if (overview.ended_early) ended_early.insert(session.participant);
       if (!overview.completed && !overview.ended_early) open.insert(session.participant);
       if (++sessions_of[session.participant] > 1) came_again.insert(session.participant);
@@ -134,7 +136,6 @@ class Conduct {
       if (!session.simulated && session.started_time_ns < registered_ns) {
         before.insert(session.participant);
       }
-      look_at_events(session);
     }
   }
 
@@ -189,8 +190,12 @@ void compare_conduct(const Json& plan, const Conduct& conduct, const analysis::S
   std::set<std::string> set_aside;
   std::size_t num_set_aside = 0;
   for (const analysis::ParticipantData& participant : data.participants) {
-    num_set_aside += participant.excluded_trials.size();
-    if (!participant.excluded_trials.empty()) set_aside.insert(participant.participant);
+    for (const core::TrialRow& trial : participant.excluded_trials) {
+      if (participant.left_out.contains(trial.block))
+        continue;  // By the analysis, not by hand.
+      ++num_set_aside;
+      set_aside.insert(participant.participant);
+    }
   }
   const std::string exclusions = plan.value("exclusions", "");
   tell(set_aside, "exclusions", exclusions.empty() ? "none" : exclusions.c_str(),

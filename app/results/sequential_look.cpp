@@ -14,7 +14,7 @@
 namespace jnd::app {
 namespace {
 
-/// A complete session that counts: the first one of its participant.
+/// A complete session that counts: the first one of its participant of which anything does.
 struct CompleteSession {
   std::int64_t session = 0;
   std::string participant;
@@ -23,7 +23,7 @@ struct CompleteSession {
 std::vector<CompleteSession> complete_sessions(const core::StudyStore& store) {
   std::map<std::int64_t, bool> is_complete;
   for (const core::SessionOverview& one : store.overview()) {
-    is_complete[one.session] = one.completed;
+    is_complete[one.session] = one.counts();
   }
   std::vector<CompleteSession> complete;
   std::set<std::string> known;

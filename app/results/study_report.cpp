@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "analysis/data/study_data.h"
 #include "analysis/results/inverted_answers.h"
@@ -62,13 +63,15 @@ StudyReport write_study_report(const StudyReportRequest& request) {
   core::tell(request.on_progress, 0.0);
   analysis::StudyData data = analysis::load_study(store, request.pilot);
   const std::optional<DeliveredReport> delivered = delivered_report(store, data, request);
+  // What was set aside by hand is a deviation; what the analysis leaves out is none besides.
+  analysis::PreregisteredStudy preregistration = preregistered_study(
+      store, data, {.inverted_out = request.leaves_out_inverted, .with_pilots = request.pilot});
   if (request.leaves_out_inverted) analysis::leave_out_inverted(data);
   core::tell(request.on_progress, kRead);
   analysis::ResultsOptions results_options = request.results;
   results_options.on_progress = core::part_of(request.on_progress, kRead, kComputed);
   StudyReport report{.results = results_of_data(data, results_options), .outcome = {}};
-  report.results.preregistration = preregistered_study(
-      store, data, {.inverted_out = request.leaves_out_inverted, .with_pilots = request.pilot});
+  report.results.preregistration = std::move(preregistration);
   core::tell(request.on_progress, kComputed);
   const analysis::MovementAnalysis movement = analysis::analyse_movement(
       store, {.pilot = request.pilot,

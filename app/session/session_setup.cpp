@@ -3,6 +3,7 @@
 #include <set>
 
 #include "app/session/stored_session.h"
+#include "core/clock.h"
 #include "core/error.h"
 #include "core/random_stream.h"
 #include "core/storage/sha256.h"
@@ -84,6 +85,8 @@ std::vector<std::int64_t> add_sessions(core::StudyStore& store, const SessionSet
                                              : "real-time thread";
     row.recorded = setup.record;
     row.rate_hz = setup.study.device.rate_hz;
+    // By the clock that its events have: simulated time counts from 0.
+    if (setup.realtime) row.started_time_ns = core::SystemClock().now_ns();
     sessions.push_back(store.add_session(row));
   }
   return sessions;

@@ -9,6 +9,7 @@
 #include "core/storage/export_note.h"
 #include "core/storage/files.h"
 #include "core/storage/flight_record.h"
+#include "core/storage/recording.h"
 #include "core/storage/stream_file.h"
 #include "core/storage/study_format.h"
 #include "core/storage/study_store.h"
@@ -48,6 +49,66 @@ void require_own_target(const fs::path& folder, const fs::path& target,
   }
 }
 
+/// Rows that are never changed, and how a withdrawal, which alone deletes any, is known.
+struct KeptRows {
+  const char* table;
+  const char* meaning;
+  const char* gone_with = "";  ///< Column by which the study tells whose rows were deleted.
+};
+constexpr KeptRows kKeptRows[] = {{"session", "a session", "session"},
+                                  {"protocol", "a study file"},
+                                  {"device_profile", "a device profile"},
+                                  {"adverse_event", "an adverse event"},
+                                  {"sequential_look", "a look at the study"},
+                                  {"sequential_look_session", "a session of a look"},
+                                  {"unsealing", "an unsealing"},
+                                  {"unblinding", "an unblinding"},
+                                  {"planned_number", "a planned number of people"},
+                                  {"appointment", "an appointment", "participant"},
+                                  {"acknowledgement", "a note that was read", "session"}};
+
+bool has_table(Database& database, const std::string& table) {
+  Statement found(database, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?");
+  return found.bind(table).step();
+}
+
+std::set<std::string> texts_of(Database& database, const std::string& query) {
+  Statement rows(database, query);
+  std::set<std::string> texts;
+  while (rows.step()) texts.insert(rows.text(0));
+  return texts;
+}
+
+/// Every row of these in an earlier copy is one of the study's, or of somebody who withdrew.
+/// The copy may be of an older layout, and is then compared by its own columns.
+void require_known_rows(Database& copy, Database& study, const KeptRows& kept,
+                        const fs::path& target) {
+  const std::string table = kept.table;
+  if (!has_table(copy, table)) return;
+  std::string whole;
+  for (const std::string& column :
+       texts_of(copy, "SELECT name FROM pragma_table_info('" + table + "')")) {
+    whole += (whole.empty() ? "quote(" : " || ',' || quote(") + column + ")";
+  }
+  const std::string column = kept.gone_with;
+  const std::set<std::string> known = texts_of(study, "SELECT " + whole + " FROM " + table);
+  const std::set<std::string> gone =
+      column.empty()
+          ? std::set<std::string>()
+          : texts_of(study, "SELECT " + column + " FROM withdrawal" +
+                                (column == "participant"
+                                     ? " UNION SELECT participant FROM withdrawal_step"
+                                     : ""));
+  Statement rows(
+      copy, "SELECT " + whole + (column.empty() ? ", ''" : ", " + column) + " FROM " + table);
+  while (rows.step()) {
+    if (known.contains(rows.text(0)) || gone.contains(rows.text(1))) continue;
+    throw Error(target.string() + ": expected an earlier copy of this study, found " +
+                kept.meaning +
+                " that the study does not have; nothing was changed, choose another folder");
+  }
+}
+
 /// Sessions, events and tombstones are never changed, so an earlier copy holds nothing that the
 /// study has not. One that does was gone on with, or is the newer of the two.
 void require_earlier(Database& copy, Database& study, const fs::path& target) {
@@ -80,6 +141,7 @@ void require_earlier(Database& copy, Database& study, const fs::path& target) {
     known_tombstone.reset();
     if (!known) refuse(session, "the withdrawal");
   }
+  for (const KeptRows& kept : kKeptRows) require_known_rows(copy, study, kept, target);
 }
 
 fs::path as_noted(const fs::path& target) { return fs::absolute(target).lexically_normal(); }
@@ -151,8 +213,30 @@ void copy_chunk(Database& from, Database& to, const ChunkKey& key) {
       .run();
 }
 
-/// Chunks are never changed, so those that the copy has stay as they are.
+/// What a recording says of its chunks: which ticks never ran, and of which format they are.
+void copy_beside_chunks(Database& from, Database& to) {
+  Statement table(from,
+                  "SELECT sql FROM sqlite_master WHERE type = 'table' AND name = 'missed'");
+  if (table.step()) {
+    if (!has_table(to, "missed")) to.execute(table.text(0));
+    Statement rows(from, "SELECT segment, first_tick, num_ticks FROM missed");
+    Statement insert(to, "INSERT OR IGNORE INTO missed VALUES (?, ?, ?)");
+    while (rows.step()) {
+      insert.bind(rows.integer(0)).bind(rows.integer(1)).bind(rows.integer(2)).run();
+    }
+  }
+  Statement format(from, "SELECT version FROM recording_format");
+  if (!format.step()) return;
+  Statement(to, "UPDATE recording_format SET version = MAX(version, ?)")
+      .bind(format.integer(0))
+      .run();
+}
+
+/// Chunks are never changed, so those that the copy has stay as they are. Throws `Error` for a
+/// recording, or a copy of it, that is of no format of this program.
 void copy_recording(const fs::path& source, const fs::path& target, BackupReport& report) {
+  (void)RecordingReader(source);
+  if (fs::exists(target)) (void)RecordingReader(target);
   Database from(source, Database::Mode::kReadOnly, kDurable);
   if (is_empty(from)) return;
   Database to(target, fs::exists(target) ? Database::Mode::kReadWrite : Database::Mode::kCreate,
@@ -169,6 +253,7 @@ void copy_recording(const fs::path& source, const fs::path& target, BackupReport
       copy_chunk(from, to, key);
       ++report.num_chunks_copied;
     }
+    copy_beside_chunks(from, to);
     transaction.commit();
   }
   to.checkpoint();

@@ -262,6 +262,9 @@ struct AnswerRow {
   std::string stage;
   std::string item;
   std::string answer;
+  /// Of its stage in the participant's list, for one stage can come several times; none before
+  /// the first stage.
+  std::optional<std::int64_t> stage_index{};
 };
 template <>
 inline constexpr auto kColumns<AnswerRow> = std::tuple{
@@ -270,7 +273,11 @@ inline constexpr auto kColumns<AnswerRow> = std::tuple{
     StoredColumn{&AnswerRow::stage, "stage", "", "Name of the stage in the study file"},
     StoredColumn{&AnswerRow::item, "item", "", "Name of the question or point of a checklist"},
     StoredColumn{&AnswerRow::answer, "answer", "",
-                 "As it was given; the last one if corrected"}};
+                 "As it was given; the last one if corrected"},
+    StoredColumn{
+        &AnswerRow::stage_index, "stage_index", "",
+        "Place of the stage in the participant's list, from 0, by which the times of a "
+        "stage that came several times are told apart; empty: before the first stage"}};
 
 /// One answer to a question that follows the answer to a trial.
 struct QuestionAnswerRow {

@@ -56,6 +56,14 @@ std::unique_ptr<Database> opened(const fs::path& file, StudyStore::Mode mode,
   return database;
 }
 
+/// When the session began. Older programs did not keep it of a person's: its first event tells.
+void find_start(Database& database, SessionRow& row) {
+  if (row.started_time_ns != 0) return;
+  Statement first(database,
+                  "SELECT time_ns FROM event WHERE session = ? ORDER BY sequence LIMIT 1");
+  if (first.bind(row.session).step()) row.started_time_ns = first.integer(0);
+}
+
 /// The rows of the view design_in_force, found in an order that the view leaves open: for each
 /// drawn trial first the answers that were taken back, mostly none, by the index of their kind
 /// (hence the +, which forbids the one of sequences: all events of a session), and the trial's
@@ -246,7 +254,11 @@ SessionRow StudyStore::session(std::int64_t number) const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
                  select_from<SessionRow>("session") + " WHERE session = ?");
-  if (rows.bind(number).step()) return read_row<SessionRow>(rows);
+  if (rows.bind(number).step()) {
+    SessionRow row = read_row<SessionRow>(rows);
+    find_start(implementation_->database, row);
+    return row;
+  }
   throw Error(implementation_->folder.string() + ": expected session " +
               std::to_string(number) + ", found none of that number");
 }
@@ -255,7 +267,9 @@ std::vector<SessionRow> StudyStore::sessions() const {
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
                  select_from<SessionRow>("session") + " ORDER BY session");
-  return read_rows<SessionRow>(rows);
+  std::vector<SessionRow> all = read_rows<SessionRow>(rows);
+  for (SessionRow& row : all) find_start(implementation_->database, row);
+  return all;
 }
 
 std::vector<SessionOverview> StudyStore::overview() const {
@@ -277,7 +291,10 @@ std::vector<SessionOverview> StudyStore::overview() const {
           " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
           "         AND e.kind = 'session_completed'),"
           " EXISTS (SELECT 1 FROM event AS e WHERE e.session = s.session"
-          "         AND e.kind = 'session_ended_early')"
+          "         AND e.kind = 'session_ended_early'),"
+          " EXISTS (SELECT 1 FROM trial_in_force AS t WHERE t.session = s.session)"
+          " AND NOT EXISTS (SELECT 1 FROM trial_in_force AS t WHERE t.session = s.session"
+          "                 AND NOT t.excluded)"
           " FROM session AS s ORDER BY session");
   std::vector<SessionOverview> all;
   while (rows.step()) {
@@ -286,7 +303,8 @@ std::vector<SessionOverview> StudyStore::overview() const {
                    .num_answers = rows.integer(2),
                    .last_time_ns = rows.optional_integer(3),
                    .completed = rows.integer(4) != 0,
-                   .ended_early = rows.integer(5) != 0});
+                   .ended_early = rows.integer(5) != 0,
+                   .is_set_aside = rows.integer(6) != 0});
   }
   return all;
 }

@@ -76,6 +76,10 @@ struct SessionOverview {
   std::optional<std::int64_t> last_time_ns;
   bool completed = false;
   bool ended_early = false;
+  bool is_set_aside = false;  ///< It has answers, and every one of them is set aside.
+
+  /// It came to its end, and something of it counts.
+  [[nodiscard]] bool counts() const { return completed && !is_set_aside; }
 };
 
 /// Everything that one act appends. All of it in one transaction, or none.
@@ -151,7 +155,7 @@ class StudyStore {
   /// trials that were set aside as well.
   [[nodiscard]] std::vector<PresentationRow> presentations(std::int64_t session,
                                                            bool include_excluded = false) const;
-  /// Answers that count: the last one given to each item.
+  /// Answers that count: the last one given to each item, each time that its stage came.
   [[nodiscard]] std::vector<AnswerRow> answers(std::int64_t session) const;
   /// Answers to questions after trials whose answer stands, in the order in which they were
   /// given. With `include_excluded`, of trials that were set aside as well.

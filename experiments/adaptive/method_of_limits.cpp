@@ -86,6 +86,14 @@ LimitsSeries Limits::series_of(const PlannedSeries& planned,
   return series;
 }
 
+double Limits::next_level(const PlannedSeries& planned, const LimitsSeries& series) const {
+  require(planned.start < rule_.levels.size(), "limits.plan", "a start among the levels",
+          static_cast<double>(planned.start));
+  const auto steps = static_cast<std::size_t>(series.num_trials);
+  return rule_
+      .levels[planned.direction == kAscending ? planned.start + steps : planned.start - steps];
+}
+
 LimitsState Limits::after(const std::vector<PlannedSeries>& plan,
                           const std::vector<LevelAnswer>& answers) const {
   LimitsState state;
@@ -96,9 +104,7 @@ LimitsState Limits::after(const std::vector<PlannedSeries>& plan,
     const LimitsSeries series = series_of(planned, rest);
     if (series.num_trials > 0) state.series.push_back(series);
     if (series.end == SeriesEnd::kRunning) {
-      const auto steps = static_cast<std::size_t>(series.num_trials);
-      state.next_level = rule_.levels[planned.direction == kAscending ? planned.start + steps
-                                                                      : planned.start - steps];
+      state.next_level = next_level(planned, series);
       return state;
     }
     rest = rest.subspan(static_cast<std::size_t>(series.num_trials));
@@ -107,6 +113,27 @@ LimitsState Limits::after(const std::vector<PlannedSeries>& plan,
     throw core::Error("limits.answers: expected none after the last of " +
                       std::to_string(plan.size()) + " series, found " +
                       std::to_string(rest.size()));
+  }
+  return state;
+}
+
+LimitsState Limits::after_series(const std::vector<PlannedSeries>& plan,
+                                 const std::vector<std::vector<LevelAnswer>>& answers) const {
+  std::size_t num_begun = 0;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (!answers[i].empty()) num_begun = i + 1;
+  }
+  LimitsState state;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const std::span<const LevelAnswer> own = i < answers.size()
+                                                 ? std::span<const LevelAnswer>(answers[i])
+                                                 : std::span<const LevelAnswer>();
+    const LimitsSeries series = series_of(plan[i], own);
+    state.num_after_end += static_cast<int>(own.size()) - series.num_trials;
+    if (i < num_begun) state.series.push_back(series);
+    if (series.end != SeriesEnd::kRunning || i + 1 < num_begun) continue;
+    state.next_level = next_level(plan[i], series);
+    return state;
   }
   return state;
 }

@@ -64,6 +64,9 @@ struct LimitsSeries {
 struct LimitsState {
   std::optional<double> next_level;  ///< Unit of the quantity; none when finished.
   std::vector<LimitsSeries> series;  ///< The series that were begun.
+  /// Answers behind the end of their series, which decide nothing: a correction can put the end
+  /// before them.
+  int num_after_end = 0;
 
   [[nodiscard]] bool is_finished() const noexcept { return !next_level.has_value(); }
 };
@@ -96,9 +99,16 @@ class Limits {
   /// answer after the last series, or a level that is none.
   [[nodiscard]] LimitsState after(const std::vector<PlannedSeries>& plan,
                                   const std::vector<LevelAnswer>& answers) const;
+  /// The same where each answer is known to be of its series. One that a correction has left
+  /// without an end, while others came after it, has no transition.
+  [[nodiscard]] LimitsState after_series(
+      const std::vector<PlannedSeries>& plan,
+      const std::vector<std::vector<LevelAnswer>>& answers) const;
   [[nodiscard]] LimitsThreshold threshold(const LimitsState& state) const;
 
  private:
+  [[nodiscard]] double next_level(const PlannedSeries& planned,
+                                  const LimitsSeries& series) const;
   [[nodiscard]] LimitsSeries series_of(const PlannedSeries& planned,
                                        std::span<const LevelAnswer> answers) const;
   [[nodiscard]] std::optional<double> mean_transition(

@@ -24,8 +24,9 @@ struct TrackPoint {
   std::int64_t trial = 0;  ///< Within the block, from 1.
   double level = 0.0;      ///< As it was presented, unit of the quantity.
   bool yes = false;
-  bool is_reversal = false;  ///< It turned the staircase.
-  bool is_averaged = false;  ///< One of the reversals that the threshold is the mean of.
+  bool is_reversal = false;   ///< It turned the staircase.
+  bool is_averaged = false;   ///< One of the reversals that the threshold is the mean of.
+  bool is_after_end = false;  ///< A correction put the end before it: it decides nothing.
 };
 
 /// One staircase, one series of the method of limits, or all trials of QUEST+.
@@ -93,6 +94,14 @@ struct RuleOutcome {
         {.trial = trial.number, .level = trial.answer.level, .yes = trial.answer.yes});
   }
   return track;
+}
+
+/// Marks the last points of a track, which the rule did not need.
+inline void mark_after_end(AdaptiveTrack& track, int num_after_end) {
+  for (std::size_t i = track.points.size() - static_cast<std::size_t>(num_after_end);
+       i < track.points.size(); ++i) {
+    track.points[i].is_after_end = true;
+  }
 }
 
 }  // namespace jnd::experiments

@@ -125,12 +125,11 @@ StaircaseState Staircase::after(const std::vector<LevelAnswer>& answers) const {
   StaircaseState state{.next_level = rule_.start};
   Run run;
   for (const auto& [level, yes] : answers) {
-    if (state.is_finished()) {
-      throw core::Error("staircase.answers: expected none after the end at trial " +
-                        std::to_string(run.num_trials) + ", found " +
-                        std::to_string(answers.size()));
-    }
     require_level(rule_.scale, "staircase.answers", level);
+    if (state.is_finished()) {
+      ++state.num_after_end;
+      continue;
+    }
     const bool lowering = yes == rule_.yes_lowers;
     run.num_lowering = lowering ? run.num_lowering + 1 : 0;
     run.num_raising = lowering ? 0 : run.num_raising + 1;

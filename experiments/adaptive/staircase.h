@@ -50,6 +50,8 @@ struct StaircaseState {
   StaircaseEnd end = StaircaseEnd::kNotFinished;
   std::vector<Reversal> reversals;
   int num_blocked = 0;  ///< Verdicts to step past a bound, in all.
+  /// Answers behind the end, which decide nothing: a correction can put the end before them.
+  int num_after_end = 0;
 
   [[nodiscard]] bool is_finished() const noexcept { return end != StaircaseEnd::kNotFinished; }
 };
@@ -70,8 +72,7 @@ class Staircase {
 
   /// With the ends of the grid, if there is one, as its bounds.
   [[nodiscard]] const StaircaseRule& rule() const noexcept { return rule_; }
-  /// All from the start. Throws `Error` if there is an answer after the end, or a level that is
-  /// none.
+  /// All from the start. Throws `Error` for a level that is none.
   [[nodiscard]] StaircaseState after(const std::vector<LevelAnswer>& answers) const;
   /// From the last reversals, as many as the rule says; if there are fewer, from the largest
   /// even number of them, so that peaks and valleys are as many.

@@ -137,7 +137,11 @@ std::vector<PlannedTrial> LimitsProcedure::draw_next(const Block& block,
   const Limits limits(limits_rule_of(block));
   const std::vector<PlannedSeries> series =
       planned_series(block, limits.rule(), answered, stream);
-  const LimitsState state = limits.after(series, level_answers(answered));
+  std::vector<std::vector<LevelAnswer>> answers;
+  for (int number = 1; number <= limits.rule().num_series; ++number) {
+    answers.push_back(level_answers(answered, number));
+  }
+  const LimitsState state = limits.after_series(series, answers);
   if (!state.next_level) return {};
   const bool goes_on = !state.series.empty() && state.series.back().end == SeriesEnd::kRunning;
   const auto number = static_cast<int>(state.series.size()) + (goes_on ? 0 : 1);
@@ -177,7 +181,7 @@ void LimitsProcedure::run(const Block& block, const std::vector<LevelTrial>& tri
                           RuleOutcome& run) const {
   const Limits limits(limits_rule_of(block));
   std::vector<PlannedSeries> plan;
-  std::vector<LevelAnswer> answers;
+  std::vector<std::vector<LevelAnswer>> answers;
   for (int series = 1; series <= limits.rule().num_series; ++series) {
     const std::vector<LevelTrial> own = of_series(trials, series);
     if (own.empty()) break;
@@ -185,11 +189,13 @@ void LimitsProcedure::run(const Block& block, const std::vector<LevelTrial>& tri
     run.tracks.push_back(track_of(series, own));
     run.tracks.back().direction =
         plan.back().direction == SeriesDirection::kAscending ? "ascending" : "descending";
-    for (const LevelTrial& trial : own) answers.push_back(trial.answer);
+    answers.push_back(answers_of(own));
   }
-  const LimitsState state = limits.after(plan, answers);
+  const LimitsState state = limits.after_series(plan, answers);
   for (std::size_t i = 0; i < state.series.size(); ++i) {
     run.tracks[i].threshold = state.series[i].transition;
+    mark_after_end(run.tracks[i],
+                   static_cast<int>(answers[i].size()) - state.series[i].num_trials);
   }
   const LimitsThreshold found = limits.threshold(state);
   run.is_logarithmic = limits.rule().scale == LevelScale::kLogarithmic;

@@ -113,6 +113,7 @@ AdaptiveTrack staircase_track(const Staircase& staircase, int series,
   track.threshold = threshold.level;
   track.num_reversals = threshold.num_reversals;
   track.num_at_bound = threshold.num_at_bound;
+  mark_after_end(track, state.num_after_end);
   const std::size_t first =
       state.reversals.size() - static_cast<std::size_t>(threshold.num_reversals);
   for (std::size_t i = 0; i < state.reversals.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <set>
 
 #include "core/hand.h"
 #include "core/random_stream.h"
@@ -166,9 +167,13 @@ std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanReq
 }
 
 std::vector<std::string> completed_cells(const core::StudyStore& store) {
+  std::set<std::int64_t> counted;
+  for (const core::SessionOverview& one : store.overview()) {
+    if (one.counts()) counted.insert(one.session);
+  }
   std::vector<std::string> cells;
   for (const core::SessionRow& row : store.sessions()) {
-    if (!row.pilot && store.completed(row.session)) cells.push_back(row.cells);
+    if (!row.pilot && counted.contains(row.session)) cells.push_back(row.cells);
   }
   return cells;
 }

@@ -57,7 +57,8 @@ struct PlanRequest {
 [[nodiscard]] std::vector<ParticipantPlan> plan_participants(const Study& study,
                                                              const PlanRequest& request);
 
-/// Cells of the completed sessions of a study folder; pilots do not count.
+/// Cells of the completed sessions of a study folder; neither pilots count nor sessions of
+/// which every answer is set aside.
 [[nodiscard]] std::vector<std::string> completed_cells(const core::StudyStore& store);
 
 /// What the device can render and how the hand is expected to move.

@@ -139,7 +139,8 @@ void Session::answer_item(const std::string& item, const std::string& answer) {
                           .sequence = state_.last_sequence + 1,
                           .stage = stage->name,
                           .item = item,
-                          .answer = answer});
+                          .answer = answer,
+                          .stage_index = state_.stage});
   commit(ItemAnswered{state_.stage, stage->name, item, answer}, std::move(rows));
 }
 
@@ -447,9 +448,15 @@ bool Session::can_run_again(std::int64_t number) const {
 }
 
 void Session::require_run_again(std::int64_t number) const {
-  if (can_run_again(number)) return;
-  cannot("run a trial again",
-         "an answer of this block that decided nothing (correct it instead)");
+  if (!can_run_again(number)) {
+    cannot("run a trial again",
+           "an answer of this block that decided nothing (correct it instead)");
+  }
+  // The turn would pass to another block, and nobody would ask the question any more.
+  const std::optional<OpenQuestion> open = open_question();
+  if (open && state_.trial(open->trial).stage != state_.trial(number).stage) {
+    cannot("run a trial of another block again", "an answer to every question of the last one");
+  }
 }
 
 void Session::run_again(std::int64_t number, const std::string& reason) {
@@ -482,6 +489,8 @@ void Session::correct(std::int64_t number, const std::optional<double>& value,
     rows.trial->measures.chosen_interval = corrected.chosen_interval;
   }
   commit(std::move(corrected), std::move(rows));
+  // The rule of its block may have an end no more.
+  if (!state_.ended && state_.is_under_way(state_.trial(number).stage)) draw_missing_trials();
 }
 
 void Session::restart_block(const std::string& reason) {

@@ -96,6 +96,7 @@ struct Fold {
     trial.response = e.response;
     trial.measures = e.measures;
     trial.answer_sequence = event.sequence;
+    trial.given_sequence = event.sequence;
     trial.last_tick = e.last_tick;
     state.feedback_right = e.feedback_right;
     state.turn_is_due = state.num_together > 1;
@@ -228,8 +229,8 @@ std::optional<std::int64_t> last_answered(const std::vector<TrialState>& trials,
   for (std::size_t index = 0; index < trials.size(); ++index) {
     const TrialState& trial = trials[index];
     if (of_stage && trial.stage != *of_stage) continue;
-    if (trial.is_answered && trial.answer_sequence > latest_sequence) {
-      latest_sequence = trial.answer_sequence;
+    if (trial.is_answered && trial.given_sequence > latest_sequence) {
+      latest_sequence = trial.given_sequence;
       last = static_cast<std::int64_t>(index) + 1;
     }
   }

@@ -37,6 +37,7 @@ struct TrialState {
   bool is_answered = false;          ///< Also by "cannot tell".
   std::optional<double> response;    ///< Of an answered trial; none: "cannot tell".
   std::int64_t answer_sequence = 0;  ///< Of the event that holds the answer.
+  std::int64_t given_sequence = 0;   ///< Of the event by which it was given; corrections aside.
   core::AnswerMeasures measures;     ///< Of it.
   /// To the questions that follow it, by their names; gone with it where it is taken back.
   std::map<std::string, std::string> question_answers;
@@ -108,7 +109,7 @@ struct SessionState {
   [[nodiscard]] std::vector<std::int64_t> trials_after_current() const;
   /// Whether a trial of this stage waits, whosever turn it is.
   [[nodiscard]] bool has_waiting(std::int64_t of_stage) const;
-  /// The last answered trial, in any stage.
+  /// The trial that was answered last, in any stage; corrections change nothing of that.
   [[nodiscard]] std::optional<std::int64_t> last_answered_trial() const;
   /// The last answered trial of a stage.
   [[nodiscard]] std::optional<std::int64_t> last_answered_in(std::int64_t of_stage) const;

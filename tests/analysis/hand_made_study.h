@@ -176,13 +176,15 @@ class HandMadeStudy {
   }
 
   /// An answer outside of any trial.
-  void say(const std::string& stage, const std::string& item, const std::string& answer) {
+  void say(const std::string& stage, const std::string& item, const std::string& answer,
+           std::optional<std::int64_t> stage_index = {}) {
     core::Commit answered = event("item_answered");
     answered.answers.push_back({.session = session_,
                                 .sequence = sequence_,
                                 .stage = stage,
                                 .item = item,
-                                .answer = answer});
+                                .answer = answer,
+                                .stage_index = stage_index});
     store_.append(answered);
   }
 

@@ -24,7 +24,7 @@ class ResultsScreen final : public Screen {
   explicit ResultsScreen(const ScreenParts& parts) : host_(parts.host), study_(parts.study) {}
   [[nodiscard]] const char* name() const noexcept override { return "results"; }
   [[nodiscard]] const char* manual_page() const noexcept override {
-    return "docs/methods/reading_results.md";
+    return "docs/how-to/read_the_results.md";
   }
   void show() override;
   void draw(Ui& ui) override;

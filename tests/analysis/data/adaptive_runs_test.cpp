@@ -72,6 +72,37 @@ TEST(AdaptiveRuns, AStaircaseIsTheMeanOfItsLastReversalsAndOfThoseInterleaved) {
   EXPECT_FALSE(run.tracks[0].points[0].is_reversal);
 }
 
+TEST(AdaptiveRuns, AnswersThatACorrectionPutBehindTheEndAreCountedAndDecideNothing) {
+  const Block block = staircase_block(R"(, "max_reversals": 2)");
+  // 16 yes, 8 no (turns), 16 yes (turns, the end), and one more that was drawn before.
+  const std::vector<Answer> answers = {{16, true, 1}, {8, false, 1}, {16, true, 1}};
+  const AdaptiveRun run = run_of(block, answers);
+  std::vector<Answer> more = answers;
+  more.push_back({8, false, 1});
+  const AdaptiveRun longer = run_of(block, more);
+  EXPECT_EQ(longer.problem, "");
+  EXPECT_EQ(longer.num_after_end, 1);
+  EXPECT_EQ(run.num_after_end, 0);
+  EXPECT_EQ(longer.threshold, run.threshold);
+  ASSERT_EQ(longer.tracks[0].points.size(), 4U) << "kept";
+  EXPECT_TRUE(longer.tracks[0].points[3].is_after_end);
+  EXPECT_FALSE(longer.tracks[0].points[2].is_after_end);
+}
+
+TEST(AdaptiveRuns, ASeriesOfLimitsKeepsItsOwnAnswersAlsoBehindItsEnd) {
+  const Block block = block_with(R"json("procedure": "limits", "task": "yes_no",
+    "viscosity_pa_s": [1, 2, 4, 8], "num_series": 2, "first_series": "ascending",
+    "max_start_offset": 0)json");
+  const AdaptiveRun run = run_of(
+      block,
+      {{1, false, 1}, {2, true, 1}, {4, true, 1}, {8, true, 2}, {4, true, 2}, {2, false, 2}});
+  EXPECT_EQ(run.problem, "");
+  EXPECT_EQ(run.num_after_end, 1);
+  EXPECT_NEAR(*run.limits.ascending, std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(*run.limits.descending, std::sqrt(8.0), 1e-9);
+  EXPECT_TRUE(run.tracks[0].points[2].is_after_end);
+}
+
 TEST(AdaptiveRuns, AWeightedStaircaseSaysItsRatio) {
   const AdaptiveRun run =
       run_of(staircase_block(R"(, "down_per_up_ratio": 0.5)"), {{16, true, 1}, {4, true, 2}});

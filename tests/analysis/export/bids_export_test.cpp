@@ -10,6 +10,7 @@
 #include "analysis/hand_made_study.h"
 #include "core/error.h"
 #include "core/sample_table.h"
+#include "core/storage/acknowledgement.h"
 #include "core/storage/recording.h"
 #include "core/storage/schedule.h"
 #include "support/files.h"
@@ -420,6 +421,42 @@ TEST_F(BidsExportTest, TheSourceKnowsNobodyWhoWasNotAskedFor) {
     EXPECT_EQ(bytes.find(told), std::string::npos) << told;
   }
   EXPECT_NE(bytes.find("P_01"), std::string::npos);
+}
+
+TEST_F(BidsExportTest, SessionsTellWhatWasSetAsideAndWhatSomebodyHasRead) {
+  const std::int64_t person = study_.add("P_88", /*pilot=*/false, R"({"name": "made"})");
+  study_.exclude(study_.answer({.block = "group_d", .response = 0.0}));
+  const std::int64_t note = study_.happens("note_added", R"({"text": "a door slammed"})");
+  study_.report_adverse_event(person, "a pinched finger");
+  const std::int64_t other = study_.add("P_77", /*pilot=*/false, R"({"name": "made"})");
+  study_.report_adverse_event(other, "a fright of another person");
+  const fs::path copy = temporary_.path() / "copy.study";
+  fs::copy(study_.folder(), copy, fs::copy_options::recursive);
+  core::acknowledge(copy, {.session = person, .sequence = note}, 1);
+  core::acknowledge(copy, {.adverse_event = 1}, 2);
+  core::acknowledge(copy, {.adverse_event = 2}, 3);
+  (void)export_bids(core::StudyStore(copy, core::StudyStore::Mode::kReadOnly), out(""),
+                    {.selection = {.participants = {"P_88"}}}, R"({"study": "x"})");
+  const auto rows = cells(out("sub-P88/sub-P88_sessions.tsv"));
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(value(rows, 1, "num_set_aside"), "1");
+  EXPECT_EQ(value(rows, 1, "num_acknowledged"), "2");
+  EXPECT_EQ(core::acknowledgements(out("sourcedata/jnd.study")).size(), 2U)
+      << "that of the other person is not among the sources";
+}
+
+TEST_F(BidsExportTest, AQuestionnaireThatCameTwiceHasAColumnForEachTime) {
+  study_.add("P05", /*pilot=*/false, R"({"name": "made"})");
+  study_.say("about_you", "age_years", "26", 0);
+  study_.say("about_you", "age_years", "27", 2);
+  (void)write({});
+  const auto rows = cells(out("phenotype/aboutyou.tsv"));
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(value(rows, 1, "participant_id"), "sub-P05");
+  EXPECT_EQ(value(rows, 1, "age_years_time_1"), "26");
+  EXPECT_EQ(value(rows, 1, "age_years_time_2"), "27");
+  EXPECT_EQ(value(rows, 2, "age_years_time_2"), "n/a") << "nobody asked a second time";
+  EXPECT_TRUE(json(out("phenotype/aboutyou.json")).contains("age_years_time_2"));
 }
 
 TEST_F(BidsExportTest, WhatWasMeasuredOfADeviceIsAmongItsSources) {

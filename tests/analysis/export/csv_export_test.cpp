@@ -281,6 +281,27 @@ TEST_F(CsvExportTest, QuestionnairesAreThereWithTheirQuestionsAlsoThoseNotAnswer
   EXPECT_EQ(cell(asked, 1, "num_steps"), "10");
 }
 
+TEST_F(CsvExportTest, AQuestionnaireThatCameThreeTimesHasARowForEach) {
+  HandMadeStudy study(R"({"name": "asked", "stages": [
+      {"kind": "questionnaire", "name": "rest", "items": [
+        {"name": "tired", "kind": "scale", "question": {"en": "Tired?"}}]}]})");
+  study.add("P01");
+  study.say("rest", "tired", "2", 1);
+  study.say("rest", "tired", "5", 3);
+  study.say("rest", "tired", "7", 5);
+  export_csv(study.store(), out(), {});
+  const CsvTable asked = table("questionnaires.csv");
+  ASSERT_EQ(asked.num_rows(), 3U);
+  EXPECT_EQ(cell(asked, 0, "answer"), "2");
+  EXPECT_EQ(cell(asked, 0, "stage_index"), "1");
+  EXPECT_EQ(cell(asked, 1, "answer"), "5");
+  EXPECT_EQ(cell(asked, 2, "answer"), "7");
+  EXPECT_EQ(cell(asked, 2, "stage_index"), "5");
+  const CsvTable answers = table("answers.csv");
+  ASSERT_EQ(answers.num_rows(), 3U);
+  EXPECT_EQ(cell(answers, 1, "stage_index"), "3");
+}
+
 TEST_F(CsvExportTest, PresentationsOfExcludedTrialsAreThereAndMarked) {
   study_.add("P02");
   const std::int64_t trial = study_.answer({.block = "group_d", .response = 0.0});

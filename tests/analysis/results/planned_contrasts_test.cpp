@@ -103,6 +103,59 @@ TEST(PlannedContrasts, OfBlocksWithoutGroupsAreThePairedTest) {
   EXPECT_NE(one.otherwise[0].method.find("Wilcoxon"), std::string::npos);
 }
 
+TEST(PlannedContrasts, WhereAWholeGroupIsAbsentThereIsNoValueAndTheReasonIsTold) {
+  for (const char* measure : {"response_time", "weber_fraction"}) {
+    HandMadeStudy study(designed_study(fluid_contrast(
+        "", "both",
+        R"({"fluid": {"thin": 1, "thick": -1}, "priming": {"primed": 1, "control": -1}})",
+        measure)));
+    add_person(study, "P01", "primed", 7, 9, 2.0, 1.0);
+    add_person(study, "P03", "primed", 8, 9, 2.5, 1.1);
+    add_person(study, "P05", "primed", 6, 9, 2.2, 0.9);
+    const ContrastResult one = planned_contrasts(load_study(study.store())).at(0);
+    EXPECT_FALSE(one.test.effect) << measure;
+    EXPECT_FALSE(one.test.p_value) << measure;
+    EXPECT_EQ(one.test.reason, "not estimable: nobody is in the group control") << measure;
+    EXPECT_TRUE(one.otherwise.empty());
+  }
+}
+
+TEST(PlannedContrasts, WhereAConditionIsEmptyTheFitOfAllIsNone) {
+  HandMadeStudy study(designed_study(fluid_contrast("", "fluids", kFluids, "weber_fraction")));
+  for (const char* name : {"P01", "P02", "P03"}) {
+    study.add(name, false, "", "priming=primed");
+    study.compare_ten("thin_a", 7 + (name[2] - '1'));
+  }
+  for (const char* name : {"P04", "P05"}) {
+    study.add(name, false, "", "priming=control");
+    study.compare_ten("thin_a", 8);
+  }
+  const ContrastResult one = planned_contrasts(load_study(study.store())).at(0);
+  EXPECT_FALSE(one.test.effect);
+  EXPECT_TRUE(one.test.reason.starts_with("not estimable: nobody has answers in thick"))
+      << one.test.reason;
+}
+
+TEST(PlannedContrasts, AConditionWithoutAPseHasNone) {
+  HandMadeStudy study(designed_study(fluid_contrast("", "fluids", kFluids, "pse")));
+  const auto compare = [&](const std::string& block, double reference, bool tells) {
+    for (int answered = 0; answered < 10; ++answered) {
+      for (const double factor : {1.0 / 1.5, 1.5}) {
+        study.compare(block, factor * reference, reference, !tells || factor > 1.0);
+      }
+    }
+  };
+  for (const char* name : {"P01", "P02", "P03", "P04"}) {
+    study.add(name, false, "", name[2] < '3' ? "priming=primed" : "priming=control");
+    study.compare_ten("thin_a", 7 + (name[2] - '1'));
+    compare("thick_b", 16.0, /*tells=*/false);
+  }
+  const ContrastResult one = planned_contrasts(load_study(study.store())).at(0);
+  EXPECT_FALSE(one.test.effect);
+  EXPECT_TRUE(one.test.reason.starts_with("not estimable: there is no pse in thick"))
+      << one.test.reason;
+}
+
 TEST(PlannedContrasts, AnInteractionIsTheDifferenceOfBothGroups) {
   const std::vector<ContrastResult> all = of_six(
       time_contrast(kFluids) + ", " +

@@ -70,6 +70,24 @@ TEST(QuestionnaireItems, AreFoundInEveryStageAndArmInTheOrderOfTheStudy) {
   EXPECT_EQ(items[5].options, (std::vector<std::string>{"female", "male", "other"}));
 }
 
+TEST(QuestionnaireItems, AnswersAreToldApartByTheTimeThatTheirStageCame) {
+  const QuestionnaireItem item{.stage = "rest", .name = "tired", .kind = "scale"};
+  const auto row = [](std::int64_t session, std::int64_t place, const std::string& answer) {
+    return core::AnswerRow{.session = session,
+                           .stage = "rest",
+                           .item = "tired",
+                           .answer = answer,
+                           .stage_index = place};
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(answers_by_time({row(1, 2, "3"), row(1, 4, ""), row(1, 6, "5")}, item),
+            (Texts{"3", "", "5"}));
+  EXPECT_EQ(answers_by_time({row(1, 2, "3"), row(1, 4, "4"), row(2, 3, "5")}, item),
+            (Texts{"5", "4"}))
+      << "of the last session";
+  EXPECT_EQ(answers_by_time({}, item), Texts{});
+}
+
 TEST(QuestionnaireItems, TheLastVersionOfAStudyIsInForce) {
   auto items = questionnaire_items(asked_study());
   merge_items(items, {{.stage = "form", .name = "safety", .kind = "scale", .num_steps = 7},
@@ -263,6 +281,30 @@ TEST(QuestionnaireResults, AStudyWithoutQuestionsHasNoSuchSection) {
   const StudyResults results =
       results_of(load_study(study.store()), {}, {.num_resamples = 100});
   EXPECT_EQ(std::ranges::count(results.sections, "questionnaires", &ResultsSection::name), 0);
+}
+
+TEST(QuestionnaireResults, EachTimeOfAQuestionnaireThatCameSeveralTimesIsTold) {
+  StudyData data;
+  data.items = {{.stage = "rest",
+                 .name = "tired",
+                 .kind = "scale",
+                 .question = "Tired?",
+                 .num_steps = 7}};
+  for (const int first : {1, 3}) {
+    data.participants.push_back({.participant = "P0" + std::to_string(first)});
+    for (int time = 0; time < 3; ++time) {
+      data.participants.back().answers.push_back({.session = first,
+                                                  .stage = "rest",
+                                                  .item = "tired",
+                                                  .answer = std::to_string(first + time),
+                                                  .stage_index = 2 * time + first});
+    }
+  }
+  const ResultsSection section = questionnaire_results(data).value();
+  EXPECT_EQ(value_of(section, "questionnaire.tired.time_1"), 2.0);
+  EXPECT_EQ(value_of(section, "questionnaire.tired.time_2"), 3.0);
+  EXPECT_EQ(value_of(section, "questionnaire.tired.time_3"), 4.0);
+  EXPECT_EQ(section.participants.size(), 6U);
 }
 
 }  // namespace questionnaire_results_test

@@ -63,6 +63,26 @@ TEST(PermutationTest, OfFourDifferencesOfOneSignIsTwoOfSixteen) {
   EXPECT_EQ(found.estimate, 2.0);
 }
 
+TEST(PermutationTest, DifferencesThatAreAllAlikeAreTheClearestThereAre) {
+  const Comparison found = permutation_test({2, 3, 4, 5}, {1, 2, 3, 4});
+  EXPECT_EQ(found.status, FitStatus::kOk);
+  EXPECT_NEAR(*found.p_value, 2.0 / 16.0, 1e-15);
+  EXPECT_EQ(found.estimate, 1.0);
+  EXPECT_EQ(found.reason, "");
+  const Comparison rounded = permutation_test({1.1, 2.1, 3.1}, {1.0, 2.0, 3.0});
+  EXPECT_NEAR(*rounded.p_value, 2.0 / 8.0, 1e-15) << "alike but for rounding";
+  EXPECT_EQ(*permutation_test({1, 2}, {1, 2}).p_value, 1.0) << "no difference at all";
+  EXPECT_EQ(permutation_test({2}, {1}).status, FitStatus::kDegenerate) << "one pair";
+}
+
+TEST(GroupPermutationTest, GroupsWhoseValuesAreAllAlikeAreTheClearestThereAre) {
+  const Comparison found = group_permutation_test({5, 5, 5}, {1, 1, 1});
+  EXPECT_EQ(found.status, FitStatus::kOk);
+  EXPECT_NEAR(*found.p_value, 2.0 / 20.0, 1e-15);
+  EXPECT_EQ(found.estimate, 4.0);
+  EXPECT_EQ(group_permutation_test({5}, {1, 1}).status, FitStatus::kDegenerate);
+}
+
 TEST(PermutationTest, OfManyPairsIsDrawnAndNearTheTTest) {
   Values a, b(40, 0.0);
   for (int i = 0; i < 40; ++i) a.push_back(std::sin(i * 1.7) + 0.25);

@@ -64,6 +64,23 @@ TEST_F(LookTest, SaysGoOnAndNothingElseUntilThereAreEnoughPeople) {
   }
 }
 
+TEST_F(LookTest, ASessionThatIsWhollySetAsideBringsNoLookNearer) {
+  simulate(6, "5");
+  {
+    core::StudyStore store(path("s.study"), core::StudyStore::Mode::kReadWrite);
+    auto sequence = static_cast<std::int64_t>(store.events(3).size());
+    for (const core::TrialRow& row : store.trials(3)) {
+      store.append({.event = {.session = 3,
+                              .sequence = ++sequence,
+                              .kind = "trial_excluded",
+                              .trial = row.trial,
+                              .data = R"({"reason":"fire alarm"})"}});
+    }
+  }
+  EXPECT_TRUE(look().starts_with("Go on: 5 of at most 14"));
+  EXPECT_TRUE(opened("s.study").looks().empty());
+}
+
 TEST_F(LookTest, StopsWhereAnEffectIsLargeAndShowsAdjustedResultsThen) {
   simulate(7, "5");
   EXPECT_EQ(look(),

@@ -52,9 +52,10 @@ TEST_F(DoubtedAnswerTest, AMagnitudeThatIsMistypedIsNotStoredBeforeItIsConfirmed
   EXPECT_EQ(row.response, 99999.0);
   EXPECT_NEAR(row.measures.response_time_s.value(), 10.0, 0.1)
       << "the time of the answer, not of its confirmation";
+  const std::string about = "asked about the answer 99999 to trial " + std::to_string(trial) +
+                            " (more than 1000 %): ";
   EXPECT_EQ(texts_of("note_added", "text"),
-            std::vector<std::string>{"asked about the answer 99999 to trial " +
-                                     std::to_string(trial) + " (more than 1000 %): stored"});
+            (std::vector<std::string>{about + "not confirmed yet", about + "stored"}));
   session_.reset();
   EXPECT_TRUE(core::verify(*store_).problems.empty());
 }
@@ -106,6 +107,24 @@ TEST_F(DoubtedAnswerTest, WhatIsPausedOrStoppedMeanwhileIsToldWithTheAnswer) {
   EXPECT_EQ(texts_of("attempt_discarded", "reason").back(),
             "fault: emergency_stop; the answer was 6000");
   EXPECT_TRUE(store_->trials(session_number_).empty());
+}
+
+TEST_F(DoubtedAnswerTest, AnAnswerThatNobodyConfirmedIsInTheLogAlsoWhereTheProgramDies) {
+  begin_estimation();
+  std::int64_t trial = feel(10.0);
+  act(operate::Answer{trial, 5000.0});
+  EXPECT_EQ(texts_of("note_added", "text").back(),
+            "asked about the answer 5000 to trial " + std::to_string(trial) +
+                " (more than 1000 %): not confirmed yet");
+  reopen();  // Without any farewell, as if it was killed.
+  EXPECT_TRUE(store_->trials(session_number_).empty());
+  act(operate::Begin{"repeat"});
+  trial = feel(10.0);
+  act(operate::Answer{trial, 6000.0});
+  act(operate::EndEarly{"enough"});
+  EXPECT_EQ(texts_of("note_added", "text").back(),
+            "asked about the answer 6000 to trial " + std::to_string(trial) +
+                " (more than 1000 %): not stored, for nobody confirmed it");
 }
 
 TEST_F(DoubtedAnswerTest, AnAnswerInTimeIsNotMissedWhileItIsAskedAbout) {

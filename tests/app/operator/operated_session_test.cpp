@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "app/operator/operated_session.h"
 
 #include <algorithm>
@@ -96,6 +98,98 @@ TEST_F(OperatedSessionTest, NoAnswerIsLostToAPauseThatCameWhileTheMediumStillCha
   EXPECT_EQ(view().step, Step::kPaused);
   EXPECT_EQ(store_->trials(session_number_).back().trial, trial);
   EXPECT_EQ(store_->trials(session_number_).back().response, 1.0);
+}
+
+std::vector<std::string> notes_in(const core::StudyStore& store, std::int64_t session) {
+  std::vector<std::string> all;
+  for (const core::EventRow& event : store.events(session)) {
+    if (event.kind != "note_added") continue;
+    all.push_back(nlohmann::json::parse(event.data).at("text").get<std::string>());
+  }
+  return all;
+}
+
+TEST_F(OperatedSessionTest, APauseDropsNothingThatSomebodyWroteWhileTheMediumStillChanged) {
+  open();
+  const std::int64_t trial = run_to_block("comparison").trial->trial;
+  answer_trial(view(), 1.0);
+  pass(1.0);
+  act(operate::Present{trial + 1, "reference"});
+  pass(0.5);
+  session_->request(operate::Present{trial + 1, "test"});
+  session_->request(operate::Present{trial + 1, "reference"});
+  session_->request(operate::AddNote{"a door slammed"});
+  session_->request(operate::Correct{trial, 0.0, "misheard"});
+  session_->request(operate::ReportAdverseEvent{"a pinched finger"});
+  session_->request(operate::Pause{"a cough"});
+  pass(0.02);
+  EXPECT_EQ(view().step, Step::kPaused);
+  EXPECT_EQ(notes_in(*store_, session_number_), std::vector<std::string>{"a door slammed"});
+  EXPECT_EQ(store_->trials(session_number_).back().response, 0.0);
+  ASSERT_EQ(store_->adverse_events().size(), 1U);
+  EXPECT_EQ(store_->adverse_events()[0].text, "a pinched finger");
+}
+
+TEST_F(OperatedSessionTest, AnUndoOfAnAnswerThatStillWaitsDropsNothingElse) {
+  open();
+  const std::int64_t trial = run_to_block("comparison").trial->trial;
+  answer_trial(view(), 1.0);
+  pass(1.0);
+  act(operate::Present{trial + 1, "reference"});
+  pass(0.5);
+  session_->request(operate::Present{trial + 1, "test"});
+  session_->request(operate::Answer{trial + 1, 1.0});
+  session_->request(operate::Correct{trial, 0.0, "misheard"});
+  session_->request(operate::AddNote{"a door slammed"});
+  session_->request(operate::Undo{"too fast"});
+  pass(0.2);
+  EXPECT_EQ(view().trial->trial, trial + 1) << "it waits for another answer";
+  EXPECT_EQ(store_->trials(session_number_).back().response, 0.0) << "corrected";
+  EXPECT_EQ(notes_in(*store_, session_number_),
+            (std::vector<std::string>{
+                "a door slammed", "an answer to trial " + std::to_string(trial + 1) +
+                                      " was taken back before it was stored (too fast); the "
+                                      "answer was 1"}));
+}
+
+TEST_F(OperatedSessionTest, ANoteWaitsForNoRamp) {
+  open();
+  const std::int64_t trial = run_to_block("comparison").trial->trial;
+  act(operate::Present{trial, "reference"});
+  pass(0.5);
+  session_->request(operate::Present{trial, "test"});
+  session_->request(operate::Answer{trial, 1.0});
+  session_->request(operate::AddNote{"a door slammed"});
+  pass(0.01);
+  EXPECT_EQ(notes_in(*store_, session_number_).size(), 1U) << "a crash would cost it";
+  EXPECT_EQ(view().step, Step::kPresenting) << "the answer waits";
+}
+
+TEST_F(OperatedSessionTest, WhatIsWrittenBehindTheEndOrTheLeavingIsStored) {
+  open();
+  run_to_block("comparison");
+  session_->request(operate::Leave{});
+  session_->request(operate::AddNote{"will come again"});
+  session_->request(operate::ReportAdverseEvent{"dizzy"});
+  pass(0.02);
+  EXPECT_TRUE(session_->over());
+  session_->request(operate::AddNote{"called back"});
+  session_->keep_what_was_written();
+  EXPECT_EQ(notes_in(*store_, session_number_),
+            (std::vector<std::string>{"will come again", "called back"}));
+  EXPECT_EQ(store_->adverse_events().size(), 1U);
+}
+
+TEST_F(OperatedSessionTest, WhatCannotBeStoredBecauseTheDiskIsGoneIsTold) {
+  open();
+  run_to_block("comparison");
+  std::filesystem::rename(folder_, folder_.parent_path() / "elsewhere.study");
+  answer_trial(view(), 1.0);
+  session_->request(operate::AddNote{"a door slammed"});
+  pass(0.1);
+  EXPECT_EQ(view().step, Step::kFailed);
+  EXPECT_NE(view().fault.find("not stored: “a door slammed”"), std::string::npos)
+      << view().fault;
 }
 
 TEST_F(OperatedSessionTest, ANoteNeedsWords) {

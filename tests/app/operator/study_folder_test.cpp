@@ -93,6 +93,25 @@ TEST(StudyFolder, CountsWhoIsDoneAndWhoIsNot) {
   EXPECT_EQ(study.sessions[3].device, "lumped");
 }
 
+TEST(StudyFolder, WhoseEveryAnswerIsSetAsideIsNotDone) {
+  SimulatedStudy made;
+  made.simulate(2);
+  {
+    core::StudyStore store(made.folder(), core::StudyStore::Mode::kReadWrite);
+    auto sequence = static_cast<std::int64_t>(store.events(2).size());
+    for (std::int64_t trial = 1; trial <= kTinyTrials; ++trial) {
+      store.append({.event = {.session = 2,
+                              .sequence = ++sequence,
+                              .kind = "trial_excluded",
+                              .trial = trial,
+                              .data = R"({"reason":"fire alarm"})"}});
+    }
+  }
+  const StudyFolder study = open_study_folder(made.folder());
+  EXPECT_EQ(study.num_participants_done, 1);
+  EXPECT_EQ(study.sessions.at(1).status, Status::kCompleted) << "it stays in the list";
+}
+
 TEST(StudyFolder, APilotIsNobodyDone) {
   SimulatedStudy made;
   made.simulate(1, /*record=*/false, /*pilot=*/true);

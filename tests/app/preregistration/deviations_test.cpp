@@ -30,6 +30,7 @@ struct Conducted {
   std::string last_ends = "session_completed";  ///< "" leaves the last one open.
   bool first_comes_again = false;
   bool sets_a_trial_aside = false;
+  bool sets_all_aside = false;  ///< The session's other one as well.
   bool unblinds = false;
   AnalysisChoices choices{};
 };
@@ -85,34 +86,40 @@ class Folder {
                             .program_version = run.version.empty() ? version_ : run.version,
                             .rate_hz = 1000.0,
                             .started_time_ns = run.started_ns});
-    core::Commit drawn = event(session, "trials_drawn", run.started_ns);
-    drawn.design.push_back({.session = session,
-                            .trial = 1,
-                            .block = "thin_a",
-                            .procedure = "constant_stimuli",
-                            .quantity = "viscosity_pa_s",
-                            .intensity = 6.0});
-    store_.append(drawn);
-    core::Commit answered = event(session, "trial_answered", run.started_ns + 10);
-    answered.event.trial = 1;
-    answered.trial = core::TrialRow{.session = session,
-                                    .trial = 1,
-                                    .attempt = 1,
-                                    .sequence = sequence_,
-                                    .block = "thin_a",
-                                    .procedure = "constant_stimuli",
-                                    .quantity = "viscosity_pa_s",
-                                    .intensity = 6.0,
-                                    .reference_intensity = 4.0,
-                                    .response = 1.0};
-    store_.append(answered);
+    for (const std::int64_t trial : {1, 2}) {
+      core::Commit drawn = event(session, "trials_drawn", run.started_ns);
+      drawn.design.push_back({.session = session,
+                              .trial = trial,
+                              .block = "thin_a",
+                              .procedure = "constant_stimuli",
+                              .quantity = "viscosity_pa_s",
+                              .intensity = 6.0});
+      store_.append(drawn);
+      core::Commit answered = event(session, "trial_answered", run.started_ns + 10);
+      answered.event.trial = trial;
+      answered.trial = core::TrialRow{.session = session,
+                                      .trial = trial,
+                                      .attempt = 1,
+                                      .sequence = sequence_,
+                                      .block = "thin_a",
+                                      .procedure = "constant_stimuli",
+                                      .quantity = "viscosity_pa_s",
+                                      .intensity = 6.0,
+                                      .reference_intensity = 4.0,
+                                      .response = 1.0};
+      store_.append(answered);
+    }
     if (run.unblinds && participant == "P01") {
       store_.append(event(session, "unblinded", run.started_ns + 5));
     }
     if (!end.empty()) store_.append(event(session, end, run.started_ns + 20));
-    if (!sets_aside) return;
-    core::Commit excluded = event(session, "trial_excluded", run.started_ns + 30);
-    excluded.event.trial = 1;
+    if (sets_aside) exclude(session, 1, run.started_ns + 30);
+    if (sets_aside && run.sets_all_aside) exclude(session, 2, run.started_ns + 40);
+  }
+
+  void exclude(std::int64_t session, std::int64_t trial, std::int64_t time_ns) {
+    core::Commit excluded = event(session, "trial_excluded", time_ns);
+    excluded.event.trial = trial;
     store_.append(excluded);
   }
 
@@ -233,6 +240,30 @@ TEST(Deviations, EachThatIsSeededIsFoundAndNoOther) {
     EXPECT_TRUE(found[0].topic.starts_with(one.topic)) << one.topic << "\n" << told(found);
     EXPECT_NE(found[0].planned, found[0].found);
   }
+}
+
+TEST(Deviations, ASessionThatIsWhollySetAsideCountsNowhereElse) {
+  // A fifth one, which did not come to its end.
+  Conducted run = as_planned();
+  run.num_participants = 5;
+  run.sets_a_trial_aside = run.sets_all_aside = true;
+  run.last_ends = "session_ended_early";
+  EXPECT_EQ(told(Folder(run).deviations({})),
+            "exclusions: none -> 2 trials set aside by hand, of P05\n");
+  run = as_planned();
+  run.sets_a_trial_aside = run.sets_all_aside = true;
+  EXPECT_NE(told(Folder(run).deviations({})).find("4 complete sessions -> 3 complete sessions"),
+            std::string::npos);
+}
+
+TEST(Deviations, WhatTheAnalysisLeavesOutWasNotSetAsideByHand) {
+  Folder folder(as_planned());
+  analysis::StudyData data = analysis::load_study(folder.store());
+  analysis::ParticipantData& first = data.participants.at(0);
+  first.left_out["thin_a"] = "thin_a: answers the wrong way round";
+  std::ranges::move(first.trials, std::back_inserter(first.excluded_trials));
+  first.trials.clear();
+  EXPECT_TRUE(preregistered_study(folder.store(), data, {}).deviations.empty());
 }
 
 TEST(Deviations, ResultsThatWereUnsealedBeforeTheEndAreTold) {

@@ -11,6 +11,7 @@
 #include "app/command_line/command.h"
 #include "app/session_content.h"
 #include "app/tiny_study.h"
+#include "core/clock.h"
 #include "core/error.h"
 #include "experiments/participants/thesis_laboratory.h"
 #include "experiments/protocol/study_reader.h"
@@ -45,6 +46,18 @@ TEST_F(SessionSetupTest, EverySessionHasASeedOfItsOwnAndEverythingNeededToRepeat
     EXPECT_EQ(row.rate_hz, 1000.0);
     EXPECT_NE(row.program_version, "");
   }
+}
+
+TEST_F(SessionSetupTest, ASessionInRealTimeKeepsWhenItBeganAndASimulatedOneCountsFromZero) {
+  const std::int64_t before_ns = core::SystemClock().now_ns();
+  SessionSetup real = setup();
+  real.realtime = true;
+  (void)add_sessions(store_, real, {"P01"});
+  (void)add_sessions(store_, setup(), {"P02"});
+  const std::vector<core::SessionRow> rows = store_.sessions();
+  EXPECT_GE(rows.at(0).started_time_ns, before_ns);
+  EXPECT_LE(rows.at(0).started_time_ns, core::SystemClock().now_ns());
+  EXPECT_EQ(rows.at(1).started_time_ns, 0);
 }
 
 TEST_F(SessionSetupTest, AKnownParticipantIsRefusedBeforeAnySessionIsAdded) {

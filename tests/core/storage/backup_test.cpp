@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "core/storage/backup_mark.h"
+#include "core/storage/database.h"
 #include "core/storage/kept_study.h"
 #include "core/storage/old_study.h"
+#include "core/storage/schedule.h"
 #include "core/storage/withdrawal.h"
 #include "support/files.h"
 
@@ -108,6 +112,99 @@ TEST_F(BackupTest, ACopyThatHoldsMoreThanTheStudyIsLeftAsItIs) {
     store.append({.event = {.session = 3, .sequence = 8, .kind = "note_added"}});
   }
   EXPECT_THROW((void)back_up(kept_.folder(), kept_.beside("second"), 11), Error);
+}
+
+/// Of a study whose only difference to its copy is what `change` did to it.
+void expect_the_copy_is_refused_as_source(const KeptStudy& kept, const fs::path& copy,
+                                          const std::string& found,
+                                          const std::function<void(StudyStore&)>& change) {
+  {
+    StudyStore store(kept.folder(), StudyStore::Mode::kReadWrite);
+    change(store);
+  }
+  const std::string before = read_file(kept.folder() / "study.sqlite");
+  try {
+    (void)back_up(copy, kept.folder(), 9);
+    ADD_FAILURE() << "overwritten: " << found;
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("found " + found + " that the study does not"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(read_file(kept.folder() / "study.sqlite"), before);
+  EXPECT_NO_THROW((void)back_up(kept.folder(), copy, 9)) << "the right way round";
+}
+
+TEST_F(BackupTest, TheWrongWayRoundOverwritesNoRowThatTheCopyLacks) {
+  (void)back_up_now();
+  const auto expect_refused = [this](const std::string& found,
+                                     const std::function<void(StudyStore&)>& change) {
+    expect_the_copy_is_refused_as_source(kept_, copy(), found, change);
+  };
+  expect_refused("an adverse event",
+                 [](StudyStore& store) { store.add_adverse_event(1, 5, "a fright"); });
+  expect_refused("a look at the study", [](StudyStore& store) {
+    store.add_look({.look = 1, .decision = "go_on", .sessions = {1}});
+  });
+  expect_refused("an unsealing", [](StudyStore& store) {
+    store.add_unsealing({.time_ns = 6, .num_complete = 1, .reason = "a visit"});
+  });
+  expect_refused("an unblinding",
+                 [](StudyStore& store) { store.add_unblinding(7, "a visit"); });
+  expect_refused("a study file",
+                 [](StudyStore& store) { (void)store.add_protocol("y.json", "{ }"); });
+  expect_refused("a session", [](StudyStore& store) {
+    (void)store.add_session(
+        {.participant = "P08", .protocol_sha256 = store.protocols()[0].sha256});
+  });
+}
+
+TEST_F(BackupTest, ACopyOfSomebodyWhoWithdrewSinceIsStillAnEarlierOne) {
+  add_appointment(kept_.folder(), "P07", 1000, 5);
+  (void)back_up_now();
+  fs::rename(copy(), kept_.beside("away"));
+  (void)withdraw(kept_.folder(), "P01", 6);
+  (void)withdraw(kept_.folder(), "P07", 7);
+  fs::rename(kept_.beside("away"), copy());
+  EXPECT_NO_THROW((void)back_up_now());
+}
+
+TEST_F(BackupTest, ALaterCopyKnowsWhichTicksNeverRanAndTheFormatOfItsChunks) {
+  (void)back_up_now();
+  {
+    RecordingWriter writer(kept_.recording(1), 1000.0, Durability::kAtClose);
+    Sample sample;
+    sample.tick = 1010;
+    sample.num_missed_before = 10;
+    sample.monotonic_ns = 5'000'000;
+    writer.append(sample);
+    writer.flush();
+  }
+  const BackupReport report = back_up_now();
+  EXPECT_TRUE(report.integrity.complete);
+  const RecordingReader study(kept_.recording(1));
+  const RecordingReader later(copy() / "recordings" / "0001.sqlite");
+  ASSERT_EQ(study.missed().size(), 1U);
+  EXPECT_EQ(later.missed(), study.missed());
+  EXPECT_TRUE(later.has_times());
+  EXPECT_EQ(later.missing_ticks(), study.missing_ticks());
+}
+
+TEST_F(BackupTest, ARecordingOfANewerFormatIsRefused) {
+  (void)back_up_now();
+  {
+    Database recording(kept_.recording(1), Database::Mode::kReadWrite,
+                       Durability::kEveryCommit);
+    recording.execute("UPDATE recording_format SET version = 99");
+  }
+  try {
+    (void)back_up_now();
+    ADD_FAILURE() << "copied";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("found 99; open it with a newer jnd"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST_F(BackupTest, AnEarlierCopyStaysWholeWhenALaterOneFails) {

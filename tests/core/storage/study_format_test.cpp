@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/clock.h"
 #include "core/storage/acknowledgement.h"
 #include "core/storage/backup.h"
 #include "core/storage/export_note.h"
@@ -121,9 +122,23 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
       EXPECT_EQ(store.trials(9)[0].measures.control, "0c45:7403 FootSwitch/KEY_B");
       EXPECT_EQ(store.trials(9)[0].measures.control_monotonic_s, 241.5);
     }
-    EXPECT_THAT(appointments(store.folder()), IsEmpty());
-    EXPECT_THAT(acknowledgements(store.folder()), IsEmpty());
-    EXPECT_EQ(planned_number(store.folder()), std::nullopt);
+    EXPECT_EQ(appointments(store.folder()).size(), has(13) ? 1U : 0U);
+    EXPECT_EQ(acknowledgements(store.folder()).size(), has(13) ? 1U : 0U);
+    EXPECT_EQ(planned_number(store.folder()),
+              has(13) ? std::optional<std::int64_t>(12) : std::nullopt);
+    if (has(13)) expect_both_times_of_a_stage(store);
+  }
+
+  static void expect_both_times_of_a_stage(const StudyStore& store) {
+    EXPECT_EQ(store.session(10).started_time_ns, 260 * kNsPerS) << "that of its first event";
+    const std::vector<AnswerRow> answers = store.answers(10);
+    ASSERT_EQ(answers.size(), 3U);
+    EXPECT_EQ(answers[0].item, "sex");
+    EXPECT_FALSE(answers[0].stage_index);
+    EXPECT_EQ(answers[1].answer, "2");
+    EXPECT_EQ(answers[1].stage_index, 0);
+    EXPECT_EQ(answers[2].answer, "5") << "corrected while the stage went on";
+    EXPECT_EQ(answers[2].stage_index, 1);
   }
 
   static void expect_adaptive_trials(const StudyStore& store) {

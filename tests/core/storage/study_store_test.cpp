@@ -48,6 +48,72 @@ class StudyStoreTest : public ::testing::Test {
   test_support::TemporaryFolder temporary_;
 };
 
+TEST_F(StudyStoreTest, ASessionWithoutAKeptStartBeganWithItsFirstEvent) {
+  const auto store = with_session();
+  EXPECT_EQ(store->session(1).started_time_ns, 0) << "nothing has happened";
+  Commit first = event(1, "session_started");
+  first.event.time_ns = 5000;
+  store->append(first);
+  Commit second = event(2);
+  second.event.time_ns = 9000;
+  store->append(second);
+  EXPECT_EQ(store->session(1).started_time_ns, 5000);
+  EXPECT_EQ(store->sessions().at(0).started_time_ns, 5000);
+  const std::int64_t other =
+      store->add_session({.participant = "P02",
+                          .protocol_sha256 = store->session(1).protocol_sha256,
+                          .started_time_ns = 4000});
+  Commit later = event(1, "session_started");
+  later.event.session = other;
+  later.event.time_ns = 6000;
+  store->append(later);
+  EXPECT_EQ(store->session(other).started_time_ns, 4000) << "kept";
+}
+
+TEST_F(StudyStoreTest, ASessionCountsUntilEveryAnswerInItIsSetAside) {
+  const auto store = with_session();
+  const auto excluded = [](std::int64_t sequence, std::int64_t trial, const char* kind) {
+    Commit commit = event(sequence, kind);
+    commit.event.trial = trial;
+    return commit;
+  };
+  store->append(answered(1, 1, 1.0));
+  store->append(answered(2, 2, 0.0));
+  store->append(event(3, "session_completed"));
+  EXPECT_TRUE(store->overview().at(0).counts());
+  store->append(excluded(4, 1, "trial_excluded"));
+  EXPECT_TRUE(store->overview().at(0).counts());
+  store->append(excluded(5, 2, "trial_excluded"));
+  EXPECT_TRUE(store->overview().at(0).is_set_aside);
+  EXPECT_FALSE(store->overview().at(0).counts());
+  EXPECT_TRUE(store->overview().at(0).completed);
+  store->append(excluded(6, 2, "trial_included"));
+  EXPECT_TRUE(store->overview().at(0).counts());
+}
+
+TEST_F(StudyStoreTest, AStageThatCameSeveralTimesHasItsAnswersOfEachTime) {
+  const auto store = with_session();
+  for (std::int64_t sequence = 1; sequence <= 4; ++sequence) {
+    Commit commit = event(sequence, "item_answered");
+    // The third time is corrected.
+    const std::int64_t stage = std::min<std::int64_t>(sequence, 3) * 2;
+    commit.answers.push_back({.session = 1,
+                              .sequence = sequence,
+                              .stage = "rest",
+                              .item = "tired",
+                              .answer = std::to_string(sequence),
+                              .stage_index = stage});
+    store->append(commit);
+  }
+  const std::vector<AnswerRow> answers = store->answers(1);
+  ASSERT_EQ(answers.size(), 3U);
+  EXPECT_EQ(answers[0].answer, "1");
+  EXPECT_EQ(answers[0].stage_index, 2);
+  EXPECT_EQ(answers[1].answer, "2");
+  EXPECT_EQ(answers[2].answer, "4");
+  EXPECT_EQ(answers[2].stage_index, 6);
+}
+
 TEST_F(StudyStoreTest, KeepsEventsAcrossReopeningColumnByColumn) {
   {
     const auto store = with_session();

@@ -222,5 +222,31 @@ TEST(Limits, RefusesARuleThatCannotRun) {
   EXPECT_THROW((void)limits.after({{kUp, 0}}, {{std::nan(""), true}}), core::Error);
 }
 
+TEST(Limits, AnAnswerBehindTheEndOfItsSeriesIsOfNoOther) {
+  const Limits limits(six_levels());
+  const std::vector<PlannedSeries> plan = {{kUp, 0}, {kDown, 5}};
+  // Up: 3 was corrected to yes, after which 4 was presented nevertheless.
+  const std::vector<LevelAnswer> up = {{1, false}, {2, false}, {3, true}, {4, true}};
+  const LimitsState waiting = limits.after_series(plan, {up, {{6, true}, {5, true}}});
+  EXPECT_EQ(waiting.num_after_end, 1);
+  EXPECT_EQ(waiting.next_level, 4.0) << "of the falling series";
+  EXPECT_EQ(waiting.series.at(0).transition, 2.5);
+  const LimitsState done =
+      limits.after_series(plan, {up, {{6, true}, {5, true}, {4, false}, {3, false}}});
+  EXPECT_TRUE(done.is_finished());
+  EXPECT_EQ(done.num_after_end, 2);
+  EXPECT_EQ(done.series.at(1).transition, 4.5);
+  EXPECT_EQ(limits.after_series(plan, {up}).next_level, 6.0) << "where the next one begins";
+}
+
+TEST(Limits, ASeriesThatACorrectionLeftWithoutAnEndHasNoTransition) {
+  const Limits limits(six_levels());
+  const LimitsState state =
+      limits.after_series({{kUp, 0}, {kDown, 5}}, {{{1, false}, {2, false}}, {{6, true}}});
+  EXPECT_EQ(state.series.at(0).transition, std::nullopt);
+  EXPECT_EQ(state.next_level, 5.0) << "the session goes on with the one that is under way";
+  EXPECT_EQ(state.num_after_end, 0);
+}
+
 }  // namespace method_of_limits_test
 }  // namespace jnd::experiments

@@ -188,11 +188,17 @@ TEST(Staircase, EndsAfterAsManyReversalsTrialsOrBlockedStepsAsTheRuleSays) {
   EXPECT_FALSE(staircase.after(answers_for(staircase, "nnnnnnnyynnn")).is_finished());
 }
 
-TEST(Staircase, RefusesAnswersAfterItsEnd) {
+TEST(Staircase, CountsAnswersAfterItsEndWhichDecideNothing) {
   StaircaseRule rule = one_up_two_down();
   rule.max_trials = 2;
   const Staircase staircase(rule);
-  EXPECT_THROW((void)staircase.after({{10, true}, {10, true}, {8, true}}), core::Error);
+  const StaircaseState at_end = staircase.after({{10, true}, {10, true}});
+  const StaircaseState state = staircase.after({{10, true}, {10, true}, {8, false}, {9, true}});
+  EXPECT_EQ(state.end, StaircaseEnd::kTrials);
+  EXPECT_EQ(state.num_after_end, 2);
+  EXPECT_EQ(at_end.num_after_end, 0);
+  EXPECT_EQ(state.reversals.size(), at_end.reversals.size());
+  EXPECT_EQ(state.next_level, at_end.next_level);
 }
 
 TEST(Staircase, AveragesTheLastEvenNumberOfReversals) {

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "core/random_stream.h"
+#include "experiments/adaptive/staircase.h"
+#include "experiments/procedures/adaptive_trial.h"
+#include "experiments/procedures/staircase_procedure.h"
 #include "experiments/protocol/study_reader.h"
 #include "experiments/session/session_in_memory.h"
 
@@ -127,6 +130,78 @@ TEST_F(AdaptiveSessionTest, AResumedSessionGoesOnAsAnUninterruptedOne) {
     EXPECT_EQ(resumed.state().trials[i].planned.intensity, whole.trials[i].planned.intensity);
     EXPECT_EQ(resumed.state().trials[i].is_void, whole.trials[i].is_void);
   }
+}
+
+/// Of the block's rule over the answers that the session holds.
+std::pair<bool, int> ends_and_answers_after(const Session& s, int series) {
+  const Block block = s.current_block();
+  const StaircaseState state = Staircase(staircase_rule_of(block, series))
+                                   .after(level_answers(s.state().answered_in(0), series));
+  return {state.is_finished(), state.num_after_end};
+}
+
+TEST_F(AdaptiveSessionTest, ACorrectionThatPutsTheEndBeforeAnswersLosesNoneAndTheBlockGoesOn) {
+  int num_that_moved_the_end = 0;
+  for (std::int64_t corrected = 1; corrected <= 24; ++corrected) {
+    log_.events.clear();
+    Session s = begun();
+    while (s.state().trials.size() < 30 && s.state().current_trial()) {
+      run_trial(s, level(s) > 6.0 ? 1.0 : 0.0);
+    }
+    const std::size_t num_answered = s.state().answered_in(0).size();
+    if (corrected > std::ssize(s.state().answered_in(0))) break;
+    const double response = s.state().trial(corrected).response.value();
+    ASSERT_NO_THROW(s.correct(corrected, 1.0 - response, "misheard"));
+    EXPECT_EQ(s.state().answered_in(0).size(), num_answered);
+    num_that_moved_the_end +=
+        ends_and_answers_after(s, 1).second + ends_and_answers_after(s, 2).second;
+    Session resumed = session();
+    ASSERT_NO_THROW(resumed.resume("repeat", 0, -1)) << "trial " << corrected;
+    ASSERT_NO_THROW(run_to_end(resumed)) << "trial " << corrected;
+    EXPECT_TRUE(ends_and_answers_after(resumed, 1).first);
+    EXPECT_TRUE(ends_and_answers_after(resumed, 2).first);
+    EXPECT_NO_THROW(resumed.finish_stage());
+    EXPECT_NO_THROW((void)session()) << "and is replayed";
+  }
+  EXPECT_GT(num_that_moved_the_end, 0) << "or nothing was tried";
+}
+
+TEST_F(AdaptiveSessionTest, ACorrectionThatTakesTheEndAwayDrawsTheNextTrial) {
+  int num_that_took_the_end_away = 0;
+  Session first = begun();
+  run_to_end(first);
+  const std::vector<core::EventRow> ended = log_.events;
+  for (auto corrected = std::ssize(first.state().trials); corrected >= 1; --corrected) {
+    log_.events = ended;
+    Session s = session();
+    s.correct(corrected, 1.0 - s.state().trial(corrected).response.value(), "misheard");
+    const bool has_ended =
+        ends_and_answers_after(s, 1).first && ends_and_answers_after(s, 2).first;
+    EXPECT_EQ(s.state().current_trial().has_value(), !has_ended) << "trial " << corrected;
+    num_that_took_the_end_away += has_ended ? 0 : 1;
+    run_to_end(s);
+    EXPECT_NO_THROW(s.finish_stage());
+  }
+  EXPECT_GT(num_that_took_the_end_away, 0) << "or nothing was tried";
+}
+
+TEST_F(AdaptiveSessionTest, ACorrectionAfterTheEndOfTheSessionDrawsNothing) {
+  Session s = begun();
+  run_to_end(s);
+  s.end_early("enough");
+  const std::size_t num_trials = s.state().trials.size();
+  for (auto trial = std::ssize(s.state().trials); trial > 0; --trial) {
+    s.correct(trial, 1.0 - s.state().trial(trial).response.value(), "misheard");
+  }
+  EXPECT_EQ(s.state().trials.size(), num_trials);
+}
+
+TEST_F(AdaptiveSessionTest, TheLastAnswerIsTheOneThatWasGivenLastWhateverWasCorrectedSince) {
+  Session s = begun();
+  for (int trial = 0; trial < 5; ++trial) run_trial(s, 1.0);
+  s.correct(2, 0.0, "misheard");
+  EXPECT_EQ(s.state().last_answered_trial(), 5);
+  EXPECT_FALSE(s.can_run_again(2)) << "it decided what came next";
 }
 
 }  // namespace adaptive_session_test

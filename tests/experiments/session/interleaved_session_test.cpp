@@ -372,6 +372,40 @@ TEST_P(InterleavedSessionTest, FeedbackAndCorrectionsAreThoseOfTheTrialsBlock) {
   EXPECT_THROW(s.correct(trial, 5.0, "no step of a scale"), core::Error);
 }
 
+TEST_P(InterleavedSessionTest, ACorrectionBesideAnOpenQuestionLosesNothingAndResumes) {
+  Session s = begun();
+  const auto is_open = [&s] { return s.open_question().has_value(); };
+  while (s.state().answered_in(kAdaptive).empty() || s.state().answered_in(kConstant).empty() ||
+         !is_open()) {
+    if (is_open()) s.answer_question("sure", "yes");
+    start_and_feel(s);
+    answer_trial(s);
+  }
+  const OpenQuestion open = s.open_question().value();
+  std::int64_t of_staircase = 0, of_constant = 0;
+  for (std::int64_t number = 1; number <= std::ssize(s.state().trials); ++number) {
+    const TrialState& trial = s.state().trial(number);
+    if (trial.stage == kAdaptive && trial.is_answered) of_staircase = number;
+    if (trial.stage == kConstant && trial.is_answered) of_constant = number;
+  }
+  s.correct(of_staircase, 0.0, "misheard");
+  s.correct(of_staircase, 1.0, "was right");
+  ASSERT_TRUE(is_open());
+  EXPECT_EQ(s.open_question()->trial, open.trial);
+  ASSERT_GT(of_constant, 0);
+  EXPECT_THROW(s.run_again(of_constant, "misheard"), core::Error)
+      << "the question would be lost with the turn";
+  Session resumed = session(log_.events);
+  resumed.resume("repeat", 0, -1);
+  ASSERT_TRUE(resumed.open_question().has_value());
+  EXPECT_EQ(resumed.open_question()->trial, open.trial);
+  (void)run_on(resumed);
+  for (const TrialState& trial : resumed.state().trials) {
+    if (trial.stage != kRated) continue;
+    EXPECT_EQ(trial.question_answers.size(), 1U);
+  }
+}
+
 TEST_P(InterleavedSessionTest, APlanTellsTheOrderOfBlocksWhoseLengthIsKnown) {
   Study study = study_with(GetParam());
   std::erase_if(study.stages, [](const Stage& stage) { return stage.name == "adaptive"; });

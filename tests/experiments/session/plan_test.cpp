@@ -155,7 +155,8 @@ TEST(Plan, CountsCompletedSessionsAndNeitherPilotsNorDropOuts) {
   core::StudyStore store(folder.path() / "a.study", core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);
   const std::string hash = store.add_protocol("x.json", kStudy);
-  const auto add = [&](const std::string& cells, bool pilot, std::optional<bool> ended) {
+  const auto add = [&](const std::string& cells, bool pilot, std::optional<bool> ended,
+                       bool set_aside = false) {
     core::SessionRow row;
     row.participant = "P" + std::to_string(store.sessions().size());
     row.protocol_sha256 = hash;
@@ -166,10 +167,25 @@ TEST(Plan, CountsCompletedSessionsAndNeitherPilotsNorDropOuts) {
     started.event =
         row_from_event(session, {.sequence = 1, .time_ns = 0, .data = SessionStarted{}});
     store.append(started);
+    std::int64_t sequence = 1;
+    if (set_aside) {
+      core::Commit answered{.event = {.session = session,
+                                      .sequence = ++sequence,
+                                      .kind = "trial_answered",
+                                      .trial = 1}};
+      answered.trial = core::TrialRow{
+          .session = session, .trial = 1, .attempt = 1, .sequence = sequence, .response = 1.0};
+      store.append(answered);
+      store.append({.event = {.session = session,
+                              .sequence = ++sequence,
+                              .kind = "trial_excluded",
+                              .trial = 1}});
+    }
     if (!ended) return;
     const EventData end =
         *ended ? EventData(SessionCompleted{}) : EventData(SessionEndedEarly{});
-    stopped.event = row_from_event(session, {.sequence = 2, .time_ns = 0, .data = end});
+    stopped.event =
+        row_from_event(session, {.sequence = sequence + 1, .time_ns = 0, .data = end});
     store.append(stopped);
   };
   add("o=a,b", false, true);
@@ -177,6 +193,7 @@ TEST(Plan, CountsCompletedSessionsAndNeitherPilotsNorDropOuts) {
   add("o=b,a", true, true);
   add("o=b,a", false, std::nullopt);
   add("o=a,b", false, true);
+  add("o=b,a", false, true, /*set_aside=*/true);
   EXPECT_EQ(completed_cells(store), (std::vector<std::string>{"o=a,b", "o=a,b"}));
 }
 
