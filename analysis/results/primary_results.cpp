@@ -7,10 +7,10 @@
 namespace jnd::analysis {
 namespace {
 
-/// Ends of names, after the block's.
+/// The endings of names, after the block's name.
 std::vector<std::string> primary_names(const BlockDesign& block) {
   if (block.estimates()) {
-    // Everybody's own numbers: their size means nothing.
+    // With everybody's own numbers, their size has no meaning.
     if (block.counts_in_own_numbers()) return {".a"};
     return {".k", ".a"};
   }
@@ -25,7 +25,7 @@ std::vector<std::string> primary_names(const BlockDesign& block) {
     return {".limits_threshold", ".weber_fraction_median_person"};
   }
   if (block.rule == AdaptiveRule::kLimits) return {".limits_threshold"};
-  // Of any procedure the same, as the tests between blocks have it.
+  // The primary value is the same for every procedure, as in the tests between blocks.
   if (block.compares()) return {".weber_fraction_median_person"};
   if (block.rule == AdaptiveRule::kQuestPlus) return {".quest_plus_threshold"};
   if (block.rule == AdaptiveRule::kStaircase) return {".staircase_threshold"};
@@ -43,7 +43,8 @@ bool is_primary(const std::string& name, const StudyData& data) {
   });
 }
 
-/// Names of participants' own values that stand for the primary ones, after the block's.
+/// The endings of names of the participants' own values that correspond to the primary ones,
+/// after the block's name.
 std::vector<std::string> own_primary_names(const BlockDesign& block, bool free_pse) {
   std::vector<std::string> names = primary_names(block);
   std::ranges::replace(names, std::string(".weber_fraction_median_person"),
