@@ -19,10 +19,10 @@ namespace {
 
 using namespace experiments;
 
-/// A trial that moved the procedure, and where it stands in the block.
+/// A trial that moved the procedure, with its place in the block.
 struct LevelTrial {
-  std::int64_t number = 0;  ///< In the block, from 1.
-  int series = 0;           ///< 0 where there is but one.
+  std::int64_t number = 0;  ///< The number within the block, from 1.
+  int series = 0;           ///< The series; 0 if there is only one.
   LevelAnswer answer;
   bool set_aside = false;
 };
@@ -110,7 +110,8 @@ void run_staircases(const Block& block, const std::vector<LevelTrial>& trials,
   if (!thresholds.empty()) run.threshold = mean_level(scale, thresholds);
 }
 
-/// A series as its first level tells it: each begins in its own half of the levels.
+/// The series that begins with this level. Ascending and descending series begin in different
+/// halves of the levels.
 PlannedSeries planned_series(const LimitsRule& rule, double first_level) {
   const auto start = static_cast<std::size_t>(
       std::ranges::lower_bound(rule.levels, first_level) - rule.levels.begin());
@@ -154,7 +155,8 @@ void run_quest_plus(const Block& block, const std::vector<LevelTrial>& trials,
       quest.estimates(quest.posterior(answers_of(standing)));
   run.reached_ends = reached_ends(block, estimates);
   for (std::size_t i = 0; i < estimates.size(); ++i) {
-    if (quest.rule().model.parameters[i].grid.values.size() == 1) continue;  // Taken for known.
+    // The parameter was taken as known.
+    if (quest.rule().model.parameters[i].grid.values.size() == 1) continue;
     const QuestPlusEstimate& one = estimates[i];
     run.posterior.push_back({one.name, one.mean, one.sd, one.low, one.high});
     if (!run.reached_ends.empty()) run.posterior.back().low = run.posterior.back().high = {};
@@ -166,7 +168,7 @@ struct BlockTrials {
   std::vector<bool> set_aside;
 };
 
-/// A participant's trials in a block, session by session, in their order.
+/// A participant's trials in a block, by session and in their order.
 std::map<std::int64_t, BlockTrials> trials_by_session(const ParticipantData& participant,
                                                       const std::string& block) {
   std::vector<std::pair<core::TrialRow, bool>> all;
