@@ -11,34 +11,35 @@
 
 namespace jnd::analysis {
 
-/// Times of a session's events and ticks by one clock: the monotonic clock of the machine,
-/// which streams of other recorders are corrected to. Events are stored with the time of the
-/// day; how far the two are apart is known wherever a stream was opened, and else from events
-/// whose tick is recorded. Ticks of a session in simulated time are counted from 0 at its rate,
-/// as its events are. A machine that was started anew between two parts of a session has
-/// another monotonic clock in the second: its times go on from the first by the time of the
-/// day. Not real time.
+/// Converts times of a session's events and ticks to one clock: the machine's monotonic clock,
+/// to which the streams of other recorders are corrected. Events are stored with the time of
+/// day. The difference of the two clocks is known wherever a stream was opened, and otherwise
+/// from events whose tick is recorded. Ticks of a session in simulated time are counted from 0
+/// at its rate, as its events are. If the machine was restarted between two parts of a session,
+/// its monotonic clock is a different one in the second part. Times then continue from the
+/// first part by the time of day. Not real time.
 class SessionClock {
  public:
   SessionClock(std::vector<core::EventRow> events, double rate_hz);
 
-  /// Each sample that is recorded, in the order of ticks, before anything is asked.
+  /// Takes each recorded sample, in the order of ticks, before any time is asked for.
   void take(const core::Sample& sample);
-  /// Once all were taken.
+  /// Must be called after all samples were taken.
   void finish();
 
   [[nodiscard]] double time_s(const core::Sample& sample) const;
   [[nodiscard]] double time_s(const core::EventRow& event) const;
-  /// To be added to times of the monotonic clock at this time of the day; 0 unless the machine
-  /// was started anew since the session began.
+  /// The number of seconds to add to times of the monotonic clock at this time of day. It is 0
+  /// unless the machine was restarted after the session began.
   [[nodiscard]] double shift_s(std::int64_t day_time_ns) const;
 
  private:
-  /// From one start of the program to the next.
+  /// The part of a session between two starts of the program.
   struct Part {
-    std::int64_t first_time_ns = 0;  ///< Of the day.
+    std::int64_t first_time_ns = 0;  ///< The time of day.
     std::int64_t first_tick = 0;
-    std::optional<double> day_ahead_s;  ///< Of the monotonic clock, as a stream told it.
+    /// How far the time of day is ahead of the monotonic clock, as a stream reported it.
+    std::optional<double> day_ahead_s;
     std::vector<double> ahead_by_ticks_s;
     double ahead_s = 0.0;
     double shift_s = 0.0;
@@ -49,7 +50,7 @@ class SessionClock {
   double rate_hz_;
   std::vector<core::EventRow> events_;
   std::vector<Part> parts_;
-  std::map<std::int64_t, double> tick_times_s_;  ///< Of ticks that events speak of.
+  std::map<std::int64_t, double> tick_times_s_;  ///< The times of ticks that events mention.
   bool is_simulated_ = true;
 };
 
