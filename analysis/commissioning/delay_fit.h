@@ -41,7 +41,7 @@ struct DelayFit {
 /// is the length of one push back and forth. `damping_per_gain_n_s_per_m` is the damping that
 /// `fit_force` found, divided by the gain; 0 if it is not yet known. Estimates use all windows,
 /// and intervals leave out one way after the other (jackknife). Throws `core::Error` for fewer
-/// than five windows, for windows that are not a whole number of pushes, and if the pushes do
+/// than five ways, for windows that are not a whole number of pushes, and if the pushes do
 /// not move the device.
 [[nodiscard]] DelayFit fit_delay(const std::vector<PushedWindow>& windows, double period_s,
                                  int push_ticks, double damping_per_gain_n_s_per_m);
