@@ -143,9 +143,9 @@ HierarchicalStructure structure_of(const HierarchicalArrangement& all,
     }
     parameter += 1;
   }
-  // If either interval may hold the test, people differ in their bias for an interval. A shared
-  // pse gives each person one effect of each kind. A personal pse gives each person one effect
-  // for each condition.
+  // If either interval may hold the test, people differ in their bias for an interval. The loop
+  // treats conditions without and with such orders as two kinds. A shared pse gives each person
+  // one effect for each kind, and a personal pse one effect for each condition.
   for (const bool has_orders : {false, true}) {
     bool any = false;
     for (int condition = 0; condition < num_conditions; ++condition) {

@@ -100,8 +100,8 @@ HierarchicalOptimum NestedOptima::sought(bool has_scatter, bool has_own_lapses) 
     best = better_optimum(likelihood, model, start);
   } else {
     // With a common lapse rate a person who lapses seems to have a flat curve, and people's
-    // slopes seem to differ more than they do. The second search therefore starts without the
-    // effect of either.
+    // slopes seem to differ more than they do. The second search therefore starts from an angle
+    // v of 0 and from the spreads of `start`.
     const HierarchicalOptimum& common = of(has_scatter, false);
     search_from(common, model.lapse_spread_at(), kSpread, false);
     search_from(common, model.lapse_spread_at(), kSpread, true);
