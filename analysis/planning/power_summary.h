@@ -27,7 +27,8 @@ struct PlannedPower {
 struct PlannedPrecision {
   std::int64_t num_undefined = 0;  ///< The number of runs without a value.
   std::optional<double> median;    ///< The median of the estimates over all runs.
-  std::optional<double> bias;      ///< That median minus the laboratory's true value.
+  /// The median of the estimates minus the laboratory's true value.
+  std::optional<double> bias;
   /// Half widths of the 95 % interval over participants: the median over runs, and the value
   /// below which nine runs in ten stay. They are absent if too many intervals are open.
   std::optional<double> half_width_median, half_width_90;
