@@ -47,8 +47,8 @@ class FigureChapters {
     }
   }
 
-  /// Writes all figures of this section of the results except the first, which the report has.
-  /// For "" it writes those that belong to no section.
+  /// Writes the figures of this section of the results, without the first one if the report
+  /// shows it. The section "" holds the figures that belong to no other one.
   void write_others_of(const std::string& section) {
     bool is_first = true;
     for (std::size_t i = 0; i < figures_.size(); ++i) {
