@@ -43,7 +43,7 @@ std::int64_t num_stimuli(const Rows& rows) {
 }
 
 /// Whether anybody has this measure. A device whose points move as one gives no finger lag, and
-/// neither do recordings of layout 2.
+/// neither does a study whose database has layout 2.
 bool anyone_has(const StudyData& data,
                 std::optional<double> core::PresentationMeasures::*value) {
   if (value != &core::PresentationMeasures::finger_lag_s) return true;

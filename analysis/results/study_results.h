@@ -87,8 +87,8 @@ struct NamedComparison {
   /// + w)". "" if the test is not about logarithms.
   std::string ratio_of{};
 
-  /// That ratio, which is 1 without an effect, and its 95 % interval. Rank tests use Hodges and
-  /// Lehmann's estimate.
+  /// The ratio that `ratio_of` names, which is 1 without an effect, and its 95 % interval. Rank
+  /// tests use Hodges and Lehmann's estimate.
   [[nodiscard]] std::optional<double> ratio() const;
   [[nodiscard]] Interval ratio_ci95() const;
 };
