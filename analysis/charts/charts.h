@@ -18,7 +18,7 @@ namespace jnd::analysis {
 [[nodiscard]] std::vector<ChartSet> matching_charts(const FigureSource& source);
 /// Answers of yes-no and same-different blocks with their curves.
 [[nodiscard]] std::vector<ChartSet> threshold_charts(const FigureSource& source);
-/// Levels of adaptive blocks over the trials, reversals marked.
+/// Levels of adaptive blocks over the trials, with reversals marked.
 [[nodiscard]] std::vector<ChartSet> track_charts(const FigureSource& source);
 
 /// Response times over the stimuli of blocks whose study file lists them.

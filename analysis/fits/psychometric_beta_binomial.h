@@ -21,8 +21,8 @@ struct BetaBinomialFit {
   /// The standard error of w, from the observed information. Parameters on their bound 0 are
   /// held there.
   std::optional<double> standard_error;
-  Interval weber_fraction_ci95;  ///< The likelihood-ratio interval, with everything
-                                 ///< else at its optimum.
+  /// The likelihood-ratio interval, with everything else at its optimum.
+  Interval weber_fraction_ci95;
   /// The same for the pse. It is absent if the pse is not free.
   std::optional<Interval> pse_ci95;
 };

@@ -180,13 +180,12 @@ struct HierarchicalFit {
   /// the median person.
   std::optional<double> lapse_rate;
   // The following are present if a profile of the lapse rate was computed.
-  Interval lapse_rate_ci95;  ///< The profile-likelihood interval from the
-                             ///< answers alone.
+  Interval lapse_rate_ci95;  ///< The profile-likelihood interval from the answers alone.
   /// The same interval with the prior. `weber_fraction_ci95` covers all lapse rates in it.
   Interval lapse_rate_with_prior_ci95;
-  std::optional<double> lapse_rate_without_prior;  ///< The lapse rate that the answers alone
-                                                   ///< make most likely.
-  double guess_rate = 0.0;                         ///< The guess rate that was given.
+  /// The lapse rate that the answers alone make most likely.
+  std::optional<double> lapse_rate_without_prior;
+  double guess_rate = 0.0;  ///< The guess rate that was given.
   /// The correlation of people's deviations in two conditions.
   std::optional<double> correlation;
   std::vector<HierarchicalDifference>

@@ -140,8 +140,8 @@ std::string to_text(const PredictivePeople& people) {
     }
   }
   std::string text = header_of(people).dump(2);
-  text.resize(text.size() - 2);  // Removes the final "
-                                 // }", because two more keys follow.
+  // The final "\n}" is removed, because two more keys follow.
+  text.resize(text.size() - 2);
   return text + ",\n  \"columns\": " + columns.dump() + ",\n  \"people\": [" + rows +
          "\n  ]\n}\n";
 }

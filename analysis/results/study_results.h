@@ -130,8 +130,7 @@ struct LevelLoss {
   bool is_catch = false;
   int num_drawn = 0, num_answered = 0, num_set_aside = 0;
   // Numbers of trials, each counted in every field that applies:
-  int num_repeated = 0;    ///< Run again because an answer was taken back or an attempt was
-                           ///< given up.
+  int num_repeated = 0;    ///< The trial was run again after an undone answer or attempt.
   int num_discarded = 0;   ///< An attempt was given up because it was interrupted or invalid.
   int num_faulted = 0;     ///< The loop latched a fault during the trial.
   int num_limited = 0;     ///< The limiter changed the force of a stimulus.
