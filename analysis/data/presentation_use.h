@@ -25,8 +25,8 @@ struct PresentationUse {
   }
 };
 
-/// The uses by block, interval and level. Free space between stimuli is left out. Not real
-/// time.
+/// The uses by block, interval and level. Free space between stimuli is left out.
+/// Not real time.
 [[nodiscard]] std::vector<PresentationUse> presentation_uses(const StudyData& data);
 
 /// Whether width and speed of this presentation are used.

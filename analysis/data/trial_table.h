@@ -72,8 +72,8 @@ class UnknownColumn : public core::Error {
 };
 
 /// Reads the file as `read_rows` does, and answers as `counted_answers` does. Throws
-/// `UnknownColumn` if a variable is no column, and `core::Error` for every other problem. Not
-/// real time.
+/// `UnknownColumn` if a variable is no column, and `core::Error` for every other problem.
+/// Not real time.
 [[nodiscard]] TrialTable read_trial_table(const std::filesystem::path& file,
                                           const TrialColumns& columns);
 

@@ -30,8 +30,8 @@ inline constexpr char kTextsOfTables[] =
 /// Writes one table, independent of the locale: "." decimals, and the shortest digits that read
 /// back as the same number. A text that a spreadsheet would run as a formula gets an apostrophe
 /// before it. So does such a text that already begins with apostrophes, so that removing the
-/// first one is always right. Throws `Error` that names the file if it cannot be written. Not
-/// real time.
+/// first one is always right. Throws `Error` that names the file if it cannot be written.
+/// Not real time.
 class CsvTableWriter final : public TableWriter {
  public:
   CsvTableWriter(std::filesystem::path file, const std::vector<CsvColumn>& columns,

@@ -21,8 +21,8 @@ struct CsvColumn {
   ColumnType type = ColumnType::kText;
 };
 
-/// Receives a table cell by cell and row by row. Throws `Error` if it cannot be written. Not
-/// real time.
+/// Receives a table cell by cell and row by row. Throws `Error` if it cannot be written.
+/// Not real time.
 class TableWriter {
  public:
   virtual ~TableWriter() = default;

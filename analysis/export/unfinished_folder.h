@@ -8,8 +8,8 @@ namespace jnd::analysis {
 /// A folder that is written as a whole or not at all. It is filled beside its place, as
 /// NAME.unfinished-XXXXXX. If there is an empty folder already, which may be on another disk,
 /// it is filled inside, as NAME/unfinished-XXXXXX. It gets its name at the end, and is removed
-/// after a failure. If the program is killed, only the unfinished folder remains. Not real
-/// time.
+/// after a failure. If the program is killed, only the unfinished folder remains.
+/// Not real time.
 class UnfinishedFolder {
  public:
   /// Throws `Error` if `folder` or its place contains something, or if nothing can be written

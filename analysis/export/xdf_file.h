@@ -13,8 +13,8 @@
 namespace jnd::analysis {
 
 /// A file in the Extensible Data Format, version 1.0 (github.com/sccn/xdf/wiki/Specifications).
-/// It consists of chunks, each with its length and type. Streams are numbered from 1. Not real
-/// time.
+/// It consists of chunks, each with its length and type. Streams are numbered from 1.
+/// Not real time.
 class XdfFile {
  public:
   /// Throws `core::Error` if the file cannot be made.

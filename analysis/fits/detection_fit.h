@@ -34,8 +34,8 @@ struct DetectionFit {
 /// Fits all answers at once by maximum likelihood. Rows at intensity 0 are catch trials;
 /// without them g is 0. The status is `degenerate` if the supremum of the likelihood is not
 /// attained: at a step (separated answers), at one rate for all stimuli (flat), or if fewer
-/// than two intensities have answers. Throws `core::Error` as `fit_psychometric` does. Not real
-/// time.
+/// than two intensities have answers. Throws `core::Error` as `fit_psychometric` does.
+/// Not real time.
 [[nodiscard]] DetectionFit fit_detection(const std::vector<AnswerCount>& data);
 
 }  // namespace jnd::analysis

@@ -16,8 +16,8 @@ namespace jnd::analysis {
 /// exact test. Above 200 trials the function uses the normal distribution with the exact mean
 /// and variance. The value is absent if nothing can fall: there are fewer than two levels, or
 /// all answers are alike. Where the answers choose the levels, "yes" tends to be followed by
-/// lower levels, so random answers seem to rise and the test finds too few falls. Not real
-/// time.
+/// lower levels, so random answers seem to rise and the test finds too few falls.
+/// Not real time.
 [[nodiscard]] std::optional<double> falling_p_value(const std::vector<AnswerCount>& rows);
 
 /// Answers are reported to fall if the p value is below this limit.

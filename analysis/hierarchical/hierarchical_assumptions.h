@@ -13,8 +13,8 @@ namespace jnd::analysis {
 /// person's Weber fraction by a twelfth or more, the value gets a caution with both numbers.
 /// data/reference/coverage says how often this finds a false assumption. Personal pses are
 /// tried with at most two conditions. The function does nothing if nothing is assumed or the
-/// fit has no value. `answers` and `options` are those given to `fit_hierarchical`. Not real
-/// time.
+/// fit has no value. `answers` and `options` are those given to `fit_hierarchical`.
+/// Not real time.
 void tell_assumptions(HierarchicalFit& fit, const std::vector<ParticipantAnswers>& answers,
                       const HierarchicalOptions& options);
 

@@ -52,8 +52,8 @@ struct RandomTerm {
 
 /// Reads a formula such as `u * condition`. It understands + and - between terms, : for
 /// products, a * b for a + b + a:b, a / b for a + a:b, (a + b)^2, parentheses, 0 or -1 for no
-/// intercept, functions of a column, and names in backquotes. Throws `FormulaError`. Not real
-/// time.
+/// intercept, functions of a column, and names in backquotes. Throws `FormulaError`.
+/// Not real time.
 [[nodiscard]] Formula parse_formula(const std::string& text);
 
 /// Reads `1 + u | participant`, or several such terms in parentheses with + between them. `a /

@@ -65,8 +65,8 @@ struct DerivedQuantity {
 
 /// PSE, JND and Weber fraction of each cell, and then the differences between every two cells
 /// that differ in one factor only. `redrawn` holds the fixed effects of bootstrap refits.
-/// `jnd_at` is a level of the curve between guess and lapse rate, and is not 0.5. Not real
-/// time.
+/// `jnd_at` is a level of the curve between guess and lapse rate, and is not 0.5.
+/// Not real time.
 [[nodiscard]] std::vector<DerivedQuantity> derived_quantities(
     const StimulusLines& lines, MixedLink link, double jnd_at, const Eigen::VectorXd& beta,
     const Eigen::MatrixXd& covariance, const std::vector<Eigen::VectorXd>& redrawn);

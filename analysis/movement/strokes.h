@@ -47,16 +47,16 @@ class StrokeMeter {
   explicit StrokeMeter(const Parameters& parameters);
 
   /// Takes one tick: the position and velocity of the hand in a frame with z up. `duration_s`
-  /// >= 0 is the time that the tick represents. A tick that is not finite is left out. Real
-  /// time.
+  /// >= 0 is the time that the tick represents. A tick that is not finite is left out.
+  /// Real time.
   void feed(const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_per_s,
             double duration_s) noexcept;
 
   /// The number of whole strokes so far, as `finish` would count them. Real time.
   [[nodiscard]] int num_strokes() const noexcept { return progress_.num_strokes; }
 
-  /// The summary of what was fed since the construction or the last call. Starts anew. Real
-  /// time.
+  /// The summary of what was fed since the construction or the last call. Starts anew.
+  /// Real time.
   StrokeSummary finish() noexcept;
 
  private:

@@ -26,8 +26,8 @@ struct ReportSource {
   bool pilot = false;  ///< Whether pilot sessions are among the data.
 };
 
-/// Writes a report as `write_document` does. The same study gives the same bytes. Not real
-/// time.
+/// Writes a report as `write_document` does. The same study gives the same bytes.
+/// Not real time.
 [[nodiscard]] ReportOutcome write_report(const ReportSource& source,
                                          const std::filesystem::path& folder,
                                          const ReportOptions& options);

@@ -7,8 +7,8 @@
 namespace jnd::analysis {
 
 /// Prints an HTML file as a PDF with chromium or wkhtmltopdf, and sets its dates to this time.
-/// Returns why there is none, or "". Throws `Error` if something cannot be written. Not real
-/// time.
+/// Returns why there is none, or "". Throws `Error` if something cannot be written.
+/// Not real time.
 [[nodiscard]] std::string print_as_pdf(const std::filesystem::path& browser,
                                        const std::filesystem::path& html,
                                        const std::filesystem::path& pdf, std::int64_t time_ns);

@@ -17,8 +17,8 @@ struct ToolOutcome {
 };
 
 /// Runs a program in `folder` without a shell, input or terminal, with times in UTC. Its output
-/// is captured. After the time limit the program and everything that it started are ended. Not
-/// real time.
+/// is captured. After the time limit the program and everything that it started are ended.
+/// Not real time.
 [[nodiscard]] ToolOutcome run_tool(const std::filesystem::path& program,
                                    const std::vector<std::string>& arguments,
                                    const std::filesystem::path& folder,

@@ -24,8 +24,8 @@ struct PersonOutcome {
   std::map<std::string, double> numbers;
 };
 
-/// The outcomes of everybody in the study, in its order. Excluded trials are left out. Not real
-/// time.
+/// The outcomes of everybody in the study, in its order. Excluded trials are left out.
+/// Not real time.
 [[nodiscard]] std::vector<PersonOutcome> person_outcomes(const StudyData& data);
 
 }  // namespace jnd::analysis

@@ -15,8 +15,8 @@ namespace jnd::analysis {
 [[nodiscard]] SequentialRule sequential_rule(const experiments::Study& study);
 
 /// The estimate from people's own contrasts at each look, over the people who took part until
-/// then. `people_by_look` holds the names of those who came since the look before. Not real
-/// time.
+/// then. `people_by_look` holds the names of those who came since the look before.
+/// Not real time.
 [[nodiscard]] std::vector<std::optional<EffectEstimate>> estimates_at_looks(
     const StudyData& data, const std::vector<std::vector<std::string>>& people_by_look);
 

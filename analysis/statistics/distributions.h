@@ -4,8 +4,8 @@ namespace jnd::analysis {
 
 // Tails and quantiles of the distributions that tests and intervals need, in double precision.
 // Degrees of freedom are > 0 and need not be whole. A probability of 0 or 1 has no finite
-// quantile and throws std::overflow_error. Arguments out of range throw std::domain_error. Not
-// real time.
+// quantile and throws std::overflow_error. Arguments out of range throw std::domain_error.
+// Not real time.
 
 /// The z with P(Z < z) = probability for a standard normal Z.
 [[nodiscard]] double normal_quantile(double probability);

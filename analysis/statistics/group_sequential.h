@@ -51,8 +51,8 @@ class SequentialPaths {
 /// The boundaries of Z at each look. Without an effect, the share of studies that have crossed
 /// a boundary by then equals the alpha spent by then. The boundaries are above, or with
 /// `two_sided` on both sides with alpha / 2 each. `looks` are ascending numbers of people, of
-/// which the last is the whole study. A boundary is infinite if almost nothing is spent. Not
-/// real time.
+/// which the last is the whole study. A boundary is infinite if almost nothing is spent.
+/// Not real time.
 [[nodiscard]] std::vector<double> spending_boundaries(const std::vector<int>& looks,
                                                       SpendingFunction spending, double alpha,
                                                       bool two_sided);
