@@ -74,7 +74,7 @@ inline constexpr char kEverybody[] = "all participants";
 
 struct ChartAxis {
   std::string title;  ///< For example "Viscosity [Pa s]".
-  std::string label;  ///< The label in a plot without other charts, such as "test viscosity".
+  std::string label;  ///< The label in the plots of the window, such as "test viscosity".
   std::string unit;   ///< For example "Pa s"; "" for none.
   bool logarithmic = false;
   /// Whether the axis runs from 0 to 1. It is labelled in percent where there is room for

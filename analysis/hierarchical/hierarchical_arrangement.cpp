@@ -115,8 +115,8 @@ HierarchicalArrangement arranged(const std::vector<ParticipantAnswers>& answers)
   return all;
 }
 
-/// If each condition has other people, one random effect of each kind is enough, because the
-/// data cannot tell how effects of several conditions are correlated.
+/// If each condition has different people, one random effect of each kind is enough, because
+/// the data cannot tell how effects of several conditions are correlated.
 HierarchicalStructure structure_of(const HierarchicalArrangement& all,
                                    const HierarchicalOptions& options) {
   const std::vector<bool>& has_orders_in = all.has_orders_in;
