@@ -4,11 +4,12 @@
 
 namespace jnd::analysis {
 
-/// Ends of an axis that holds these values with a little air; `low` < `high`.
+/// The ends of an axis that holds the values with a small margin. `low` < `high`.
 struct AxisRange {
   double low = 0.0, high = 1.0;
 };
-/// With `logarithmic` values <= 0 are left out; in decades' halves around the rest.
+/// The range of the values. With `logarithmic`, values <= 0 are left out, and the margin is a
+/// factor of 1.25 at either end.
 [[nodiscard]] AxisRange axis_range(const std::vector<double>& values, bool logarithmic = false);
 
 }  // namespace jnd::analysis

@@ -13,7 +13,7 @@ BoxPlot box_plot_of(std::vector<double> values) {
               .upper_quartile = percentile(values, 0.75)};
   constexpr double kReach = 1.5;  // Tukey 1977
   const double reach = kReach * (box.upper_quartile - box.lower_quartile);
-  // The quartiles lie between values within reach, so there is always one.
+  // Each quartile lies between values within reach, so there is always one.
   box.lower_whisker =
       *std::lower_bound(values.begin(), values.end(), box.lower_quartile - reach);
   box.upper_whisker =
@@ -43,7 +43,8 @@ FigureTable box_values_table(const std::string& name, const std::vector<BoxGroup
   for (const BoxGroup& group : groups) {
     int place = 0;
     for (const auto& [who, value] : group.values) {
-      // -1, 0, 1 in turn: by their order, so that the picture is the same every time.
+      // The shifts -1, 0, 1 follow the order of the values, so the picture is the same every
+      // time.
       table.rows.push_back({group.position, group.label, who, value, place++ % 3 - 1});
     }
   }

@@ -10,36 +10,42 @@
 
 namespace jnd::analysis {
 
-/// Rows of one of the set's tables, and how they look.
+/// Rows of one of the set's tables, and how they are drawn.
 struct ChartSeries {
   enum class Look {
-    kCurve,        ///< The fitted line whose value stands beside the chart.
-    kOtherCurve,   ///< A fitted line of another value, dashed.
-    kLaw,          ///< One of several fitted lines, in the colour of `colour`.
-    kBeyond,       ///< A law where nothing was measured, dotted.
-    kFaintCurve,   ///< Somebody's fitted line behind the rest.
-    kBand,         ///< From `low` to `high`, behind everything; not in small panels.
-    kSpread,       ///< From `low` to `high` of many people's lines, grey, instead of them.
-    kAnswers,      ///< Points, `low` to `high` as bars.
-    kManyAnswers,  ///< Points of so many levels that each has few answers; no bars.
-    kMeans,        ///< Points in the colour of `colour`, without bars.
+    kCurve,       ///< The fitted line whose value stands beside the chart.
+    kOtherCurve,  ///< A fitted line of another value, dashed.
+    kLaw,         ///< One of several fitted lines, in the colour `colour`.
+    kBeyond,      ///< A law where nothing was measured, dotted.
+    kFaintCurve,  ///< One participant's fitted line, behind the rest.
+    kBand,        ///< From `low` to `high`, behind everything. Small panels do not show it.
+    /// From `low` to `high` of many people's lines, in grey. It replaces the lines.
+    kSpread,
+    kAnswers,      ///< Points, with bars from `low` to `high`.
+    kManyAnswers,  ///< Points without bars, for so many levels that each has few answers.
+    kMeans,        ///< Points without bars, in the colour `colour`.
     kTrack,        ///< A line from point to point.
     kReversals,    ///< Rings on a track.
-    kEverybodys,   ///< Faint lines from point to point, one a participant, behind the rest.
-    kIdentity,     ///< y = x; has no table.
+    /// Faint lines from point to point, one for each participant, behind the rest.
+    kEverybodys,
+    kIdentity,  ///< The line y = x. It needs no table.
   };
   Look look = Look::kCurve;
-  std::size_t table = 0;      ///< In the tables of the set.
-  std::optional<int> series;  ///< The rows with this number in `series_column`; else all.
+  std::size_t table = 0;  ///< The index among the tables of the set.
+  /// Only rows with this number in `series_column` are drawn; without it, all are.
+  std::optional<int> series;
   std::string series_column = "series";
-  /// Its first and last row, where it is known that they stand together: others are not read.
+  /// The first and last row of the series, if its rows are known to stand together. Only these
+  /// are read.
   std::optional<std::pair<std::size_t, std::size_t>> rows;
-  std::string x, y;               ///< Names of columns; rows without either are left out.
-  std::string low, high;          ///< Of bars and band; a row without an end has none there.
-  bool has_bars_along_x = false;  ///< The bars are of x.
-  std::string size;               ///< A column that makes points larger; "" for points alike.
-  int colour = 1;                 ///< Of tracks, laws and means, from 1.
-  std::string legend;             ///< "" for none.
+  std::string x, y;  ///< Names of columns. Rows without either value are left out.
+  /// Columns for the ends of bars and bands. A row without an end has none there.
+  std::string low, high;
+  bool has_bars_along_x = false;  ///< Whether the bars are along x.
+  /// A column that makes points larger; "" for points of one size.
+  std::string size;
+  int colour = 1;      ///< The colour of tracks, laws and means, from 1.
+  std::string legend;  ///< The legend; "" for none.
 };
 
 /// A line across the chart.
@@ -48,15 +54,18 @@ struct ChartLine {
   Kind kind = Kind::kReference;
   double at = 0.0;
   bool is_vertical = true;
-  std::optional<double> until;  ///< From the axis to this value of the other one; else across.
-  std::string label;            ///< "threshold"
+  /// The line reaches from the axis to this value of the other axis. Without it the line
+  /// crosses the chart.
+  std::optional<double> until;
+  std::string label;  ///< For example "threshold".
 };
 
-/// One participant's chart, or everybody's.
+/// The chart of one participant, or of all.
 struct Chart {
-  std::string who;    ///< "P01"; `kEverybody`.
-  std::string value;  ///< "0.21 Pa s"; "" for none.
-  /// "95 % 0.18 to 0.26"; why there is no value; why it may be wrong. "" for nothing.
+  std::string who;    ///< For example "P01", or `kEverybody`.
+  std::string value;  ///< For example "0.21 Pa s"; "" for none.
+  /// The interval, such as "95 % 0.18 to 0.26"; why there is no value; why the value may be
+  /// wrong. Each is "" if there is nothing to say.
   std::string detail, reason, caution;
   std::vector<ChartSeries> series;  ///< Drawn in this order.
   std::vector<ChartLine> lines;
@@ -64,37 +73,44 @@ struct Chart {
 inline constexpr char kEverybody[] = "all participants";
 
 struct ChartAxis {
-  std::string title;  ///< "Viscosity [Pa s]"
-  std::string label;  ///< Beside a plot of its own: "test viscosity".
-  std::string unit;   ///< "Pa s"; "" for none.
+  std::string title;  ///< For example "Viscosity [Pa s]".
+  std::string label;  ///< The label in the plots of the window, such as "test viscosity".
+  std::string unit;   ///< For example "Pa s"; "" for none.
   bool logarithmic = false;
-  bool is_proportion = false;  ///< From 0 to 1, told in percent where there is room for words.
+  /// Whether the axis runs from 0 to 1. It is labelled in percent where there is room for
+  /// words.
+  bool is_proportion = false;
   AxisRange range;
 };
 
-/// A figure of the report, made of everybody's chart.
+/// A figure of the report that shows everybody's chart.
 struct WholeFigure {
-  std::string name;  ///< Of its files, without ending: "group_d_psychometric".
+  /// The name of its files without extension, such as "group_d_psychometric".
+  std::string name;
   std::string title, caption;
-  std::string thesis;  ///< The figures of the thesis that it answers; "" if none.
+  std::string thesis;  ///< The figures of the thesis to which it corresponds; "" if none.
   double width_in = 5.2, height_in = 3.6;
-  bool has_key_above = false;      ///< Outside the axes, where a corner has no room.
-  bool has_linear_beside = false;  ///< Logarithmic axes; the same on linear ones to the left.
+  /// Whether the key stands outside the axes, because no corner has room.
+  bool has_key_above = false;
+  /// Whether a copy with linear axes stands to the left of the logarithmic one.
+  bool has_linear_beside = false;
 };
 
-/// Figures of the report, made of a panel for each participant.
+/// Figures of the report with a panel for each participant.
 struct PanelFigures {
-  std::string name;  ///< "group_d_participants"; a second figure has "_2" behind it.
+  /// For example "group_d_participants". Further figures have "_2" and so on appended.
+  std::string name;
   std::string title, caption, thesis;
   int num_columns = 5, most_panels = 20;
   double panel_in = 1.15;
 };
 
-/// One figure as data: what the report draws with gnuplot, the window with its plot widget.
-/// Everybody's chart and those of the participants share axes and tables. Numbers in SI units.
+/// One figure as data. The report draws it with gnuplot, and the window with its plot widget.
+/// Everybody's chart and those of the participants share axes and tables. Numbers are in SI
+/// units.
 struct ChartSet {
-  std::string section;  ///< Of the results it belongs to.
-  std::string heading;  ///< The block's title.
+  std::string section;  ///< The section of the results to which it belongs.
+  std::string heading;  ///< The title of the block.
   std::optional<WholeFigure> whole;
   std::optional<PanelFigures> panels;
   ChartAxis x, y;
@@ -102,7 +118,7 @@ struct ChartSet {
   std::optional<Chart> everybody;
   std::vector<Chart> participants;
 
-  /// Of this participant, or `kEverybody`; nullptr for one without.
+  /// The chart of this participant, or of `kEverybody`; nullptr if there is none.
   [[nodiscard]] const Chart* chart_of(const std::string& who) const;
 };
 

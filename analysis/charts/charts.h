@@ -7,17 +7,18 @@
 
 namespace jnd::analysis {
 
-// The kinds, each for all blocks.
+// Each function makes the charts of one kind for all blocks.
 
-/// Means of estimation and production with their power laws, and the law between them.
+/// Means of estimation and production with their power laws, and the law between the two.
 [[nodiscard]] std::vector<ChartSet> magnitude_charts(const FigureSource& source);
-/// Answers of blocks with a reference, with the median person's curve and everybody's own.
+/// Answers in blocks with a reference, with the curve of the median person and everybody's own
+/// curve.
 [[nodiscard]] std::vector<ChartSet> psychometric_charts(const FigureSource& source);
 /// Matches over standards, with the matching function.
 [[nodiscard]] std::vector<ChartSet> matching_charts(const FigureSource& source);
 /// Answers of yes-no and same-different blocks with their curves.
 [[nodiscard]] std::vector<ChartSet> threshold_charts(const FigureSource& source);
-/// Levels of adaptive blocks over the trials, reversals marked.
+/// Levels of adaptive blocks over the trials, with reversals marked.
 [[nodiscard]] std::vector<ChartSet> track_charts(const FigureSource& source);
 
 /// Response times over the stimuli of blocks whose study file lists them.
@@ -26,12 +27,13 @@ namespace jnd::analysis {
 /// Ratings and answers to questions after trials over the stimuli, where levels are fixed.
 [[nodiscard]] std::vector<ChartSet> rated_charts(const FigureSource& source);
 
-/// In the order of report and window. A new kind is a file of its own and a place here.
+/// In the order of the report and the window. A new kind needs a file of its own and an entry
+/// here.
 inline constexpr std::vector<ChartSet> (*kChartKinds[])(const FigureSource&) = {
     magnitude_charts, psychometric_charts, matching_charts,     threshold_charts,
     track_charts,     rated_charts,        response_time_charts};
 
-/// Every chart that there are data for. Not real time.
+/// All charts for which there are data. Not real time.
 [[nodiscard]] std::vector<ChartSet> charts_of(const FigureSource& source);
 
 }  // namespace jnd::analysis

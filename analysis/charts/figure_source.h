@@ -9,13 +9,13 @@
 
 namespace jnd::analysis {
 
-/// What charts and figures are drawn from.
+/// The data from which charts and figures are drawn.
 struct FigureSource {
   const StudyData& data;
   const StudyResults& results;
   const StudyTitles& titles;
 
-  /// Nullptr if there is none of this name.
+  /// The section of this name; nullptr if there is none.
   [[nodiscard]] const ResultsSection* section(const std::string& name) const;
   [[nodiscard]] const ParticipantEstimate* own(const std::string& section,
                                                const std::string& participant,
@@ -23,8 +23,8 @@ struct FigureSource {
   [[nodiscard]] std::vector<std::string> participants() const;
 };
 
-/// Whether the study is one of the thesis', by its published values: figures answer some of
-/// Schmidt (2018), and words of that author have a meaning.
+/// Whether the study is one of the thesis, judged by its published values. Its figures then
+/// correspond to some of Schmidt (2018), whose terms apply.
 [[nodiscard]] bool is_of_thesis(const StudyResults& results);
 
 }  // namespace jnd::analysis

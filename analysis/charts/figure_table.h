@@ -20,17 +20,17 @@ struct FigureCell {
   std::string text;
 };
 
-/// What a figure is drawn from: one CSV file beside it.
+/// The data of a figure, which a CSV file beside it holds.
 struct FigureTable {
-  std::string name;  ///< Of the file, without ".csv"; unique in a report.
+  std::string name;  ///< The name of the file without ".csv", unique in a report.
   std::vector<std::string> columns;
   std::vector<std::vector<FigureCell>> rows;
 
-  /// The place of a column in the rows; that behind the last one where there is none.
+  /// The index of a column; the number of columns if there is none of this name.
   [[nodiscard]] std::size_t place_of(const std::string& column) const;
 };
 
-/// Letters, digits and underscores alone, for names of files.
+/// The text with only letters, digits and underscores, for names of files.
 [[nodiscard]] std::string file_word(const std::string& text);
 
 }  // namespace jnd::analysis

@@ -17,7 +17,7 @@ struct Law {
   std::optional<double> k, a;
   Interval k_ci95, a_ci95;
   std::optional<double> published_k, published_a;
-  std::string reason;  ///< Why there is none.
+  std::string reason;  ///< Why there is no law; "" if there is one.
   std::vector<std::string> cautions;
 
   [[nodiscard]] bool exists() const { return k && a; }
@@ -52,7 +52,7 @@ Law own_law(const FigureSource& source, const std::string& block,
   return law;
 }
 
-/// "95 % k 0.54 to 0.77, a 0.59 to 0.73 · published k = 0.66, a = 0.66"
+/// For example "95 % k 0.54 to 0.77, a 0.59 to 0.73 · published k = 0.66, a = 0.66".
 std::string detail_of(const Law& law) {
   std::string words;
   if (law.k_ci95.low && law.k_ci95.high && law.a_ci95.low && law.a_ci95.high) {
@@ -78,7 +78,8 @@ void add_law(Chart& chart, const Law& law) {
   chart.detail = detail_of(law);
 }
 
-/// The rows of a law over intensities, the row's series before them where it has one.
+/// Adds rows of a law over intensities. `first` holds the cells that stand before them, such as
+/// the series.
 void add_curve(FigureTable& table, const std::vector<FigureCell>& first, const Law& law,
                const AxisRange& shown) {
   if (!law.exists()) return;
@@ -129,7 +130,8 @@ ChartAxis magnitude_axis() {
   return {.title = said(kMagnitudeTitle), .label = said("magnitude, the modulus being 1")};
 }
 
-/// Fig. 4a and b, D.3, D.9, D.12, D.14: everybody's means, those of the group, its power law.
+/// The figures 4a and b, D.3, D.9, D.12 and D.14: everybody's means, the group's means, and its
+/// power law.
 ChartSet curves_of(const FigureSource& source, const MagnitudeData& data) {
   constexpr std::size_t kOwn = 0, kGroup = 1, kCurve = 2, kOwnCurves = 3;
   const std::string name = file_word(data.block);
@@ -270,7 +272,7 @@ class LawsChart {
     return {.name = "power_law_" + name, .columns = {"intensity", "magnitude", "extrapolated"}};
   }
 
-  /// Ends of the group's means.
+  /// The lowest and highest intensity of the group's means.
   [[nodiscard]] AxisRange ends_of(std::size_t table) const {
     AxisRange ends{0.0, 0.0};
     bool is_first = true;
@@ -287,8 +289,8 @@ class LawsChart {
     return {std::min(first.low, second.low), std::max(first.high, second.high)};
   }
 
-  /// The smallest means above 0, where logarithmic axes begin: of intensities, and of
-  /// magnitudes.
+  /// The smallest means above 0, at which logarithmic axes begin: `low` is that of intensities,
+  /// and `high` that of magnitudes.
   [[nodiscard]] AxisRange least_above_zero() const {
     AxisRange least{0.0, 0.0};
     const auto take = [](double& smallest, const FigureCell& cell) {

@@ -9,32 +9,36 @@
 
 namespace jnd::analysis {
 
-/// What a block of magnitudes left, as figures show it. Estimation: magnitudes (ratio to the
-/// modulus) at intensities. Production: intensities at magnitudes that were asked for.
+/// The answers of a block of magnitudes, as figures show them. Estimation gives magnitudes
+/// (ratios to the modulus) at intensities. Production gives intensities at the requested
+/// magnitudes.
 struct MagnitudeData {
   struct Own {
     std::string participant;
-    /// By repetition; estimation alone, where each repetition has every intensity once.
+    /// The values by repetition. Only estimation has them, because there each repetition has
+    /// every intensity once.
     std::map<std::int64_t, std::map<double, double>> repetitions;
-    std::map<double, std::vector<double>> values;  ///< At each x every answer.
+    std::map<double, std::vector<double>> values;  ///< Every answer at each x.
     [[nodiscard]] std::map<double, double> means() const;
   };
   std::string block, title, quantity;
   bool is_production = false;
-  std::vector<Own> participants;  ///< Participants who answered.
+  std::vector<Own> participants;  ///< The participants who answered.
 
-  /// At each x the means of those participants who have one there.
+  /// At each x, the means of the participants who have one there.
   [[nodiscard]] std::map<double, std::vector<std::pair<std::string, double>>> by_x() const;
 };
 
 [[nodiscard]] MagnitudeData magnitude_data(const FigureSource& source,
                                            const BlockDesign& block);
 
-/// Each participant's mean at each x: columns series, participant, intensity, magnitude, and
-/// low and high of what was answered, one standard deviation of this person's answers away.
+/// Each participant's mean at each x, in the columns series, participant, intensity and
+/// magnitude. The columns low and high lie one standard deviation of this person's answers
+/// away.
 [[nodiscard]] FigureTable own_means_table(const MagnitudeData& data);
-/// Mean and standard deviation between participants: intensity, magnitude, low, high (of what
-/// was answered), num_participants.
+/// The mean between participants, in the columns intensity and magnitude. The columns low and
+/// high lie one standard deviation of the answers away; num_participants is the number of
+/// participants.
 [[nodiscard]] FigureTable group_means_table(const MagnitudeData& data);
 
 }  // namespace jnd::analysis

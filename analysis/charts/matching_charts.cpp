@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kOwnTable = 0, kGroupTable = 1, kFunctionTable = 2;
 
-/// Ascending; one of 0 has no place on a logarithmic axis.
+/// The standards, ascending. A standard of 0 is left out, because a logarithmic axis has no
+/// place for it.
 std::set<double> standards_of(const StudyData& data, const std::string& block) {
   std::set<double> standards;
   for (const ParticipantData& participant : data.participants) {
@@ -136,7 +137,7 @@ class MatchingCharts {
     a_ = source_.results.find(block_.block + ".a");
     if (k_ == nullptr || a_ == nullptr || !k_->value || !a_->value) return;
     law_ = law_words(k_->value, a_->value);
-    // No further than there were standards.
+    // The function reaches no further than the standards.
     const auto& group = set_.tables[kGroupTable].rows;
     const double low = *group.front()[0].number, high = *group.back()[0].number;
     for (int i = 0; i <= kPoints; ++i) {
@@ -197,9 +198,9 @@ class MatchingCharts {
   const FigureSource& source_;
   const BlockDesign& block_;
   std::set<double> standards_;
-  std::vector<double> drawn_;  ///< Participants' own matches.
+  std::vector<double> drawn_;  ///< The participants' own matches.
   const Estimate *k_ = nullptr, *a_ = nullptr;
-  std::string law_;  ///< "k = 1.02, a = 0.98"; "" without a matching function.
+  std::string law_;  ///< For example "k = 1.02, a = 0.98"; "" without a matching function.
   ChartSet set_;
 };
 

@@ -29,7 +29,7 @@ struct LevelAnswers {
   }
 };
 
-/// A fitted curve with the interval of its Weber fraction.
+/// A fitted curve, with the interval of its Weber fraction.
 struct Curve {
   double weber_fraction = 0.0;
   Interval ci95;
@@ -38,8 +38,8 @@ struct Curve {
   double lapse_rate = 0.0;
 
   [[nodiscard]] double ratio(double intensity) const { return at(weber_fraction, intensity); }
-  /// Lowest and highest of the curves with the ends of the interval, the pse held. An open end
-  /// stands for a step, or for a flat line.
+  /// The lowest and highest of the curves with the ends of the interval, for the same pse. An
+  /// open end stands for a step or a flat line.
   [[nodiscard]] std::pair<double, double> band(double intensity) const {
     const double steep = at(ci95.low.value_or(0.0), intensity);
     const double flat =
@@ -56,12 +56,14 @@ struct Curve {
   }
 };
 
-/// Answers of one participant in one block, and both of their curves.
+/// The answers of one participant in one block, and both of the participant's curves.
 struct OwnAnswers {
   std::string participant;
   std::map<double, LevelAnswers> levels;
-  const ParticipantEstimate* fraction = nullptr;       ///< With the pse at the reference.
-  const ParticipantEstimate* free_fraction = nullptr;  ///< With the pse free.
+  /// The Weber fraction with the pse at the reference.
+  const ParticipantEstimate* fraction = nullptr;
+  /// The Weber fraction with the pse free.
+  const ParticipantEstimate* free_fraction = nullptr;
   std::optional<Curve> fixed, freed;
 };
 
@@ -70,7 +72,7 @@ std::string fraction_words(const std::optional<double>& value) {
   return number_words(value, *value < 0.1 ? 3 : 2);
 }
 
-/// "median person: w = 0.29 (0.21 .. 0.40)"
+/// For example "median person: w = 0.29 (0.21 .. 0.40)".
 std::string median_person_words(const Estimate& fraction) {
   const int num_decimals = *fraction.value < 0.1 ? 3 : 2;
   std::string words = said("median person: w = {}", number_words(fraction.value, num_decimals));
@@ -80,7 +82,7 @@ std::string median_person_words(const Estimate& fraction) {
          number_words(ci95.high, num_decimals) + ")";
 }
 
-/// For whoever answered, not for whoever fits.
+/// Explains the reason to the participant, not to the person who fits the curve.
 std::string in_plain_words(const std::string& reason, bool is_separated, bool frees) {
   if (!is_separated) return reason;
   const std::string place = frees ? said("one level") : said("the reference");
@@ -165,7 +167,7 @@ class PsychometricCharts {
     if (!own.levels.empty()) all_.push_back(std::move(own));
   }
 
-  /// What results hold of this participant's curves.
+  /// Finds the results for this participant's curves.
   void find_curves(OwnAnswers& own) const {
     const auto value = [&](const std::string& name) {
       return source_.own(block_.block, own.participant, block_.block + "." + name);
@@ -190,7 +192,8 @@ class PsychometricCharts {
     }
   }
 
-  /// Rows of a curve, after what stands before them in each; with the band where it has one.
+  /// Adds rows of a curve. `first` holds the cells that stand before each, and the band follows
+  /// if the curve has one.
   void add_curve(FigureTable& table, const std::vector<FigureCell>& first, const Curve& curve,
                  bool has_band) const {
     for (const double intensity : even_grid(set_.x.range)) {
@@ -219,9 +222,9 @@ class PsychometricCharts {
 
   void add_reference(Chart& chart) const { chart.lines.push_back({.at = reference_}); }
 
-  /// Where a curve reaches 84.13 %: no place of two orders that are drawn as their mean. One
-  /// beyond the stimuli would stretch the axis until nothing else can be seen.
-  /// Whether there is one.
+  /// Adds a line where the curve reaches 84.13 %, and returns whether it did. It adds none if
+  /// the curve is the mean of two orders. It also adds none beyond the stimuli, because the
+  /// axis would become so long that nothing else could be seen.
   bool add_weber_line(Chart& chart, const Curve& curve) const {
     const double at = curve.pse * (1.0 + curve.weber_fraction);
     if (curve.order_effect_ln != 0.0 || !(at <= set_.x.range.high)) return false;
@@ -288,7 +291,7 @@ class PsychometricCharts {
     }
   }
 
-  /// Another value beside the chart's own, or instead of it.
+  /// Adds another value to the chart's own, or puts it in its place.
   static void add_other(Chart& chart, const std::string& words) {
     if (chart.value.empty()) {
       chart.reason += "; " + words;
@@ -297,7 +300,7 @@ class PsychometricCharts {
     }
   }
 
-  /// Mean and spread between participants.
+  /// The mean and spread between participants.
   [[nodiscard]] FigureTable means_table() const {
     FigureTable table{.name = file_word(block_.block) + "_means",
                       .columns = {"intensity", "mean_ratio", "sd_ratio", "low", "high",
@@ -319,7 +322,7 @@ class PsychometricCharts {
     return table;
   }
 
-  /// Of everybody together.
+  /// The shares over all participants together.
   [[nodiscard]] FigureTable shares_table() const {
     FigureTable table{.name = file_word(block_.block) + "_shares",
                       .columns = {"intensity", "num_yes", "num_trials", "ratio"}};
@@ -330,7 +333,7 @@ class PsychometricCharts {
     return table;
   }
 
-  /// The primary value of the block, with the curve that it is of.
+  /// The curve of the block's primary value.
   [[nodiscard]] std::optional<Curve> median_person() const {
     const Estimate* const fraction = found("weber_fraction_median_person");
     if (fraction == nullptr || !fraction->value) return std::nullopt;
@@ -341,7 +344,7 @@ class PsychometricCharts {
                  .lapse_rate = value_or_0(found("lapse_rate"))};
   }
 
-  /// Through everybody's answers, which differences between people flatten.
+  /// The curve through everybody's answers. Differences between people make it flatter.
   [[nodiscard]] std::optional<Curve> group_curve() const {
     const Estimate* const fraction = found("weber_fraction");
     if (fraction == nullptr || !fraction->value) return std::nullopt;
@@ -427,7 +430,7 @@ class PsychometricCharts {
     }
   }
 
-  /// What the caption says of the curves of the group.
+  /// What the caption says about the curves of the group.
   [[nodiscard]] std::string curves_words(const std::optional<Curve>& person,
                                          const std::optional<Curve>& group) const {
     const bool by_order = group && group->order_effect_ln != 0.0;
@@ -499,12 +502,12 @@ class PsychometricCharts {
 
   const FigureSource& source_;
   const BlockDesign& block_;
-  bool frees_ = false;  ///< The primary value has the pse free.
+  bool frees_ = false;  ///< Whether the primary value has a free pse.
   double reference_ = 0.0;
-  std::vector<OwnAnswers> all_;  ///< Of those who answered.
+  std::vector<OwnAnswers> all_;  ///< The participants who answered.
   std::map<double, LevelAnswers> pooled_;
   bool has_order_effects_ = false;
-  std::vector<int> with_curve_;  ///< The series of those who have the primary one.
+  std::vector<int> with_curve_;  ///< The series of the participants who have the primary value.
   ChartSet set_;
 };
 

@@ -13,10 +13,10 @@ namespace {
 
 /// What is drawn over the stimuli of a block: a rating, or the answers to one of its questions.
 struct RatedWhat {
-  std::string section, prefix;  ///< Of the results.
-  std::string title;            ///< "Rating", "How sure are you?"
+  std::string section, prefix;  ///< The names in the results.
+  std::string title;            ///< For example "Rating" or "How sure are you?".
   std::string low_label, high_label;
-  int num_steps = 0;  ///< 0 for a number.
+  int num_steps = 0;  ///< The number of steps of the scale; 0 if the answer is a number.
 };
 
 class RatedCharts {

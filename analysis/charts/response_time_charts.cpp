@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t kOwnTimes = 0, kGroupTimes = 1;
 
-/// What the trials of a block are told apart by, and a participant's times at each.
+/// A participant's response times at each level. The level is what distinguishes the trials of
+/// the block.
 using Times = std::map<double, std::vector<double>>;
 
 std::optional<double> level_of(const BlockDesign& block, const core::TrialRow& trial) {

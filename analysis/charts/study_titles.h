@@ -7,25 +7,28 @@
 
 namespace jnd::analysis {
 
-/// What readers of a report call a study and its parts: in English where the study has it.
+/// The names that a report uses for a study and its parts. They are in English if the study has
+/// English ones.
 struct StudyTitles {
-  std::string study;                          ///< Its name where it has no title.
-  std::map<std::string, std::string> stages;  ///< Titles by name, of those that have one.
+  /// The study's title, or its name if it has no title.
+  std::string study;
+  /// The titles of the stages that have one, by name.
+  std::map<std::string, std::string> stages;
 
-  /// The title of a block; its name where it has none.
+  /// The title of a block, or its name if it has no title.
   [[nodiscard]] std::string title_of(const std::string& block) const;
-  /// Up to its colon: "Group D" of "Group D: low viscosities".
+  /// The title up to its colon: "Group D" for "Group D: low viscosities".
   [[nodiscard]] std::string short_title_of(const std::string& block) const;
 };
 
 [[nodiscard]] StudyTitles titles_of(const experiments::Study& study);
 
-/// "test first" of "test_first".
+/// For example "test first" for "test_first".
 [[nodiscard]] std::string in_words(std::string name);
-/// "Viscosity [Pa s]", for an axis.
+/// A label for an axis, such as "Viscosity [Pa s]".
 [[nodiscard]] std::string quantity_axis(const std::string& quantity);
-/// "method of constant stimuli as a two-interval task (order drawn)": a block's procedure, with
-/// the question that it asks.
+/// A block's procedure and the question that it asks, such as "method of constant stimuli as a
+/// two-interval task (order drawn)".
 [[nodiscard]] std::string procedure_words(const experiments::Block& block);
 
 }  // namespace jnd::analysis

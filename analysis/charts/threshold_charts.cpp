@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kAnswersTable = 0, kCurvesTable = 1, kPooledTable = 2;
 
-/// P("yes"), or of "different", at an intensity; empty without a curve.
+/// P("yes"), or P("different"), at an intensity. It is empty if there is no curve.
 using ThresholdCurve = std::function<double(double)>;
 
 double guess_rate_of(const BlockDesign& block) {
@@ -72,7 +72,8 @@ std::vector<FigureCell> answer_cells(const AnswerCount& row) {
           high};
 }
 
-/// A row of a table, after its series and the participant where it has those.
+/// Adds a row to a table. `first` holds the cells that stand before it, such as the series and
+/// the participant.
 void add_row(FigureTable& table, std::vector<FigureCell> first, std::vector<FigureCell> cells) {
   first.insert(first.end(), std::make_move_iterator(cells.begin()),
                std::make_move_iterator(cells.end()));

@@ -12,10 +12,11 @@ namespace {
 
 using experiments::AdaptiveRule;
 
-/// The estimate that a block comes to by its own rule.
+/// The estimate that a block computes by its own rule.
 struct RuleEstimate {
   std::string section, name;
-  bool is_fraction = false;  ///< A Weber fraction, which is no place among the levels.
+  /// Whether it is a Weber fraction, which has no place among the levels.
+  bool is_fraction = false;
 };
 
 RuleEstimate estimate_of(const BlockDesign& block) {
@@ -36,7 +37,7 @@ std::string value_words(const BlockDesign& block, const RuleEstimate& estimate,
   return number_words(value) + (unit.empty() ? "" : " " + unit);
 }
 
-/// Every trial; what turned a staircase, and what ended a series, in columns of their own.
+/// Adds every trial. Reversals of a staircase and the ends of series have their own columns.
 void add_rows(FigureTable& table, const AdaptiveRun& run, int first_series) {
   const auto level_if = [](bool holds, double level) {
     return holds ? FigureCell(level) : FigureCell();

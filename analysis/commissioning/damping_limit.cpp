@@ -21,7 +21,7 @@ using Eigen::VectorXcd;
 
 constexpr int kFewestSweptWays = 4;
 
-/// Fourier sums of every row at one line of the sweep.
+/// The Fourier sums of every row at one line of the sweep.
 VectorXcd line_of(const Eigen::MatrixXd& rows, Eigen::Index line) {
   const Eigen::Index n = rows.cols();
   VectorXcd turning(n);
@@ -33,7 +33,7 @@ VectorXcd line_of(const Eigen::MatrixXd& rows, Eigen::Index line) {
   return rows.cast<Complex>() * turning;
 }
 
-/// Lines of one way, its sweep at phase zero at each of them.
+/// The lines of one way, at each of which the sweep has phase zero.
 struct Lines {
   int input = 0;
   MatrixXcd force, velocity;  ///< Inputs x lines.
@@ -54,7 +54,7 @@ Lines lines_of(const SweptWay& way) {
   return lines;
 }
 
-/// G at each line, of all ways but one of each input.
+/// G at each line. If `left_out` is given, the way of that number is left out for each input.
 std::vector<MatrixXcd> response_of(const std::vector<Lines>& all, Eigen::Index num_inputs,
                                    std::optional<int> left_out) {
   const Eigen::Index num_lines = all.front().force.cols();
@@ -72,7 +72,8 @@ std::vector<MatrixXcd> response_of(const std::vector<Lines>& all, Eigen::Index n
   return response;
 }
 
-/// As a ratio to a mass behind this delay it changes slowly from line to line.
+/// Smooths the response as a ratio to a mass behind this delay, which changes slowly from line
+/// to line.
 void smooth(std::vector<MatrixXcd>& response, double angle_per_line, double delay_ticks) {
   constexpr std::ptrdiff_t kReach = 5;
   const auto expected = [&](std::size_t line) {
@@ -103,8 +104,8 @@ struct Crossing {
   double angle_per_tick = 0.0;
 };
 
-/// Where an eigenvalue that turns on clockwise becomes real and negative, the one that is
-/// largest there. Eigenvalues of neighbouring lines belong together by how near they are.
+/// Finds where an eigenvalue that turns clockwise becomes real and negative, and takes the
+/// largest one there. Eigenvalues of neighbouring lines are matched by their distance.
 Crossing crossing_of(const std::vector<MatrixXcd>& response, const Eigen::VectorXd& share_ratio,
                      double angle_per_line) {
   Crossing first;
@@ -129,7 +130,7 @@ Crossing crossing_of(const std::vector<MatrixXcd>& response, const Eigen::Vector
                     part * std::log(std::abs(now[i]))),
            angle - (1.0 - part) * angle_per_line);
     }
-    // At half the rate everything is real.
+    // At half the sampling rate everything is real.
     if (line + 1 == response.size()) {
       for (const Complex& value : now) {
         if (value.real() < 0.0) take(-value.real(), angle);
@@ -165,7 +166,7 @@ DampingLimit damping_limit(const std::vector<SweptWay>& ways,
     return crossing_of(response, share_ratio, angle_per_line);
   };
   const Crossing whole = crossing(std::nullopt);
-  // The inverse is what is measured; noise is about as large wherever it is.
+  // The inverse is what is measured, and its noise is about the same everywhere.
   std::vector<double> inverse;
   for (int way = 0; way < fewest; ++way) {
     inverse.push_back(1.0 / crossing(way).damping_n_s_per_m);

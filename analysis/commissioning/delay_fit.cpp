@@ -22,8 +22,8 @@ struct Line {
   int way = 0;
 };
 
-/// The Fourier sum under von Hann's window, of what is left without a straight line through the
-/// ends: a device that moves on has one.
+/// The Fourier sum under a von Hann window. The straight line through the ends is subtracted
+/// first, because the device keeps moving.
 Complex fourier(const std::vector<double>& values, double angle_per_tick) {
   const auto n = static_cast<double>(values.size());
   const double slope = (values.back() - values.front()) / (n - 1.0);
@@ -41,9 +41,9 @@ struct Estimate {
   double delay_s = 0.0, mass_kg = 0.0;
 };
 
-/// Position over force of a mass of 1 kg, each force standing for a tick that begins so many
-/// ticks after its write: the modified z-transform of 1 / s^2 behind a zero-order hold (Jury
-/// 1964).
+/// Position divided by force for a mass of 1 kg. Each force holds for one tick, which begins
+/// `delay_ticks` after its write: the modified z-transform of 1 / s^2 behind a zero-order hold
+/// (Jury 1964).
 Complex mass_response(double angle_per_tick, double delay_ticks, double period_s) {
   const double whole = std::floor(delay_ticks);
   const double part = delay_ticks - whole;
@@ -54,7 +54,7 @@ Complex mass_response(double angle_per_tick, double delay_ticks, double period_s
          std::polar(1.0, -angle_per_tick * whole);
 }
 
-/// What these lines come to together.
+/// The estimate from all lines that count.
 template <typename Counts>
 Estimate estimate_of(const std::vector<Line>& lines, const Counts& counts, double period_s,
                      double angle_per_tick, double damping) {
@@ -67,7 +67,8 @@ Estimate estimate_of(const std::vector<Line>& lines, const Counts& counts, doubl
   }
   const double w = angle_per_tick / period_s;
   const Complex response = across / force;
-  // From a mass without damping and delay on; each round leaves a thousandth of what was wrong.
+  // It starts from a mass without damping and delay. Each round leaves a thousandth of the
+  // error.
   Estimate estimate{.mass_kg =
                         std::abs(mass_response(angle_per_tick, 0.0, period_s) / response)};
   constexpr int kRounds = 5;
@@ -78,7 +79,7 @@ Estimate estimate_of(const std::vector<Line>& lines, const Counts& counts, doubl
     estimate.mass_kg *= std::abs(model / response);
     estimate.delay_s += std::arg(model / response) / w;
   }
-  // No force acts before it was written: then it acted one push later.
+  // A force cannot act before it was written, so it acted one push later.
   const double push_s = 2.0 * std::numbers::pi / w;
   if (estimate.delay_s < -0.1 * push_s) estimate.delay_s += push_s;
   return estimate;

@@ -6,38 +6,43 @@
 
 namespace jnd::analysis {
 
-/// A stretch of motion along one line at nearly constant speed, while the device was pushed to
-/// and fro along it: position [m] and commanded force [N] along it, one each tick.
+/// A stretch of motion along one line at nearly constant speed, while the device was pushed
+/// back and forth along it. It has one position [m] and one commanded force [N] along the line
+/// for each tick.
 struct PushedWindow {
   std::vector<double> position_m, commanded_n;
-  int way = 0;  ///< Windows of the same way have the same cogging, and stand and fall together.
+  /// Windows of the same way have the same cogging, so they are kept or left out together.
+  int way = 0;
 };
 
-/// What the windows of one way come to by themselves.
+/// The estimates from the windows of one way alone.
 struct PushedWay {
   double delay_s = 0.0, mass_per_gain_kg = 0.0;
 };
 
-/// How long a force takes to act, and how much it moves.
+/// How long a force takes to act, and how much it moves the device.
 struct DelayFit {
-  Measured delay_s;           ///< From a write until its force acts, as positions show it.
-  Measured mass_per_gain_kg;  ///< Of the device, in newtons commanded: mass over gain.
+  /// The time from a write until its force acts, as the positions show it.
+  Measured delay_s;
+  /// The mass of the device divided by its gain, so in terms of commanded newtons.
+  Measured mass_per_gain_kg;
   int num_ways = 0;
-  std::vector<PushedWay> ways;  ///< Each by itself, to see how they scatter.
+  std::vector<PushedWay> ways;  ///< The estimates of each way, which show how they scatter.
 };
 
-/// What the device makes of the pushes' fundamental, at angular frequency w, in each window,
+/// Fits the response to the fundamental of the pushes, at the angular frequency w, in each
+/// window:
 ///
-///     position / force = exp(-i w delay) / (-w^2 mass + i w damping),
+///     position / force = exp(-i w delay) / (-w^2 mass + i w damping)
 ///
-/// all in newtons commanded, by the Fourier sums of both at that frequency under a window of
-/// von Hann, and the force standing from one write until the next. As the device keeps moving,
-/// dry friction is a constant, and cogging has frequencies of its own. `push_ticks`: of one
-/// push to and fro; `damping_per_gain_n_s_per_m`: as `fit_force` found it, over the gain; 0
-/// where it is not known yet. Estimates over all windows, intervals by leaving out one after
-/// the other (jackknife). Throws `core::Error` for fewer than five windows, for windows that
-/// are no whole number of pushes, where nothing moves as it is
-/// pushed.
+/// All quantities are in commanded newtons. The Fourier sums of position and force at that
+/// frequency use a von Hann window. A force holds from one write until the next. The device
+/// keeps moving, so dry friction is a constant, and cogging has other frequencies. `push_ticks`
+/// is the length of one push back and forth. `damping_per_gain_n_s_per_m` is the damping that
+/// `fit_force` found, divided by the gain; 0 if it is not yet known. Estimates use all windows,
+/// and intervals leave out one way after the other (jackknife). Throws `core::Error` for fewer
+/// than five ways, for windows that are not a whole number of pushes, and if the pushes do
+/// not move the device.
 [[nodiscard]] DelayFit fit_delay(const std::vector<PushedWindow>& windows, double period_s,
                                  int push_ticks, double damping_per_gain_n_s_per_m);
 

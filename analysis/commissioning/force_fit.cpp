@@ -15,23 +15,23 @@ namespace jnd::analysis {
 namespace {
 
 constexpr double kGravity_m_per_s2 = 9.80665;
-/// Directions that are one line, to or fro.
+/// Directions whose |cosine| is larger count as one line.
 constexpr double kAlongRatio = 0.99;
-/// From which on one speed is another.
+/// Speeds that differ by this factor count as different.
 constexpr double kOtherSpeedRatio = 1.3;
 
 /// Ordinary least squares.
 struct Regression {
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;
-  double squares = 0.0;  ///< Left over.
+  double squares = 0.0;  ///< The remaining sum of squares.
   double degrees_of_freedom = 0.0;
 
   [[nodiscard]] double residual() const { return std::sqrt(squares / degrees_of_freedom); }
   [[nodiscard]] double error(Eigen::Index i) const { return std::sqrt(covariance(i, i)); }
 };
 
-/// None where the rows do not tell the coefficients apart.
+/// Absent if the rows do not determine the coefficients.
 std::optional<Regression> regression(const Eigen::MatrixXd& rows,
                                      const Eigen::VectorXd& values) {
   if (rows.rows() <= rows.cols()) return std::nullopt;
@@ -45,7 +45,8 @@ std::optional<Regression> regression(const Eigen::MatrixXd& rows,
   return fit;
 }
 
-/// Each of these ways as a row and what had to be commanded, but for the mass.
+/// A regression with one row for each of these ways. The value is the commanded force without
+/// that for the mass.
 template <typename RowOf>
 std::optional<Regression> regression_over(const std::vector<GuidedWay>& ways,
                                           Eigen::Index num_coefficients,
@@ -67,12 +68,12 @@ std::optional<Regression> regression_over(const std::vector<GuidedWay>& ways,
       "found too few to tell gain, weight, friction and damping apart");
 }
 
-/// A load has to be carried and to be accelerated.
+/// A load must be carried and accelerated.
 double load_along_n(const GuidedWay& way, const Eigen::Vector3d& up) {
   return way.load_n * (up.dot(way.direction) + way.acceleration_m_per_s2 / kGravity_m_per_s2);
 }
 
-/// Up and down with loads, and without at the same speeds.
+/// The ways up and down with loads, and the ways without loads at the same speeds.
 std::vector<GuidedWay> ways_of_loads(const std::vector<GuidedWay>& ways,
                                      const Eigen::Vector3d& up) {
   double slowest = std::numeric_limits<double>::infinity(), fastest = 0.0;
@@ -90,10 +91,10 @@ std::vector<GuidedWay> ways_of_loads(const std::vector<GuidedWay>& ways,
   return chosen;
 }
 
-/// The last one only where the loads were lifted at more than one speed.
+/// The last one is used only if loads were lifted at more than one speed.
 enum LoadCoefficient : Eigen::Index { kUpwards, kLoad, kOpposing, kOpposingSpeed };
 
-/// `num_coefficients` as the regression has.
+/// `num_coefficients` is that of the regression.
 Eigen::RowVectorXd load_row(const GuidedWay& way, const Eigen::Vector3d& up,
                             Eigen::Index num_coefficients) {
   Eigen::RowVector4d row(-way.direction.dot(up), load_along_n(way, up), way.path_ratio,
@@ -110,7 +111,7 @@ Eigen::Index num_load_coefficients(const std::vector<GuidedWay>& of_loads) {
   return fastest > kOtherSpeedRatio * slowest ? kOpposingSpeed + 1 : kOpposing + 1;
 }
 
-/// Standard deviation of the gain of single poses, over the gain of all.
+/// The standard deviation of the gains of single poses, divided by the gain of all poses.
 double gain_spread_ratio(const std::vector<GuidedWay>& of_loads, const Eigen::Vector3d& up,
                          double mass_per_gain_kg, const Regression& whole) {
   struct Sums {
@@ -138,7 +139,7 @@ double gain_spread_ratio(const std::vector<GuidedWay>& of_loads, const Eigen::Ve
   return std::sqrt(squares / static_cast<double>(ratios.size() - 1));
 }
 
-/// Ways without loads, line by line in the order in which each line came first.
+/// The ways without loads for each line. Lines are in the order of their first ways.
 std::vector<std::vector<GuidedWay>> lines_of(const std::vector<GuidedWay>& ways) {
   std::vector<std::vector<GuidedWay>> lines;
   for (const GuidedWay& way : ways) {
@@ -156,9 +157,9 @@ std::vector<std::vector<GuidedWay>> lines_of(const std::vector<GuidedWay>& ways)
   return lines;
 }
 
-/// Damping and friction, in newtons commanded.
+/// Damping and friction in commanded newtons.
 struct Opposing {
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< Along all lines.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< The constant force along all lines.
   Measured damping, friction;
   double residual = 0.0;
   std::vector<Measured> damping_by_line;
@@ -184,7 +185,8 @@ Opposing opposing_of(const std::vector<GuidedWay>& ways, double mass_per_gain_kg
                     .damping = measured_at(*common, kSpeed),
                     .friction = measured_at(*common, kOne),
                     .residual = common->residual()};
-  // Each line by itself: constant force along it, speed, one.
+  // Each line has a fit of its own, for the constant force along it, the speed, and the path
+  // ratio.
   double squares = 0.0, degrees_of_freedom = 0.0;
   std::vector<Regression> single;
   for (const auto& line : lines) {
@@ -218,7 +220,7 @@ GuidedWay guided_way(const Eigen::Vector3d& direction, const std::vector<double>
                      const std::vector<double>& commanded_n, double period_s, double load_n,
                      int pose) {
   constexpr std::size_t kFewest = 60, kReach = 8;
-  // Going back slower than this may be noise of positions.
+  // A slower motion backwards may be noise of the positions.
   constexpr double kMoving_m_per_s = 0.0025;
   const std::size_t n = position_m.size();
   if (n < kFewest || commanded_n.size() != n) {
@@ -233,7 +235,8 @@ GuidedWay guided_way(const Eigen::Vector3d& direction, const std::vector<double>
     const double speed_m_per_s = speed_at(i);
     way_m += speed_m_per_s * period_s;
     path_m += (speed_m_per_s < -kMoving_m_per_s ? -speed_m_per_s : speed_m_per_s) * period_s;
-    // A mean of speeds would miss how fast it starts and stops, where the force is largest.
+    // A mean of speeds would miss how fast the device starts and stops, where the force is
+    // largest.
     work_j += commanded_n[i] * 0.5 * (position_m[i + 1] - position_m[i - 1]);
     squares += speed_m_per_s * speed_m_per_s * period_s;
   }
@@ -281,7 +284,7 @@ ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up
   const double gain_error_ratio = gain_error / gain;
   fit.gain = measured(gain, std::hypot(gain_error, load_uncertainty_ratio * gain),
                       loaded->degrees_of_freedom);
-  // What is open of the gain, and of the loads, is in all that is in newtons.
+  // The uncertainty of the gain and of the loads enters everything in newtons.
   const auto in_newtons = [&](const Measured& commanded) {
     const double value = gain * commanded.value;
     const double open = student_t975(loaded->degrees_of_freedom) * value *
@@ -294,7 +297,7 @@ ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up
   fit.damping_n_s_per_m = in_newtons(opposing.damping);
   fit.friction_n = in_newtons(opposing.friction);
   fit.hysteresis_n = opposing.friction;
-  // At several speeds damping and friction stand for it.
+  // With several speeds, damping and friction replace it.
   if (num_coefficients == kOpposing + 1) {
     fit.lifting_opposed_n = loaded->coefficients[kOpposing];
   }
@@ -303,13 +306,14 @@ ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up
   }
   fit.damps_alike = opposing.is_alike;
 
-  // The loads tell best what acts up or down; by the delta method with the gain.
+  // The loads determine best what acts up or down. Its uncertainty and that of the gain are
+  // combined by the delta method.
   const double upwards = loaded->coefficients[kUpwards];
   const Eigen::Vector3d offset = opposing.offset + (upwards - opposing.offset.dot(up)) * up;
   fit.offset_n = gain * offset;
   const Eigen::Vector2d gradient(-gain, gain * gain * upwards);
   const Eigen::Matrix2d covariance =
-      loaded->covariance.topLeftCorner<2, 2>();  // Upwards, load.
+      loaded->covariance.topLeftCorner<2, 2>();  // The order is upwards, load.
   const double weight_n = -gain * upwards;
   fit.weight_n = measured(weight_n,
                           std::sqrt(gradient.dot(covariance * gradient) +
@@ -322,7 +326,7 @@ ForceFit fit_force(const std::vector<GuidedWay>& ways, const Eigen::Vector3d& up
 double fitted_n(const ForceFit& fit, const GuidedWay& way) {
   const double balanced_n =
       (load_along_n(fit, way) - fit.offset_n.dot(way.direction)) / fit.gain.value;
-  // Loads have a fit of their own, for axes may be damped differently.
+  // Loads have a fit of their own, because axes may be damped differently.
   if (way.load_n != 0.0 && fit.lifting_opposed_n) {
     return balanced_n + way.path_ratio * *fit.lifting_opposed_n;
   }

@@ -10,11 +10,11 @@ namespace jnd::analysis {
 namespace {
 
 constexpr int kFewestMarks = 4;
-/// Second largest over largest extent: below it, marks lie on a line for all practical
-/// purposes.
+/// The second largest extent divided by the largest. Below this value the marks practically lie
+/// on a line.
 constexpr double kLeastBreadthRatio = 0.05;
 
-/// a x b as a matrix times b.
+/// The matrix M for which M b = a x b.
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
   Eigen::Matrix3d matrix;
   matrix << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
@@ -43,7 +43,7 @@ FrameFit fit_frame(const std::vector<TouchedMark>& marks) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& extent = svd.singularValues();
-  // Extents are squared lengths here.
+  // The extents are squared lengths here.
   if (!(extent[1] > kLeastBreadthRatio * kLeastBreadthRatio * extent[0])) {
     throw core::Error(
         "frame: expected marks that do not lie on one line, found some that do; add one beside "

@@ -2,7 +2,7 @@
 
 namespace jnd::analysis {
 
-/// What was measured of a device, and what the measurement leaves open.
+/// A measured property of a device, with its uncertainty.
 struct Measured {
   double value = 0.0;
   double ci95_low = 0.0, ci95_high = 0.0;
@@ -12,11 +12,11 @@ struct Measured {
   }
 };
 
-/// value -+ t standard_error, t the 97.5 % quantile of Student's distribution with so many
-/// degrees of freedom, > 0.
+/// The interval value -+ t standard_error, where t is the 97.5 % quantile of Student's
+/// distribution with `degrees_of_freedom`, > 0.
 [[nodiscard]] Measured measured(double value, double standard_error, double degrees_of_freedom);
 
-/// That quantile. `degrees_of_freedom` > 0.
+/// The 97.5 % quantile of Student's distribution. `degrees_of_freedom` is > 0.
 [[nodiscard]] double student_t975(double degrees_of_freedom);
 
 }  // namespace jnd::analysis

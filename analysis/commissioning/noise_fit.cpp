@@ -11,7 +11,7 @@ namespace jnd::analysis {
 namespace {
 
 constexpr std::size_t kFewestReadings = 100;
-/// A picometre: below it two readings differ by rounding alone.
+/// A picometre. Readings that differ by less differ only by rounding.
 constexpr double kSame_m = 1e-12;
 
 Measured deviation_of(const std::vector<Eigen::Vector3d>& readings) {

@@ -7,19 +7,20 @@
 
 namespace jnd::analysis {
 
-/// What a device says of a point that does not move, in the device's own frame, for there its
-/// encoders have their steps.
+/// What a device reports for a point that does not move, in the device's own frame, in which
+/// its encoders have their steps.
 struct NoiseFit {
-  Measured position_sd_m;  ///< On one axis, all three together.
-  /// The least step between two readings, all axes together; 0 where no reading differs.
+  Measured position_sd_m;  ///< The standard deviation on one axis, from all three together.
+  /// The least step between two readings, from all axes together; 0 if no readings differ.
   double position_resolution_m = 0.0;
   Measured velocity_sd_m_per_s;
-  /// The first readings of the position, at most 250, less the mean of all, to look at.
+  /// The first readings of the position, at most 250, minus the mean of all. They are for
+  /// display.
   std::vector<Eigen::Vector3d> first_readings_m;
 };
 
-/// One reading a tick. Intervals of standard deviations by chi square. Throws `core::Error` for
-/// fewer than a hundred.
+/// There is one reading per tick. The intervals of standard deviations come from chi-squared.
+/// Throws `core::Error` for fewer than a hundred readings.
 [[nodiscard]] NoiseFit fit_noise(const std::vector<Eigen::Vector3d>& position_m,
                                  const std::vector<Eigen::Vector3d>& velocity_m_per_s);
 

@@ -12,11 +12,12 @@ struct Motion {
   double position_m = 0.0, velocity_m_per_s = 0.0;
 };
 
-/// Under a force that stands so long.
+/// Moves the mass under a constant force for this duration.
 void move(const SingleMass& device, double force_n, double duration_s, Motion& motion) {
   const double rate = device.damping_n_s_per_m / device.mass_kg;
   const double turned = rate * duration_s;
-  // (1 - exp(-t)) / t and (t - 1 + exp(-t)) / t^2, which is 1/2 where t vanishes.
+  // These are (1 - exp(-t)) / t and (t - 1 + exp(-t)) / t^2, which tend to 1 and 1/2 as t tends
+  // to 0.
   constexpr double kSmall = 1e-4;
   const double first = turned < kSmall ? 1.0 - 0.5 * turned : -std::expm1(-turned) / turned;
   const double second =
@@ -26,12 +27,12 @@ void move(const SingleMass& device, double force_n, double duration_s, Motion& m
   motion.velocity_m_per_s = std::exp(-turned) * motion.velocity_m_per_s + first * push;
 }
 
-/// Largest size of an eigenvalue of one period's motion under this stiffness.
+/// The largest magnitude of an eigenvalue of one period's motion at this stiffness.
 double growth_of(const SingleMass& device, double stiffness_n_per_m) {
   const double delay = device.delay_s / device.period_s;
   const auto whole = static_cast<Eigen::Index>(std::floor(delay));
   const double late_s = (delay - static_cast<double>(whole)) * device.period_s;
-  // Position, velocity, and the forces of the last writes.
+  // The state holds position, velocity, and the forces of the last writes.
   const Eigen::Index size = 2 + whole + 1;
   Eigen::MatrixXd period(size, size);
   for (Eigen::Index column = 0; column < size; ++column) {
@@ -85,7 +86,7 @@ Measured stiffness_limit(const DelayFit& delay, const ForceFit& force, double pe
   };
   const Measured& mass = delay.mass_per_gain_kg;
   const Measured& damping = force.damping_n_s_per_m;
-  // More damping and less delay help; the mass hardly matters, and either way.
+  // More damping and less delay help. The mass hardly matters, and may act in either direction.
   const auto over_masses = [&](double damping_n_s_per_m, double delay_s) {
     return std::minmax({of(mass.ci95_low, damping_n_s_per_m, delay_s),
                         of(mass.value, damping_n_s_per_m, delay_s),

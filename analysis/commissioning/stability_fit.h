@@ -5,18 +5,21 @@
 
 namespace jnd::analysis {
 
-/// Up to which stimuli a device was found stable, nobody's hand in it: what a hand adds to its
-/// mass and damping helps.
+/// The stimuli up to which a device was found stable without a hand. The mass and damping of a
+/// hand make it more stable.
 struct StabilityFit {
-  double rate_hz = 0.0;            ///< Of the loop.
-  DampingLimit damping;            ///< In the worst of the poses that could be told apart.
-  double viscosity_pa_s = 0.0;     ///< The lower end of that as a fluid's, less 3 %.
-  double stiffness_n_per_m = 0.0;  ///< Of a solid.
-  /// By the device's mass, damping and delay; else by solids that it was let fall onto.
+  double rate_hz = 0.0;  ///< The rate of the loop.
+  /// The limit in the worst of the poses that could be distinguished.
+  DampingLimit damping;
+  /// The lower end of that limit as a fluid's viscosity, minus 3 %.
+  double viscosity_pa_s = 0.0;
+  double stiffness_n_per_m = 0.0;  ///< The stiffness of a solid.
+  /// Whether it follows from the device's mass, damping and delay. Otherwise it follows from
+  /// solids onto which the device was dropped.
   bool is_single_mass = true;
-  /// The thickest fluid up to that in which no guard of the loop ended the force when the
-  /// device was drawn through it: noise of velocities is noise of the force, and the more so in
-  /// thick fluids. 0: it did in every one.
+  /// The most viscous fluid, up to that limit, in which no guard of the loop ended the force
+  /// while the device was drawn through it. Noise of the velocity is noise of the force, and
+  /// more so in viscous fluids. It is 0 if a guard ended the force in every fluid.
   double quiet_viscosity_pa_s = 0.0;
 };
 

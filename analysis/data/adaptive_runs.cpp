@@ -32,7 +32,7 @@ struct BlockTrials {
   std::vector<bool> set_aside;
 };
 
-/// A participant's trials in a block, session by session, in their order.
+/// A participant's trials in a block, by session and in their order.
 std::map<std::int64_t, BlockTrials> trials_by_session(const ParticipantData& participant,
                                                       const std::string& block) {
   std::vector<std::pair<core::TrialRow, bool>> all;

@@ -9,15 +9,15 @@
 
 namespace jnd::analysis {
 
-/// What the answers of one participant in one adaptive block come to by its own rule, as plain
-/// data. `trials` in their order, those set aside among them, for the procedure saw them;
-/// `set_aside` of the same length. Participant and block are the caller's to name. A rule that
-/// the answers do not fit is a problem that the run names. Not real time.
+/// The result of one participant's answers in one adaptive block by its own rule, as plain
+/// data. `trials` are in their order and include those that were set aside, because the
+/// procedure saw them. `set_aside` has the same length. The caller fills in participant and
+/// block. If the answers do not fit the rule, the run's `problem` says so. Not real time.
 [[nodiscard]] AdaptiveRun adaptive_run_of(const experiments::Block& block,
                                           const std::vector<core::TrialRow>& trials,
                                           const std::vector<bool>& set_aside);
 
-/// Adds one for each session of each participant in each adaptive block: `StudyData::runs`.
+/// Adds a run for each session of each participant in each adaptive block to `StudyData::runs`.
 void add_adaptive_runs(StudyData& data);
 
 }  // namespace jnd::analysis

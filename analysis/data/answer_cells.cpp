@@ -14,7 +14,8 @@ namespace jnd::analysis {
 namespace {
 
 constexpr std::size_t kMostTableProblems = 20;
-constexpr double kLargestTally = 1e15;  ///< Beyond, double does not hold every whole number.
+/// Above this a double does not hold every whole number.
+constexpr double kLargestTally = 1e15;
 
 bool is_count(double value) noexcept {
   return value >= 0.0 && value == std::floor(value) && value <= kLargestTally;
@@ -104,7 +105,7 @@ std::string shown_columns(const std::vector<std::string>& header) {
 bool is_same_cell(std::string_view cell, std::string_view wanted, bool decimal_comma) noexcept {
   if (cell == wanted) return true;
   const double one = number_of(cell, decimal_comma), other = number_of(wanted, true);
-  return one == other;  // Never of NaN.
+  return one == other;  // This is never true for NaN.
 }
 
 void TableProblems::report(int line, const std::string& column, const std::string& rule,

@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::size_t kMostPooled = 1000;
 
-/// Answers by intensity, found again by a table of places.
+/// Answers by intensity, with a hash table of their indices.
 class Tallies {
  public:
   void add(double intensity, std::int64_t num_yes, std::int64_t num_trials) {
-    if (intensity == 0.0) intensity = 0.0;  // Of -0, too.
+    if (intensity == 0.0) intensity = 0.0;  // Turns -0 into 0.
     if (2 * (tallies_.size() + 1) > places_.size()) grow();
     std::uint32_t& place = places_[slot_of(intensity)];
     if (place == kNone) {
@@ -56,7 +56,7 @@ class Tallies {
   std::vector<std::uint32_t> places_;
 };
 
-/// Takes rows of cells, whatever they are written as.
+/// Takes rows of cells in any format.
 class AnswerCollector final : public RowSink {
  public:
   AnswerCollector(std::string name, const AnswerColumns& columns)
@@ -223,7 +223,8 @@ class AnswerCollector final : public RowSink {
   std::optional<std::size_t> response_;  ///< Of jsPsych, if another column says what is a yes.
   std::vector<std::size_t> group_by_, where_, pooled_;
   std::vector<std::set<std::string>> pooled_cells_;
-  std::vector<std::set<std::string>> elsewhere_;  ///< Other cells of each of `where_`.
+  /// The other cells found for each entry of `where_`.
+  std::vector<std::set<std::string>> elsewhere_;
   std::vector<Tallies> tallies_;
   std::unordered_map<std::string, std::size_t> group_places_;
   std::string key_;

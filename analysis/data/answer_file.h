@@ -11,53 +11,57 @@
 
 namespace jnd::analysis {
 
-/// Which cells of a table of answers say what. Names of columns as the file has them.
+/// The roles of the columns in a table of answers. Names are those in the file.
 struct AnswerColumns {
   std::string intensity;
-  /// A yes or a no, or with `trials` how many were yes.
+  /// The column with a yes or a no or, with `trials`, the number of yes.
   std::string yes;
-  std::optional<std::string> yes_value;  ///< The cell that is a yes; every other one is a no.
-  std::optional<std::string> trials;     ///< Each row is one trial where absent.
+  /// The cell that means yes. Every other cell means no.
+  std::optional<std::string> yes_value;
+  std::optional<std::string> trials;  ///< If absent, each row is one trial.
   std::vector<std::string> group_by;
-  /// Column and cell; rows that have another one are left out.
+  /// Columns and cells. Rows with another cell are left out.
   std::vector<std::pair<std::string, std::string>> where;
   bool signed_intensities = true;  ///< Whether an intensity may be < 0.
 };
 
-/// Answers at one intensity of one group.
+/// The answers at one intensity of one group.
 struct AnswerTally {
   double intensity = 0.0;
   std::int64_t num_yes = 0, num_trials = 0;
 };
 
-/// The rows of one group, each intensity once, in the order of their first rows.
+/// The rows of one group. Each intensity occurs once, in the order of the first rows.
 struct AnswerGroup {
-  std::vector<std::pair<std::string, std::string>> key;  ///< Column and cell; empty for all.
+  /// Columns and their cells. It is empty if there are no grouping columns.
+  std::vector<std::pair<std::string, std::string>> key;
   std::vector<AnswerTally> tallies;
 };
 
-/// What a file of answers has.
+/// The content of a file of answers.
 struct AnswerFile {
-  std::vector<AnswerGroup> groups;  ///< In the order of their first rows; one without grouping.
+  /// In the order of their first rows. Without grouping there is one.
+  std::vector<AnswerGroup> groups;
   std::vector<std::string> columns;
-  std::int64_t num_rows = 0;       ///< Below the header.
-  std::int64_t num_elsewhere = 0;  ///< Left out by `where`.
-  /// Left out because a cell that is needed is empty, NA, null, NaN or None, or, of a column
-  /// that groups, empty or NA: by column.
+  std::int64_t num_rows = 0;       ///< The number of rows below the header.
+  std::int64_t num_elsewhere = 0;  ///< The number of rows left out by `where`.
+  /// For each column, the number of rows left out because a required cell is empty, NA, null,
+  /// NaN or None. In a grouping column only empty and NA count as missing.
   std::map<std::string, std::int64_t> num_missing;
-  /// Where `yes_value` says what is a yes: trials of each other cell, of which all are a no; at
-  /// most 20 of them.
+  /// If `yes_value` defines yes: the number of trials for each other cell, all of which mean
+  /// no. At most 20 cells are counted.
   std::map<std::string, std::int64_t> num_no;
-  /// Different cells of columns that tell people or conditions apart but are not grouped by;
-  /// at most 1000 of each are counted.
+  /// The number of different cells in columns that distinguish people or conditions but are not
+  /// used for grouping. At most 1000 of each are counted.
   std::map<std::string, std::size_t> num_pooled;
 };
 
-/// Whether a column of this name tells people or conditions apart, as other programs call them.
+/// Whether a column of this name distinguishes people or conditions, by the names that other
+/// programs use.
 [[nodiscard]] bool tells_rows_apart(std::string_view column) noexcept;
 
-/// Reads answers row by row, adding up those of one group and intensity, so that a file of a
-/// million rows takes no more memory than it has different intensities.
+/// Reads answers row by row and adds up those of one group and intensity. So a file of a
+/// million rows needs no more memory than its different intensities.
 ///
 /// Text: a header line, then rows, separated by commas, semicolons or tabs, whichever the
 /// header has most of; quotes as RFC 4180 has them. Decimals have a point, or a comma where
@@ -66,13 +70,13 @@ struct AnswerFile {
 /// jsPsych writes it; `a.b` names what is within an object. A trial of jsPsych that has no
 /// `response` was not answered in time; it is left out and counted as missing.
 ///
-/// A yes is 1, true or yes, a no is 0, -1, false or no, in any case of letters. Throws
-/// `core::Error` with every problem (at most 20), each "FILE:LINE: column: expected this, found
-/// that", of JSON with the place in the list for the line. Not real time.
+/// A yes is 1, true or yes, and a no is 0, -1, false or no, in any case. Throws `core::Error`
+/// with every problem (at most 20) in the form "FILE:LINE: column: expected this, found that".
+/// For JSON the line is the place in the list. Not real time.
 [[nodiscard]] AnswerFile read_answer_file(const std::filesystem::path& file,
                                           const AnswerColumns& columns);
 
-/// The same of a text; `name` is what messages call it.
+/// Reads a text in the same way. `name` is its name in messages.
 [[nodiscard]] AnswerFile parse_answers(std::string_view text, const std::string& name,
                                        const AnswerColumns& columns);
 

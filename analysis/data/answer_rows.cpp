@@ -12,7 +12,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// The separator that a header line has most of outside of quotes.
+/// The most frequent separator outside of quotes in a header line.
 char separator_of(std::string_view header) noexcept {
   std::array<std::size_t, 3> counts{};
   constexpr std::string_view kSeparators = "\t;,";
@@ -26,13 +26,13 @@ char separator_of(std::string_view header) noexcept {
   return *most == 0 ? ',' : kSeparators[static_cast<std::size_t>(most - counts.begin())];
 }
 
-/// Takes text apart as it comes: whole rows of what it is fed, the rest when more comes.
+/// Splits text as it arrives. It takes whole rows, and the rest when more text has arrived.
 class RowScanner {
  public:
   explicit RowScanner(RowSink& to) : to_(to) {}
 
-  /// Takes the whole rows of `text`, and tells how much they are of it. `is_last`: no more
-  /// comes.
+  /// Takes the whole rows of `text`, and returns how much of it that was. `is_last` says that
+  /// no more text follows.
   std::size_t take(std::string_view text, bool is_last) {
     std::size_t from = 0;
     while (from < text.size() && !is_over_) {
@@ -49,7 +49,8 @@ class RowScanner {
   [[nodiscard]] bool has_header() const noexcept { return num_columns_ > 0; }
 
  private:
-  /// Behind the line end of the row that begins at `from`; npos where it is not whole.
+  /// The place after the line end of the row that begins at `from`; npos if the row is not
+  /// complete.
   std::size_t row_end(std::string_view text, std::size_t from, bool is_last) {
     bool in_quotes = false;
     for (std::size_t i = from; i < text.size(); ++i) {
@@ -61,7 +62,7 @@ class RowScanner {
         to_.problems().throw_problems();
       }
       if (!in_quotes && letter == '\n') return i + 1;
-      // A file of old Macs has carriage returns alone.
+      // Files of old Macs have only carriage returns.
       if (!in_quotes && letter == '\r' && i + 1 < text.size() && text[i + 1] != '\n') {
         return i + 1;
       }
@@ -77,7 +78,7 @@ class RowScanner {
   void take_row(std::string_view row, int line) {
     if (without_spaces(row).empty()) return;
     if (num_columns_ == 0) {
-      if (row.size() == 5 && row.starts_with("sep=")) {  // As Excel writes it.
+      if (row.size() == 5 && row.starts_with("sep=")) {  // Excel writes this line.
         separator_ = row[4];
         return;
       }
@@ -88,7 +89,7 @@ class RowScanner {
       return;
     }
     split(row);
-    if (cells_.front() == "extraInfo") {  // What PsychoPy's text tables end with.
+    if (cells_.front() == "extraInfo") {  // PsychoPy's text tables end with this.
       is_over_ = true;
       return;
     }
@@ -119,7 +120,7 @@ class RowScanner {
         from = end;
       }
       if (from >= row.size()) return;
-      ++from;  // The separator.
+      ++from;  // Skips the separator.
       if (from == row.size()) {
         cells_.emplace_back();
         return;
@@ -127,7 +128,7 @@ class RowScanner {
     }
   }
 
-  /// Adds the cell that begins with this quote; tells where its separator is.
+  /// Adds the cell that begins with this quote, and returns the place of its separator.
   std::size_t quoted_cell(std::string_view row, std::size_t quote) {
     std::size_t end = quote + 1;
     bool has_quotes = false;
@@ -160,7 +161,8 @@ class RowScanner {
   int line_ = 1;
   bool is_over_ = false;
   std::vector<std::string_view> cells_;
-  std::vector<std::unique_ptr<std::string>> owned_;  ///< What cells with quotes within are of.
+  /// Owns the text of cells that contain quotes.
+  std::vector<std::unique_ptr<std::string>> owned_;
 };
 
 // --- JSON
@@ -172,7 +174,7 @@ std::string cell_of(const nlohmann::json& value) {
   return value.dump();
 }
 
-/// The keys of an object, those within objects after a point.
+/// The keys of an object. Those of nested objects follow a point.
 void flatten(const nlohmann::json& object, const std::string& before,
              std::vector<std::pair<std::string, std::string>>& to) {
   for (const auto& [key, value] : object.items()) {
@@ -233,7 +235,7 @@ std::ifstream opened(const std::filesystem::path& file) {
 
 constexpr std::size_t kChunkBytes = 1 << 18;
 
-/// Feeds the file to `take(text, is_last)`, which tells how much it took, chunk by chunk.
+/// Passes the file in chunks to `take(text, is_last)`, which returns how much it took.
 template <typename Take>
 void feed(std::ifstream& in, const std::string& name, const Take& take) {
   constexpr std::size_t kLongestRow = 1 << 26;

@@ -9,7 +9,7 @@
 
 namespace jnd::analysis {
 
-/// Takes a table row by row, while it is read.
+/// Receives a table row by row while it is read.
 class RowSink {
  public:
   explicit RowSink(std::string name) : problems_(std::move(name)) {}
@@ -18,7 +18,8 @@ class RowSink {
   RowSink& operator=(const RowSink&) = delete;
 
   virtual void set_header(std::vector<std::string> header, int line) = 0;
-  /// `decimal_comma`: whether commas do not separate cells, so that numbers may have them.
+  /// `decimal_comma` says whether commas do not separate cells, so that numbers may contain
+  /// them.
   virtual void add_row(const std::vector<std::string_view>& cells, int line,
                        bool decimal_comma) = 0;
 
@@ -28,17 +29,17 @@ class RowSink {
   TableProblems problems_;
 };
 
-/// Reads a table of anybody's program chunk by chunk, so that it is never held as a whole.
+/// Reads a table from any program in chunks, so that it is never in memory as a whole.
 ///
-/// Text: a header line, then rows, separated by commas, semicolons or tabs, whichever the
-/// header has most of; quotes as RFC 4180 has them. Decimals have a point, or a comma where
-/// that does not separate. Rows may be shorter than the header, and longer by empty cells, as
-/// PsychoPy writes them; its lines from `extraInfo` on are no rows. JSON: a list of objects, as
-/// jsPsych writes it; `a.b` names what is within an object, and the place in the list stands
-/// for the line. Throws `core::Error` for what is no table. Not real time.
+/// Text: A header line is followed by rows. They are separated by commas, semicolons or tabs,
+/// whichever is most frequent in the header. Quotes follow RFC 4180. Decimals have a point, or
+/// a comma if commas do not separate. Rows may be shorter than the header, or longer by empty
+/// cells, as PsychoPy writes them. Its lines from `extraInfo` on are not rows. JSON: A list of
+/// objects, as jsPsych writes it; `a.b` names a value within an object, and the place in the
+/// list serves as the line. Throws `core::Error` if the file is not a table. Not real time.
 void read_rows(const std::filesystem::path& file, RowSink& sink);
 
-/// The same of a text, which the sink has the name of.
+/// Reads a text in the same way. The sink has its name.
 void parse_rows(std::string_view text, RowSink& sink);
 
 }  // namespace jnd::analysis

@@ -5,8 +5,8 @@
 
 namespace jnd::analysis {
 
-/// What a participant's cells, "priming=primed;method_order=estimation,production", say of each
-/// counterbalance and field: "primed" of "priming".
+/// Splits a participant's cells, such as "priming=primed;method_order=estimation,production",
+/// into the arm of each counterbalance and field: "primed" for "priming".
 [[nodiscard]] std::map<std::string, std::string> arms_of(const std::string& cells);
 
 }  // namespace jnd::analysis

@@ -4,12 +4,12 @@
 
 namespace jnd::analysis {
 
-/// Answers of a magnitude estimation in percent of what they count in, so that everything after
-/// reads them alike: those to a felt standard over its `modulus_value`; those in everybody's
-/// own numbers over the participant's modulus, the geometric mean of their answers to the
-/// stimuli that all answered (modulus equalisation, Lane, Catania and Stevens 1961), which
-/// `block` then has. Nothing where there is no such stimulus. What is in percent of water
-/// stays.
+/// Converts the answers of a magnitude estimation into percent of their modulus, so that all
+/// later analyses read them alike. Answers relative to a felt standard are divided by its
+/// `modulus_value`. Answers in everybody's own numbers are divided by the participant's
+/// modulus, which `block` then holds. It is the geometric mean of the participant's answers to
+/// the stimuli that all answered (modulus equalisation, Lane, Catania and Stevens 1961).
+/// Nothing changes if there is no such stimulus. Answers in percent of water stay as they are.
 void bring_to_common_modulus(StudyData& data, BlockDesign& block);
 
 }  // namespace jnd::analysis

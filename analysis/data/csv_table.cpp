@@ -24,7 +24,8 @@ std::string_view trimmed(std::string_view text) noexcept {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Delete, or one of the controls U+0080 to U+009F, which JSON may hold as they are.
+/// Whether the text contains Delete or a control character from U+0080 to U+009F, which JSON
+/// may contain unescaped.
 bool has_high_control(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
@@ -33,11 +34,11 @@ bool has_high_control(std::string_view text) {
   return false;
 }
 
-/// A cell as a message shows it: in quotes, short, control characters as JSON writes them, and
-/// UTF-8 whatever its bytes are.
+/// A cell in the form in which messages show it: in quotes, short, with control characters as
+/// in JSON, and in UTF-8 whatever its bytes are.
 std::string in_quotes(std::string_view cell, std::size_t most_bytes = 60) {
   for (std::size_t kept = std::min(cell.size(), most_bytes);; kept /= 2) {
-    // Not in the middle of a UTF-8 character.
+    // The cut must not be inside a UTF-8 character.
     while (kept > 0 && kept < cell.size() &&
            (static_cast<unsigned char>(cell[kept]) & 0xC0) == 0x80) {
       --kept;
@@ -62,7 +63,7 @@ std::string in_quotes(std::string_view cell, std::size_t most_bytes = 60) {
   throw core::Error(text);
 }
 
-/// Takes the text apart, one row at a time.
+/// Splits the text one row at a time.
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : rest_(text) {}
@@ -70,8 +71,8 @@ class Scanner {
   [[nodiscard]] bool at_end() const noexcept { return rest_.empty(); }
   [[nodiscard]] int line() const noexcept { return line_; }
 
-  /// The cells of the next row; nothing for an empty line. `problem` tells what is wrong with
-  /// its quotes, "" for nothing.
+  /// The cells of the next row; empty for an empty line. `problem` says what is wrong with its
+  /// quotes, or is "".
   std::vector<std::string> row(std::string& problem) {
     problem.clear();
     std::vector<std::string> cells;
@@ -139,7 +140,7 @@ class Scanner {
   int line_ = 1;
 };
 
-/// A number with a point for the decimals, whatever the locale; NaN if the text is none.
+/// A number with a decimal point, independent of the locale; NaN if the text is no number.
 double parsed_number(std::string_view text) noexcept {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;
@@ -148,7 +149,8 @@ double parsed_number(std::string_view text) noexcept {
   return whole ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Letters to insert, delete or replace to make one word of the other, ignoring case.
+/// The number of letters to insert, delete or replace to turn one word into the other, ignoring
+/// case.
 std::size_t edit_distance(std::string_view one, std::string_view other) {
   std::vector<std::size_t> row(other.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -165,8 +167,8 @@ std::size_t edit_distance(std::string_view one, std::string_view other) {
   return row.back();
 }
 
-/// The column that `name` may have meant: one that holds most of it, or is spelled nearly so;
-/// "" if there is none.
+/// The column that `name` may have meant: one that contains most of it, or is spelled
+/// similarly; "" if there is none.
 std::string nearest_column(std::string_view name, const std::vector<std::string>& columns) {
   std::string nearest;
   std::size_t least = name.size() / 2 + 1;
@@ -221,7 +223,7 @@ CsvTable CsvTable::parse(std::string_view text, std::string name) {
     std::vector<std::string> cells = scanner.row(problem);
     if (!problem.empty()) {
       report(line, problem);
-      if (!table.columns_.empty()) continue;  // Its cells say nothing.
+      if (!table.columns_.empty()) continue;  // The cells of such a row are ignored.
     }
     if (cells.empty()) continue;
     if (!table.columns_.empty()) {

@@ -9,16 +9,18 @@
 
 namespace jnd::analysis {
 
-/// A CSV file with one header line: commas between cells, quotes around cells that hold commas,
-/// quotes or line ends (RFC 4180). LF or CRLF, with or without a byte order mark; empty lines
-/// are skipped, spaces around unquoted cells dropped. Cells stay text until asked for.
+/// A CSV file with one header line. Commas separate cells, and quotes enclose cells with
+/// commas, quotes or line ends (RFC 4180). Lines end in LF or CRLF, with or without a byte
+/// order mark. Empty lines are skipped, and spaces around unquoted cells are removed. Cells
+/// stay text until they are read as something else.
 class CsvTable {
  public:
-  /// Throws `core::Error`: the file cannot be read, or as `parse` says.
+  /// Throws `core::Error` if the file cannot be read, and as `parse` does.
   [[nodiscard]] static CsvTable read(const std::filesystem::path& file);
 
-  /// Throws `core::Error` with every problem of the form of the text, each "NAME:LINE: expected
-  /// this, found that": no header, semicolons for commas, rows of another length, open quotes.
+  /// Throws `core::Error` with every problem of the text's form, as "NAME:LINE: expected this,
+  /// found that": no header, semicolons in place of commas, rows of another length, open
+  /// quotes.
   [[nodiscard]] static CsvTable parse(std::string_view text, std::string name);
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
@@ -27,7 +29,7 @@ class CsvTable {
   [[nodiscard]] const std::string& cell(std::size_t row, std::size_t column) const {
     return rows_[row].cells[column];
   }
-  /// Line of the file that a row starts on, from 1.
+  /// The line of the file on which a row starts, from 1.
   [[nodiscard]] int line(std::size_t row) const { return rows_[row].line; }
   [[nodiscard]] std::optional<std::size_t> find(std::string_view column) const;
 
@@ -42,36 +44,37 @@ class CsvTable {
   std::vector<Row> rows_;
 };
 
-/// Reads columns of a table as numbers, collecting problems instead of stopping at the first.
+/// Reads columns of a table as numbers. It collects problems instead of stopping at the first.
 class CsvReader {
  public:
   explicit CsvReader(const CsvTable& table) : table_(table) {}
 
-  /// Place of a column; a problem that names the columns there are if it is missing.
+  /// The index of a column. If it is missing, it reports a problem that names the existing
+  /// columns.
   std::optional<std::size_t> column(std::string_view name);
 
-  /// Every cell of a column as a finite number; NaN, and a problem, where it is none. Empty if
-  /// the column is missing.
+  /// Every cell of a column as a finite number. An invalid cell becomes NaN and is reported.
+  /// The result is empty if the column is missing.
   [[nodiscard]] std::vector<double> numbers(std::string_view name);
 
   /// The numbers down to the first empty cell, after which all must be empty.
   [[nodiscard]] std::vector<double> numbers_until_empty(std::string_view name);
-  /// The same of some rows, ascending: an empty cell ends the column for them.
+  /// The same for some rows, ascending. An empty cell ends the column for them.
   [[nodiscard]] std::vector<double> numbers_until_empty(std::string_view name,
                                                         const std::vector<std::size_t>& rows);
 
-  /// A problem "NAME:LINE: column: expected RULE, found CELL".
+  /// Reports a problem "NAME:LINE: column: expected RULE, found CELL".
   void report(std::size_t row, std::string_view column, std::string_view rule);
 
-  /// Throws `core::Error` with the problems in the order of the file, one a line, the first
-  /// twenty if there are more.
+  /// Throws `core::Error` with the problems in the order of the file, one on each line. If
+  /// there are more than twenty, it shows the first twenty.
   void throw_problems() const;
 
  private:
   [[nodiscard]] double number(std::size_t row, std::size_t column);
 
   const CsvTable& table_;
-  std::vector<std::pair<int, std::string>> problems_;  ///< With the line of each.
+  std::vector<std::pair<int, std::string>> problems_;  ///< The problems with their lines.
 };
 
 }  // namespace jnd::analysis

@@ -5,10 +5,10 @@
 
 namespace jnd::analysis {
 
-// What the stored data of events hold: whatever is missing or of another type is as good as
-// empty. `Json` is nlohmann's, its keys in whichever order.
+// Reads the stored data of events. What is missing or has another type counts as empty. `Json`
+// is a type of nlohmann::json, with its keys in any order.
 
-/// The object that this text is; an empty one for any other.
+/// The object in this text; an empty object for anything else.
 template <typename Json = nlohmann::json>
 [[nodiscard]] Json object_in(const std::string& text) {
   Json value = Json::parse(text, nullptr, /*allow_exceptions=*/false);

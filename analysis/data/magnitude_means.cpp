@@ -39,7 +39,7 @@ MagnitudeBlock block_of(const StudyData& data, const BlockDesign& block,
   return result;
 }
 
-/// Half the smallest answer above 0; absent where there is none.
+/// Half the smallest answer above 0; absent if there is none.
 std::optional<double> half_smallest(const MagnitudeAnswers& answers) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const auto& [x, values] : answers) {
@@ -50,7 +50,7 @@ std::optional<double> half_smallest(const MagnitudeAnswers& answers) {
   return std::isfinite(smallest) ? std::optional(0.5 * smallest) : std::nullopt;
 }
 
-/// Those of `block` at the places that are kept.
+/// The participants of `block` at the given indices.
 MagnitudeBlock kept(const MagnitudeBlock& block, const std::vector<std::size_t>& places) {
   MagnitudeBlock result{.excluded = block.excluded};
   for (const std::size_t place : places) {

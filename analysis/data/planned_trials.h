@@ -8,10 +8,10 @@
 
 namespace jnd::analysis {
 
-/// A stored trial as it was drawn.
+/// A stored trial in the form in which it was drawn.
 [[nodiscard]] experiments::PlannedTrial planned_trial(const core::TrialRow& row);
 
-/// Whether the answer was right, where one can be in this block.
+/// Whether the answer was right, if an answer can be right in this block.
 [[nodiscard]] std::optional<bool> was_right(const experiments::Block& block,
                                             const core::TrialRow& row);
 

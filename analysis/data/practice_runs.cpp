@@ -13,7 +13,7 @@ namespace {
 using experiments::AnsweredTrial;
 using experiments::Block;
 
-/// Of one session, in the order in which they were answered, by block.
+/// The answered practice trials of each session and block, in the order of the answers.
 std::map<std::pair<std::int64_t, std::string>, std::vector<AnsweredTrial>> answered_of(
     const ParticipantData& participant) {
   std::map<std::pair<std::int64_t, std::string>, std::vector<AnsweredTrial>> answered;

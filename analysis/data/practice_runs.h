@@ -6,7 +6,7 @@
 
 namespace jnd::analysis {
 
-/// Adds how the practice of each session of each participant ended: `StudyData::practice`.
+/// Adds how the practice of each session of each participant ended to `StudyData::practice`.
 void add_practice_runs(StudyData& data, const core::StudyStore& store, StoredStudies& studies);
 
 }  // namespace jnd::analysis

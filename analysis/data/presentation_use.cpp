@@ -7,7 +7,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Beyond that a block's intensities are set rather than designed.
+/// A block with more intensities has set, not designed ones.
 constexpr std::size_t kMostUsedLevels = 32;
 
 struct Sums {
@@ -18,7 +18,7 @@ struct Sums {
 
 using ByLevel = std::map<std::optional<double>, Sums>;
 
-/// Of one interval of a block, level by level unless people set them.
+/// The sums of one interval of a block, for each level unless people set them.
 ByLevel sums_of(const StudyData& data, const std::string& block, const std::string& interval,
                 bool by_level) {
   ByLevel sums;
@@ -62,7 +62,8 @@ bool is_used(const core::PresentationRow& row) {
 std::vector<PresentationUse> presentation_uses(const StudyData& data) {
   std::vector<PresentationUse> uses;
   for (const BlockDesign& block : data.blocks) {
-    if (experiments::is_pressed(block.medium)) continue;  // Pressed: it can hold no stroke.
+    // A solid is pressed, so a presentation cannot hold a stroke.
+    if (experiments::is_pressed(block.medium)) continue;
     for (const auto& [interval, levels] : levels_by_interval(data, block.block)) {
       const bool by_level = levels.size() <= kMostUsedLevels;
       for (const auto& [level, sum] : sums_of(data, block.block, interval, by_level)) {

@@ -8,14 +8,15 @@
 
 namespace jnd::analysis {
 
-/// Presentations of one kind: how many there were, and how many hold a whole stroke, on which
-/// alone width and speed rest. Strokes too slow to be finished are missing, so what is left is
-/// a selection wherever many are.
+/// The number of presentations of one kind, and how many of them hold a whole stroke. Only
+/// those give width and speed. Strokes that were too slow to be completed are missing, so if
+/// many are missing the rest is a selection.
 struct PresentationUse {
   std::string block, interval;
-  std::optional<double> intensity;  ///< Absent where people set it themselves.
+  std::optional<double> intensity;  ///< Absent if people set the intensity themselves.
   int num_presented = 0, num_used = 0;
-  int num_participants = 0;  ///< With at least one that is used.
+  /// The number of participants with at least one presentation that is used.
+  int num_participants = 0;
   /// Means over the presentations that are used.
   std::optional<double> stroke_width_m, max_speed_m_per_s;
 
@@ -24,7 +25,8 @@ struct PresentationUse {
   }
 };
 
-/// By block, interval and level; free space between stimuli is left out. Not real time.
+/// The uses by block, interval and level. Free space between stimuli is left out.
+/// Not real time.
 [[nodiscard]] std::vector<PresentationUse> presentation_uses(const StudyData& data);
 
 /// Whether width and speed of this presentation are used.

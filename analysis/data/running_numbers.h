@@ -9,10 +9,11 @@
 
 namespace jnd::analysis {
 
-/// Numbers of one participant's trials in a block by when they were run. A trial that was put
-/// off has a number from before its time; here the numbers of a session are dealt out anew in
-/// the order of the trials' first ticks, over all trials that were answered: those set aside
-/// and catch trials as well, so that leaving some out moves no other. Key: session and trial.
+/// Numbers one participant's trials in a block in the order in which they were run. A postponed
+/// trial has a stored number from before its time. So the numbers of a session are assigned
+/// again in the order of the trials' first ticks. All answered trials are numbered, including
+/// catch trials and those set aside, so leaving some out does not move the others. The key is
+/// session and trial.
 [[nodiscard]] std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> running_numbers(
     const ParticipantData& participant, const std::string& block);
 

@@ -35,7 +35,7 @@ ParticipantData& of(std::vector<ParticipantData>& participants, const std::strin
   return participants.back();
 }
 
-/// Which sessions did not come to their end, and how many are not told of.
+/// Which sessions are incomplete, and how many are not reported.
 MissingSessions missing_sessions(const core::StudyStore& store, bool with_pilots) {
   MissingSessions missing{.num_withdrawn = std::ssize(store.withdrawals())};
   std::map<std::int64_t, core::SessionOverview> overview;
@@ -60,7 +60,8 @@ std::set<std::string> all_stages(const experiments::Study& study) {
   return names;
 }
 
-/// Those of a session in these cells; where they are none of the study, nothing is hidden.
+/// The stages of a session with these cells. If the cells do not belong to the study, all
+/// stages are returned, so that nothing is hidden.
 std::set<std::string> stages_in(const experiments::Study& study, const std::string& cells) {
   try {
     std::set<std::string> names;
@@ -74,7 +75,7 @@ std::set<std::string> stages_in(const experiments::Study& study, const std::stri
   }
 }
 
-/// What the study has and no session of each participant does.
+/// Finds the stages that the study has but no session of a participant has.
 void find_other_arms(StudyData& data, const core::StudyStore& store, StoredStudies& studies,
                      bool with_pilots) {
   std::set<std::string> all;
@@ -110,7 +111,7 @@ std::vector<TakenLook> looks_of(const core::StudyStore& store) {
   return looks;
 }
 
-/// Places of the stages in their study file.
+/// The index of each stage in its study file.
 std::map<std::string, int> places_in(const experiments::Study& study) {
   std::map<std::string, int> places;
   for_each_stage(study.stages, [&](const experiments::Stage& stage) {
@@ -119,8 +120,8 @@ std::map<std::string, int> places_in(const experiments::Study& study) {
   return places;
 }
 
-/// Once its rows are known. A block that the study file has not, as of a study made by hand, is
-/// what its rows say.
+/// Fills in what a block measures, once its rows are known. If the study file lacks the block,
+/// as in a study made by hand, its rows define it.
 void say_what_it_measures(BlockDesign& block) {
   if (block.written.procedure.empty()) {
     block.written.procedure = block.procedure;

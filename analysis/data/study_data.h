@@ -19,29 +19,37 @@ namespace jnd::analysis {
 using experiments::AdaptiveRule;
 using experiments::Measure;
 
-/// Somebody whose answers a section of the results leaves out.
+/// A participant whose answers a section of the results leaves out.
 struct ExcludedParticipant {
   std::string participant;
   std::string reason;
 };
 
-/// What one participant left in a study: answers that stand, and how the hand moved.
+/// One participant's data in a study: valid answers, and how the hand moved.
 struct ParticipantData {
   std::string participant;
-  std::vector<core::TrialRow> trials;           ///< Catch trials and practice left out.
-  std::vector<core::TrialRow> catch_trials;     ///< For how often "yes" is said without cause.
-  std::vector<core::TrialRow> excluded_trials;  ///< Set aside by hand, otherwise complete.
-  std::vector<core::TrialRow> practice_trials;  ///< No data: how people came to know the task.
-  std::map<std::string, std::vector<core::PresentationRow>> presentations;  ///< By block.
-  std::vector<TrialRecord> records;      ///< Of every trial that was drawn but for practice.
-  std::string cells;                     ///< Counterbalancing, as a session keeps it.
-  std::vector<core::AnswerRow> answers;  ///< Outside of trials, in the order of the sessions.
-  /// To questions after the trials that stand, in the order of the sessions; of practice none.
+  std::vector<core::TrialRow> trials;  ///< Without catch trials and practice.
+  /// They show how often "yes" is said without cause.
+  std::vector<core::TrialRow> catch_trials;
+  /// Trials that were set aside by hand but are otherwise complete.
+  std::vector<core::TrialRow> excluded_trials;
+  /// These are no data. They show how people learnt the task.
+  std::vector<core::TrialRow> practice_trials;
+  /// The presentations by block.
+  std::map<std::string, std::vector<core::PresentationRow>> presentations;
+  /// The records of every trial that was drawn, except practice.
+  std::vector<TrialRecord> records;
+  /// The counterbalancing cells, as a session stores them.
+  std::string cells;
+  /// Answers outside of trials, in the order of the sessions.
+  std::vector<core::AnswerRow> answers;
+  /// Answers to questions after valid trials, in the order of the sessions. Those of practice
+  /// are left out.
   std::vector<core::QuestionAnswerRow> question_answers;
-  /// Blocks and stages of questions of the study that none of their sessions has, for they were
-  /// in another arm.
+  /// Blocks and stages with questions that are in the study but in none of the participant's
+  /// sessions, because they belong to another arm.
   std::set<std::string> of_other_arms;
-  /// Blocks whose trials were all set aside by the analysis, and why.
+  /// Blocks whose trials were all set aside by the analysis, with the reason.
   std::map<std::string, std::string> left_out{};
 
   [[nodiscard]] std::vector<core::TrialRow> trials_in(const std::string& block) const;
@@ -52,14 +60,15 @@ struct BlockDesign {
   std::string block;
   std::string procedure;
   std::string quantity;
-  std::int64_t num_trials = 0;  ///< For one participant; the most of any, where they differ.
+  /// The number for one participant, and the largest number if they differ.
+  std::int64_t num_trials = 0;
   std::optional<double> reference_intensity;
   std::string medium{};
   Measure measures = Measure::kComparison;
   AdaptiveRule rule = AdaptiveRule::kNone;
-  experiments::Block written{};  ///< As the study file has it.
-  /// Where everybody chose their own numbers: by participant, ln of the number that their
-  /// answers were divided by.
+  experiments::Block written{};  ///< The block in the study file.
+  /// If everybody chose their own numbers: for each participant, ln of the number by which the
+  /// answers were divided.
   std::map<std::string, double> own_log_moduli{};
 
   [[nodiscard]] bool estimates() const { return measures == Measure::kMagnitude; }
@@ -67,28 +76,29 @@ struct BlockDesign {
   [[nodiscard]] bool matches() const { return measures == Measure::kMatch; }
   [[nodiscard]] bool identifies() const { return measures == Measure::kIdentification; }
   [[nodiscard]] bool rates() const { return measures == Measure::kRating; }
-  /// Its answers have a psychometric function, whatever procedure chose the stimuli. Not where
-  /// no trial with the reference was answered.
+  /// Whether the answers have a psychometric function, whatever procedure chose the stimuli. It
+  /// is false if no trial with the reference was answered.
   [[nodiscard]] bool compares() const {
     return measures == Measure::kComparison && reference_intensity;
   }
   [[nodiscard]] bool detects() const { return measures == Measure::kDetection; }
   [[nodiscard]] bool tells_apart() const { return measures == Measure::kDifference; }
   [[nodiscard]] bool is_adaptive() const { return rule != AdaptiveRule::kNone; }
-  /// Whether the study file lists the levels, so that everybody has answers at each; the other
-  /// procedures go where the answers lead, with one or two at a level.
+  /// Whether the study file lists the levels, so that everybody has answers at each. Other
+  /// procedures follow the answers, and have one or two answers at a level.
   [[nodiscard]] bool has_fixed_levels() const {
     return !is_adaptive() || rule == AdaptiveRule::kLimits;
   }
-  /// An estimation in percent of water, which numbers of others compare with.
+  /// Whether it is an estimation in percent of water, with which other people's numbers can be
+  /// compared.
   [[nodiscard]] bool counts_in_water() const;
-  /// An estimation in numbers that a standard was given.
+  /// Whether it is an estimation relative to the number of a standard.
   [[nodiscard]] bool counts_in_standard() const;
-  /// An estimation in numbers of everybody's own.
+  /// Whether it is an estimation in everybody's own numbers.
   [[nodiscard]] bool counts_in_own_numbers() const;
-  /// "scale": what its standards are; "" for a block without a standard.
+  /// The quantity of its standards, such as "scale"; "" for a block without a standard.
   [[nodiscard]] std::string standard_quantity() const;
-  /// Whether a test can equal the standard in number: both are of one quantity.
+  /// Whether the test and the standard are of one quantity, so that their numbers can be equal.
   [[nodiscard]] bool standard_is_of_its_quantity() const {
     return standard_quantity() == quantity;
   }
@@ -98,59 +108,68 @@ struct BlockDesign {
 struct PracticeRun {
   std::string participant, block;
   int num_trials = 0;
-  int num_judged = 0;   ///< The last answers, at most as many as the criterion is of.
-  int num_correct = 0;  ///< Right answers among those judged.
+  /// The number of last answers that were judged, which is at most the number in the criterion.
+  int num_judged = 0;
+  int num_correct = 0;  ///< The number of right answers among those judged.
   bool criterion_met = false;
-  std::string problem;  ///< Why success cannot be told; "" if it can.
+  std::string problem;  ///< Why success cannot be decided; "" if it can.
 };
 
-/// Sessions that did not come to their end, or that nothing is told of.
+/// Sessions that are incomplete or not reported.
 struct MissingSessions {
-  std::vector<std::string> open, ended_early;  ///< By their participants' pseudonyms.
-  std::int64_t num_pilots = 0;                 ///< Left out.
-  std::int64_t num_withdrawn = 0;              ///< Of participants who withdrew: no data left.
+  std::vector<std::string> open, ended_early;  ///< The pseudonyms of their participants.
+  /// The number of pilot sessions, which are left out.
+  std::int64_t num_pilots = 0;
+  /// The number of sessions of participants who withdrew, whose data are deleted.
+  std::int64_t num_withdrawn = 0;
 };
 
-/// A look at a sequential study that was taken and told.
+/// A look at a sequential study that was taken and reported.
 struct TakenLook {
-  std::vector<std::string> participants;  ///< Who came to it since the look before, and stayed.
-  int num_sessions = 0;  ///< That came to it; more than those where somebody withdrew since.
-  bool ended = false;    ///< It was told to stop.
+  /// The participants who took part since the look before and did not withdraw.
+  std::vector<std::string> participants;
+  /// The number of sessions at the look. It is larger than the number of participants if some
+  /// have withdrawn since.
+  int num_sessions = 0;
+  bool ended = false;  ///< Whether the look reported that the study should stop.
 };
 
-/// A whole study, ready for analysis. Pilot sessions are left out, and practice but for how it
-/// went.
+/// A whole study, ready for analysis. Pilot sessions are left out. Of practice only its outcome
+/// is kept.
 struct StudyData {
-  std::string study;  ///< Name in its file.
+  std::string study;  ///< The name in its file.
   std::string protocol_sha256;
   bool simulated = false;
-  std::string laboratory_text;  ///< The whole file; "" with persons.
-  std::string laboratory;       ///< Name; "" with persons.
-  std::string device;           ///< Of all sessions; "" where they had different ones.
-  std::vector<std::string> calibrated_on, implied;  ///< By that laboratory.
-  bool delivered = false;  ///< Intensities are those that came out, not those commanded.
+  std::string laboratory_text;  ///< The whole laboratory file; "" with persons.
+  std::string laboratory;       ///< The name of the laboratory; "" with persons.
+  std::string device;           ///< The device of all sessions; "" if they had different ones.
+  /// The names in that laboratory's file of values to which it was fitted, and of values that
+  /// follow from these.
+  std::vector<std::string> calibrated_on, implied;
+  bool delivered = false;  ///< Whether intensities are delivered instead of commanded ones.
   MissingSessions sessions;
-  std::vector<ParticipantData> participants;  ///< By pseudonym.
+  std::vector<ParticipantData> participants;  ///< Sorted by pseudonym.
   experiments::Study written;                 ///< The study file of the last session.
   std::vector<BlockDesign> blocks;            ///< In the order of the study file.
   std::vector<QuestionnaireItem> items;       ///< In the order of the study file.
-  std::vector<AdaptiveRun> runs;  ///< Of blocks whose procedure has a rule of its own.
+  std::vector<AdaptiveRun> runs;  ///< The runs of blocks whose procedure has its own rule.
   std::vector<PracticeRun> practice;
-  std::vector<TakenLook> looks;                ///< Of a sequential study, in order.
-  std::vector<core::UnsealingRow> unsealings;  ///< Of one that was opened before its end.
+  std::vector<TakenLook> looks;  ///< The looks of a sequential study, in order.
+  /// The unsealings of a study that was opened before its end.
+  std::vector<core::UnsealingRow> unsealings;
 
-  /// Its rule has ended it, and that was told.
+  /// Whether its rule has ended it and a look has reported this.
   [[nodiscard]] bool ended_by_rule() const { return !looks.empty() && looks.back().ended; }
 };
 
-/// Reads the folder's database. Nothing is computed yet, but that answers of an estimation come
-/// in percent of their modulus (`bring_to_common_modulus`), and what the rules of adaptive
-/// blocks and of practice make of the answers. Throws `Error` for a damaged study.
-/// `with_pilots`: pilot sessions as well.
+/// Reads the folder's database. It computes nothing except three things: answers of an
+/// estimation become percent of their modulus (`bring_to_common_modulus`), and the rules of
+/// adaptive blocks and of practice are applied to the answers. Throws `Error` for a damaged
+/// study. `with_pilots` includes pilot sessions.
 [[nodiscard]] StudyData load_study(const core::StudyStore& store, bool with_pilots = false);
 
-/// Names a participant without answers in a block or a stage of questions, unless it belongs to
-/// an arm that they were not in: then nothing is missing.
+/// Adds a participant without answers in a block or a stage with questions to `excluded`. It
+/// does not if the block or stage belongs to another arm, because then nothing is missing.
 void name_without_answers(std::vector<ExcludedParticipant>& excluded,
                           const ParticipantData& participant, const std::string& stage);
 

@@ -19,7 +19,7 @@ TrialRecord* find(ByTrial& records, const std::optional<std::int64_t>& trial) {
 
 std::optional<double> level_of(const core::DesignRow& row) {
   if (row.target_percent) return row.target_percent;
-  // Where the test is adjusted, a standard is the level.
+  // If the test is adjusted, the standard is the level.
   return row.starting_intensity ? row.reference_intensity : row.intensity;
 }
 
@@ -68,7 +68,8 @@ std::vector<TrialRecord> trial_records(const core::StudyStore& store, std::int64
       record->is_set_aside = false;
     }
   }
-  std::map<std::pair<std::int64_t, std::string>, bool> has_stroke;  // By trial and interval.
+  // Indexed by trial and interval.
+  std::map<std::pair<std::int64_t, std::string>, bool> has_stroke;
   for (const core::PresentationRow& row : store.presentations(session)) {
     TrialRecord* const record = find(records, row.trial);
     if (record == nullptr || row.interval == "free_space") continue;

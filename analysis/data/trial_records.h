@@ -9,33 +9,36 @@
 
 namespace jnd::analysis {
 
-/// What happened to a trial that was drawn, besides its answer.
+/// What happened to a drawn trial, besides its answer.
 struct TrialRecord {
   std::int64_t session = 0, trial = 0;
   std::string block;
-  /// What the answers of its block are told apart by: the test's intensity, the target of a
-  /// production in percent, the standard of a matching.
+  /// What distinguishes the answers of its block: the intensity of the test, the target of a
+  /// production in percent, or the standard of a matching.
   std::optional<double> level;
   bool is_catch = false;
-  bool is_answered = false;     ///< The answer stands and counts.
-  bool is_set_aside = false;    ///< Answered, and set aside by hand.
-  int num_undone = 0;           ///< Answers taken back, after each of which it was run again.
-  int num_discarded = 0;        ///< Attempts without an answer that were given up.
-  int num_missed_deadline = 0;  ///< Those among them whose answer missed its deadline.
-  bool is_faulted = false;      ///< The loop latched a fault while it was under way.
-  // Of the attempt whose answer stands:
-  bool is_limited = false;     ///< The limiter changed the force of a stimulus.
-  bool is_strokeless = false;  ///< Test or reference was never felt over a whole stroke; not of
-                               ///< a solid, which is pressed.
+  bool is_answered = false;   ///< Whether it has a valid answer that counts.
+  bool is_set_aside = false;  ///< Whether it was answered, and set aside by hand.
+  /// The number of answers that were taken back. The trial was run again after each.
+  int num_undone = 0;
+  /// The number of attempts that were given up without an answer.
+  int num_discarded = 0;
+  int num_missed_deadline = 0;  ///< The number of these whose answer missed its deadline.
+  bool is_faulted = false;      ///< Whether the loop latched a fault during the trial.
+  // These belong to the attempt with the valid answer:
+  bool is_limited = false;  ///< Whether the limiter changed the force of a stimulus.
+  /// Whether test or reference was not felt over a whole stroke. It is false for a solid, which
+  /// is pressed.
+  bool is_strokeless = false;
 
   [[nodiscard]] bool is_repeated() const noexcept { return num_undone + num_discarded > 0; }
-  /// It has an answer that counts, but did not go as it was meant to.
+  /// Whether it has an answer that counts although it did not proceed as intended.
   [[nodiscard]] bool is_affected() const noexcept {
     return is_answered && (is_repeated() || is_faulted || is_limited || is_strokeless);
   }
 };
 
-/// Of all trials of a session, in the order of their numbers. Not real time.
+/// The records of all trials of a session, in the order of their numbers. Not real time.
 [[nodiscard]] std::vector<TrialRecord> trial_records(const core::StudyStore& store,
                                                      std::int64_t session);
 

@@ -10,7 +10,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Takes the rows of a table, whose columns it knows once it has the header.
+/// Collects the rows of a table. It knows the columns once it has the header.
 class TrialCollector final : public RowSink {
  public:
   TrialCollector(std::string name, const TrialColumns& columns)
@@ -79,13 +79,13 @@ class TrialCollector final : public RowSink {
   }
 
  private:
-  /// The name of a condition, or what Python and JSON write for no number: the other cells of
-  /// its column tell which.
+  /// Whether a cell is "none" or "null". It may be the name of a condition, or stand for a
+  /// missing number in Python or JSON. The other cells of its column decide.
   static bool is_none(std::string_view cell) noexcept {
     return same_word(cell, "none") || same_word(cell, "null");
   }
 
-  /// In columns whose other cells are numbers.
+  /// Removes rows with such cells, in columns whose other cells are numbers.
   void leave_out_numbers_that_are_none() {
     std::vector<bool> stays(table_.num_rows(), true);
     for (const TrialVariable& variable : table_.variables) {
@@ -114,7 +114,7 @@ class TrialCollector final : public RowSink {
     for (TrialVariable& variable : table_.variables) keep_rows(variable, stays);
   }
 
-  /// And no cells but theirs.
+  /// Keeps only these rows, and only the cells that they use.
   static void keep_rows(TrialVariable& variable, const std::vector<bool>& stays) {
     constexpr std::uint32_t kNotThere = 0xFFFFFFFF;
     TrialVariable kept{.name = variable.name, .cells = {}, .numbers = {}, .place = {}};
@@ -179,7 +179,8 @@ std::vector<TrialGroup> groups_of(const TrialTable& table,
   }
   constexpr std::uint32_t kNotThere = 0xFFFFFFFF;
   std::vector<TrialGroup> groups;
-  /// Of each group and kept variable, where the table's cells are among the group's.
+  /// For each group and kept variable, the indices of the table's cells among the group's
+  /// cells.
   std::vector<std::vector<std::vector<std::uint32_t>>> places;
   std::map<std::vector<std::uint32_t>, std::size_t> known;
   for (std::size_t row = 0; row < table.num_rows(); ++row) {

@@ -16,18 +16,17 @@ namespace jnd::analysis {
 /// Which columns of a table of trials or counts are needed.
 struct TrialColumns {
   AnswerWords answers;
-  std::vector<std::string> variables;  ///< Each once.
-  /// Column and cell; rows that have another one are left out.
+  std::vector<std::string> variables;  ///< The names of the variables, without repetition.
+  /// Columns and cells. Rows with another cell are left out.
   std::vector<std::pair<std::string, std::string>> where;
 };
 
-/// A column besides the answers. Different cells are kept once, so that a million rows take
-/// four bytes each.
+/// A column besides the answers. Different cells are stored once, so a row takes four bytes.
 struct TrialVariable {
   std::string name;
-  std::vector<std::string> cells;    ///< Different ones, in the order of their first rows.
-  std::vector<double> numbers;       ///< Of each of `cells`; NaN for what is none.
-  std::vector<std::uint32_t> place;  ///< Of each row, in `cells`.
+  std::vector<std::string> cells;    ///< The different cells, in the order of their first rows.
+  std::vector<double> numbers;       ///< The number in each of `cells`; NaN if it is no number.
+  std::vector<std::uint32_t> place;  ///< For each row, the index of its cell in `cells`.
 
   /// Whether every cell is a number.
   [[nodiscard]] bool is_numeric() const noexcept;
@@ -35,48 +34,50 @@ struct TrialVariable {
   [[nodiscard]] const std::string& cell(std::size_t row) const { return cells[place[row]]; }
 };
 
-/// Rows of trials or counts in the order of the file.
+/// Rows of trials or counts, in the order of the file.
 struct TrialTable {
   std::vector<TrialVariable> variables;  ///< In the order in which they were asked for.
   std::vector<double> num_yes, num_trials;
-  std::int64_t num_rows_in_file = 0;  ///< Below the header.
-  std::int64_t num_elsewhere = 0;     ///< Left out by `where`.
+  std::int64_t num_rows_in_file = 0;  ///< The number of rows below the header.
+  std::int64_t num_elsewhere = 0;     ///< The number of rows left out by `where`.
   std::int64_t num_without_trials = 0;
-  std::map<std::string, std::int64_t> num_missing;  ///< Rows left out, by the empty column.
+  /// The number of rows left out, by the column whose cell is empty.
+  std::map<std::string, std::int64_t> num_missing;
 
   [[nodiscard]] std::size_t num_rows() const noexcept { return num_yes.size(); }
-  /// None where no variable has this name.
+  /// nullptr if no variable has this name.
   [[nodiscard]] const TrialVariable* find(std::string_view name) const noexcept;
 };
 
-/// Rows of a table that agree in some columns.
+/// The rows of a table that agree in some columns.
 struct TrialGroup {
-  std::vector<std::pair<std::string, std::string>> key;  ///< Column and cell.
-  /// Without those columns, and with no cells but the group's. What was left out of the file is
-  /// told by the whole table alone.
+  std::vector<std::pair<std::string, std::string>> key;  ///< Columns and their cells.
+  /// The group's table without those columns, and only with the group's cells. Only the whole
+  /// table says what was left out of the file.
   TrialTable table;
 };
 
-/// Groups in the order of their first rows; without columns one, of all rows. `columns` are
-/// variables of the table.
+/// The groups in the order of their first rows. Without columns there is one, of all rows.
+/// `columns` are variables of the table.
 [[nodiscard]] std::vector<TrialGroup> groups_of(const TrialTable& table,
                                                 const std::vector<std::string>& columns);
 
-/// The table has no column of this name.
+/// An error that says that the table has no column of this name.
 class UnknownColumn : public core::Error {
  public:
   UnknownColumn(const std::string& where, std::string missing,
                 const std::vector<std::string>& header);
   std::string column;
-  std::string known;  ///< "a, b, c"
+  std::string known;  ///< The known columns as "a, b, c".
 };
 
-/// Reads the file as `read_rows`, and answers as `counted_answers`. Throws `UnknownColumn` for
-/// a variable that is no column, `core::Error` for every other problem. Not real time.
+/// Reads the file as `read_rows` does, and answers as `counted_answers` does. Throws
+/// `UnknownColumn` if a variable is no column, and `core::Error` for every other problem.
+/// Not real time.
 [[nodiscard]] TrialTable read_trial_table(const std::filesystem::path& file,
                                           const TrialColumns& columns);
 
-/// The same of a text; `name` is what messages call it.
+/// Reads a text in the same way. `name` is its name in messages.
 [[nodiscard]] TrialTable parse_trial_table(std::string_view text, const std::string& name,
                                            const TrialColumns& columns);
 

@@ -81,7 +81,8 @@ std::vector<BidsBlock> explored_stages(const std::vector<core::EventRow>& events
   return all;
 }
 
-/// When a tick was: by the event that begins with it, or else by the session's start.
+/// The time of a tick: that of the event that begins with it or, without one, computed from the
+/// session's start.
 std::int64_t time_of(const std::vector<core::EventRow>& events, std::int64_t tick,
                      const core::SessionRow& session) {
   for (const core::EventRow& event : events) {

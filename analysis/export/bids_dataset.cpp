@@ -19,7 +19,7 @@ std::string joined(const std::vector<std::string>& texts) {
   return all;
 }
 
-/// In English, or in the first language of the study.
+/// A text in English, or in the first language of the study.
 std::string in_words_of(const experiments::Study& study, const experiments::Text& text) {
   if (text.contains("en") || study.languages.empty()) return in_english(text);
   const auto first = text.find(study.languages.front());
@@ -77,7 +77,7 @@ std::string motion_text(const BidsDataset& dataset) {
                                                : "the export was made without recordings.\n");
 }
 
-/// What lies where, of what was written.
+/// Describes the written files and where they are.
 std::string contents(const fs::path& folder, const BidsDataset& dataset) {
   std::string text;
   if (dataset.trials) {

@@ -12,34 +12,39 @@
 
 namespace jnd::analysis {
 
-/// What all files at the top of a data set are made of.
+/// What the files at the top of a data set are made of.
 struct BidsDataset {
   std::vector<core::SessionRow> sessions;
-  std::map<std::string, std::string> subjects;  ///< Label of every pseudonym, without "sub-".
-  std::vector<core::ProtocolRow> protocols;     ///< Study files of the sessions, each once.
-  std::vector<experiments::Study> studies;      ///< What they say, in the same order.
+  /// The label of every pseudonym, without "sub-".
+  std::map<std::string, std::string> subjects;
+  std::vector<core::ProtocolRow> protocols;  ///< The study files of the sessions, each once.
+  /// The contents of these files, in the same order.
+  std::vector<experiments::Study> studies;
   bool simulated = false;
-  bool trials = false;                ///< There is a task of trials,
-  bool explored = false;              ///< one of explored media.
-  bool motion = false;                ///< There is a motion file.
-  bool recordings = false;            ///< They were asked for.
-  std::vector<std::string> problems;  ///< What the recordings have lost, a sentence each.
-  std::string program_version;        ///< Of the program that exports; "": it is not said.
+  bool trials = false;                ///< Whether there is a task with trials.
+  bool explored = false;              ///< Whether there is a task with explored media.
+  bool motion = false;                ///< Whether there is a motion file.
+  bool recordings = false;            ///< Whether recordings were asked for.
+  std::vector<std::string> problems;  ///< What the recordings have lost, one sentence each.
+  /// The version of the exporting program; if it is "", the data set does not state it.
+  std::string program_version;
 };
 
-/// dataset_description.json, README.md, which tells what else is in `folder`, and CHANGES.
-/// `last_time_ns`: when the last of it happened; none if all of it is simulated.
+/// Writes dataset_description.json, README.md (which describes the rest of `folder`) and
+/// CHANGES. `last_time_ns` is the time of the last event; it is absent if everything is
+/// simulated.
 void write_bids_descriptions(const std::filesystem::path& folder, const BidsDataset& dataset,
                              std::optional<std::int64_t> last_time_ns);
-/// sub-LABEL_sessions.tsv and .json in the folder of a subject: what the study knows of each
-/// visit. `sessions`: with their labels, "ses-01".
+/// Writes sub-LABEL_sessions.tsv and .json in the folder of a subject, with what the study
+/// knows about each visit. `sessions` holds their labels too, such as "ses-01".
 void write_bids_sessions(const std::filesystem::path& folder, const std::string& subject,
                          const std::vector<std::pair<std::string, core::SessionRow>>& sessions,
                          const core::StudyStore& store);
-/// participants.tsv and .json, and phenotype/STAGE.tsv and .json for every questionnaire.
+/// Writes participants.tsv and .json, and phenotype/STAGE.tsv and .json for every
+/// questionnaire.
 void write_bids_participants(const std::filesystem::path& folder, const BidsDataset& dataset,
                              const core::StudyStore& store);
-/// derivatives/jnd: what `jnd results --json` says.
+/// Writes derivatives/jnd, the output of `jnd results --json`.
 void write_bids_derivatives(const std::filesystem::path& folder, const BidsDataset& dataset,
                             const std::string& results_json);
 

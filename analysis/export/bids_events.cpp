@@ -37,7 +37,7 @@ const std::vector<CsvColumn>& bids_event_columns() {
   return kColumns;
 }
 
-/// What was measured, as far as events tell of it.
+/// The columns of measurements that events have.
 const Columns<core::PresentationMeasures>& measured_columns() {
   static const Columns<core::PresentationMeasures> kColumns = [] {
     auto all = stored_columns<core::PresentationMeasures>(
@@ -61,7 +61,7 @@ std::vector<CsvColumn> all_event_columns() {
 
 struct BidsEvent {
   std::int64_t first_tick = 0, last_tick = 0;
-  // Neither: samples are missing.
+  // If both are null, samples are missing.
   const ExportedPresentation* presentation = nullptr;
   const BidsExploration* explored = nullptr;
 };
@@ -87,7 +87,7 @@ void write_presented(TableWriter& table, const core::PresentationRow& row,
   table.cell(trial.response).cell(trial.measures.response_time_s);
 }
 
-/// Of a presentation, or nothing.
+/// Writes the measurements of a presentation, or empty cells without one.
 void write_measured(TableWriter& table, const ExportedPresentation* presentation) {
   for (const auto& column : measured_columns()) {
     if (presentation != nullptr) {
@@ -144,7 +144,7 @@ void write_bids_events(const fs::path& front, const BidsBlock& block,
 
 namespace {
 
-/// A question after the trials of a block, as a column of theirs.
+/// A question after the trials of a block, as a column of the trials.
 struct QuestionColumn {
   std::string question, name, unit, words;
 };

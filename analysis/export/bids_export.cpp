@@ -134,7 +134,7 @@ class BidsExport {
       const BidsTask task{.front = front + "_task-" + tasks_.at(block.name),
                           .task_name = block.name,
                           .description = description_of(block, session)};
-      // A simulated session counts its time from 0, which is no date.
+      // A simulated session counts its time from 0, which is not a date.
       const std::string time = session.simulated ? "" : iso_time(block.time_ns);
       for (const std::string& file : write_block(place, task, block, session, recording)) {
         scans.cell(file).cell(time).end_row();
@@ -152,7 +152,7 @@ class BidsExport {
     return what + (session.simulated ? ", SIMULATED" : "");
   }
 
-  /// Returns the files that a list of scans names, seen from the session's folder.
+  /// Returns the files for the list of scans, relative to the session's folder.
   std::vector<std::string> write_block(const fs::path& place, const BidsTask& task,
                                        const BidsBlock& block, const core::SessionRow& session,
                                        const std::optional<ExportedRecording>& recording) {
@@ -179,7 +179,7 @@ class BidsExport {
   void write_sourcedata() {
     const fs::path study = folder_.make(fs::path("sourcedata") / "jnd.study");
     copy_study_database(store_, dataset_.sessions, study);
-    // Whoever chooses some of the samples does not want all of them beside.
+    // If only some of the samples are chosen, the full recording is not copied beside them.
     const ExportSelection& selection = options_.selection;
     if (options_.recordings && selection.blocks.empty() && selection.channels.empty() &&
         selection.rate_hz == 0.0) {
@@ -226,7 +226,7 @@ class BidsExport {
   BidsDataset dataset_;
   FactorColumns factors_;
   std::vector<Session> sessions_;
-  std::map<std::string, std::string> tasks_;  ///< Label of every block and stage.
+  std::map<std::string, std::string> tasks_;  ///< The label of every block and stage.
 };
 
 }  // namespace

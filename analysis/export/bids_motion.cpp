@@ -31,7 +31,7 @@ std::string component_of(const std::string& name) {
   return "n/a";
 }
 
-/// BIDS has no type of force: it goes with what is miscellaneous.
+/// BIDS has no type for force, so force is MISC.
 std::string bids_type_of(const RecordingColumn& column) {
   if (column.name().ends_with("_position_rad")) return "JNTANG";
   if (column.name().find("_orientation_") != std::string::npos) return "ORNT";
@@ -92,8 +92,8 @@ struct Written {
   std::vector<core::TickRange> gaps;
 };
 
-/// A row a tick, or a few ticks, from the block's first to its last, whatever the recording
-/// lacks.
+/// Writes one row for each tick, or for a few ticks, from the block's first to its last, even
+/// where the recording has gaps.
 Written write_samples(const fs::path& file, const BidsBlock& block, double rate_hz,
                       const RecordingRows& rows) {
   const std::vector<RecordingColumn>& columns = rows.columns();
@@ -118,7 +118,7 @@ Written write_samples(const fs::path& file, const BidsBlock& block, double rate_
   };
   rows.read(block.first_tick, block.last_tick, [&](const std::vector<double>& values) {
     const auto tick = static_cast<std::int64_t>(values.front());
-    if (tick < next) return;  // Told before, by an earlier segment.
+    if (tick < next) return;  // An earlier segment has written this row.
     mark_missing(tick);
     latency(tick);
     for (std::size_t i = 1; i < values.size(); ++i) {

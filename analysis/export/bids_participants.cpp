@@ -49,7 +49,7 @@ std::string described_item(const QuestionnaireItem& item) {
   return text;
 }
 
-/// `description`: what to say of it; values that stand for something with their words.
+/// The sidecar of an item. `description` describes it. Coded values have their words.
 ordered_json sidecar_of(const QuestionnaireItem& item, const std::string& description) {
   ordered_json about = {{"Description", description}};
   if (!item.unit.empty()) about["Units"] = item.unit;
@@ -122,20 +122,21 @@ void write_phenotypes(const fs::path& folder, const std::vector<QuestionnaireIte
   }
 }
 
-/// A column of participants.tsv that an answer fills.
+/// A column of participants.tsv that answers fill.
 struct PersonColumn {
   std::string name;
   QuestionnaireItem item;
-  std::string words;  ///< Where the answer is from: ", as answered in the stage about_you".
+  /// Where the answer is from, such as ", as answered in the stage about_you".
+  std::string words;
 };
 
 bool has_column(const std::vector<PersonColumn>& columns, const std::string& name) {
   return std::ranges::find(columns, name, &PersonColumn::name) != columns.end();
 }
 
-/// First the fields of the study, which is what people were assigned by; then what BIDS looks
-/// for in the list of participants, if a questionnaire asks it and no field is called so: its
-/// answers stand in phenotype/ anyway.
+/// The fields of the study come first, by which people were assigned. Then come the columns
+/// that BIDS expects in the list of participants, if a questionnaire asks for them and no field
+/// has that name. Their answers are in phenotype/ as well.
 std::vector<PersonColumn> person_columns(const std::vector<QuestionnaireItem>& fields,
                                          const std::vector<QuestionnaireItem>& items,
                                          const std::vector<std::string>& taken) {

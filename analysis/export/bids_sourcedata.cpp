@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The triggers that keep rows from being deleted, by name and text.
+/// The triggers that prevent rows from being deleted, by name and text.
 std::vector<std::pair<std::string, std::string>> guards(core::Database& database) {
   core::Statement rows(
       database,
@@ -32,7 +32,7 @@ std::vector<std::string> first_column(core::Database& database, const std::strin
   return all;
 }
 
-/// The tables that have this column, of whatever layout.
+/// The tables with this column, in any layout of the database.
 std::vector<std::string> tables_with(core::Database& database, const std::string& column) {
   return first_column(database,
                       "SELECT t.name FROM sqlite_master AS t, pragma_table_info(t.name) AS c "
@@ -50,11 +50,12 @@ std::string numbers_of(const std::vector<core::SessionRow>& sessions) {
 
 void delete_rows(core::Database& database, const std::vector<core::SessionRow>& kept) {
   core::Transaction transaction(database);
-  // Rows that others point at may go first; all of it is judged at the end.
+  // Rows may be deleted before the rows that refer to them, because foreign keys are checked at
+  // the end.
   database.execute("PRAGMA defer_foreign_keys = ON");
   const auto all_guards = guards(database);
   for (const auto& [name, sql] : all_guards) database.execute("DROP TRIGGER " + name);
-  // What is said of people beside their sessions, and of places on this machine.
+  // These tables describe people outside their sessions, and places on this machine.
   std::set<std::string> emptied = {"withdrawal", "backup", "export_session", "export"};
   const std::vector<std::string> of_sessions = tables_with(database, "session");
   for (const std::string& table : tables_with(database, "participant")) {
@@ -64,7 +65,7 @@ void delete_rows(core::Database& database, const std::vector<core::SessionRow>& 
        first_column(database, "SELECT name FROM sqlite_master WHERE type = 'table'")) {
     if (emptied.contains(table)) database.execute("DELETE FROM " + table);
   }
-  // Last the sessions themselves, which the other rows point at.
+  // The sessions come last, because the other rows refer to them.
   for (const std::string& table : of_sessions) {
     if (table == "session" || emptied.contains(table)) continue;
     database.execute("DELETE FROM " + table + " WHERE session NOT IN " + numbers_of(kept));
@@ -80,7 +81,7 @@ void delete_rows(core::Database& database, const std::vector<core::SessionRow>& 
   transaction.commit();
 }
 
-/// Everything into the one file, so that it can be read where nothing can be written.
+/// Moves everything into the one file, so that it can be read where nothing can be written.
 void close_log(core::Database& database) {
   database.execute("PRAGMA journal_mode = DELETE");
   database.execute("VACUUM");
@@ -104,7 +105,7 @@ void copy_recording(const core::StudyStore& store, std::int64_t session,
                     const fs::path& folder) {
   const fs::path file = store.recording_file(session);
   if (!fs::exists(file)) return;
-  // Also where no task of the data set has read it.
+  // The recording is checked even if no task of the data set has read it.
   core::RecordingReader(file).require_intact();
   std::error_code error;
   fs::create_directories(folder / "recordings", error);

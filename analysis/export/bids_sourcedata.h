@@ -7,9 +7,9 @@
 
 namespace jnd::analysis {
 
-/// Copies the study's database into `folder`/study.sqlite, with the rows of these sessions
-/// alone: no pilot that was not asked for, no tombstone of who withdrew, no folder of a backup
-/// or an export; freed pages are gone. One file that needs no other beside it. The same study
+/// Copies the study's database into `folder`/study.sqlite with only the rows of these sessions.
+/// It has no unrequested pilots, no records of people who withdrew, no folders of backups or
+/// exports, and no freed pages. It is a single file that needs no other one. The same study
 /// gives the same bytes. Throws `Error`.
 void copy_study_database(const core::StudyStore& store,
                          const std::vector<core::SessionRow>& sessions,

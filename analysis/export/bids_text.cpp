@@ -14,7 +14,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Units of the tables in the spelling of BIDS, which knows SI symbols.
+/// Whether a unit of the tables is a unit for BIDS, which uses SI symbols.
 bool is_unit(const std::string& unit) {
   return !unit.empty() && unit != "tick" && unit != "ticks" && unit != "unit of quantity";
 }
@@ -52,7 +52,7 @@ std::map<std::string, std::string> bids_labels(std::vector<std::string> names) {
   std::sort(names.begin(), names.end());
   std::map<std::string, std::string> labels;
   std::set<std::string> taken;
-  // Who has a label of its own by name keeps it, whoever else would like to have it.
+  // A name that is a valid label keeps it, even if other names would give the same label.
   std::stable_partition(names.begin(), names.end(), [](const std::string& name) {
     return letters_and_digits(name) == name;
   });

@@ -28,7 +28,8 @@ namespace fs = std::filesystem;
 struct Participant {
   bool simulated = false;
   std::int64_t num_sessions = 0, num_completed = 0, num_trials = 0, num_excluded = 0;
-  std::map<std::string, std::string> fields;  ///< What was known before the last session.
+  /// The fields that were known before the last session.
+  std::map<std::string, std::string> fields;
 };
 
 /// A field of the study as a column of participants.csv.
@@ -36,7 +37,7 @@ struct FieldColumn {
   std::string field, name, meaning;
 };
 
-/// "Sex?, as was known before the session: female (a woman), male (a man)"
+/// For example "Sex?, as was known before the session: female (a woman), male (a man)".
 std::string field_meaning(const QuestionnaireItem& field) {
   std::string text = (field.question.empty() ? field.name : field.question) +
                      ", as was known before the session";
@@ -48,7 +49,7 @@ std::string field_meaning(const QuestionnaireItem& field) {
   return text;
 }
 
-/// What a session has in the tables.
+/// The rows of one session in the tables.
 struct SessionRows {
   bool completed = false;
   std::vector<ExportedTrial> trials;
@@ -59,7 +60,7 @@ struct SessionRows {
   std::vector<ExportedAnswer> question_answers;
 };
 
-/// Of the time of an export with samples, for its progress.
+/// The share of the tables in the time of an export with samples, for its progress.
 constexpr double kShareOfTables = 0.05;
 
 class CsvExport {
@@ -105,7 +106,7 @@ class CsvExport {
     }
   }
 
-  /// All tables of rows that a session has, so that each is asked of the store once.
+  /// Writes all tables with rows of sessions, so that the store is asked for each session once.
   void write_tables() {
     CsvTableWriter sessions = table("sessions.csv", session_columns());
     CsvTableWriter session_values = table("session_values.csv", session_value_columns());
@@ -296,8 +297,8 @@ class CsvExport {
   FactorColumns factors_;
   std::map<std::string, Participant> participants_;
   std::vector<FieldColumn> fields_;
-  std::vector<CsvColumn> participant_columns_;  ///< Its texts are those of `fields_`.
-  std::vector<RecordingColumn> told_;           ///< In any of the recordings.
+  std::vector<CsvColumn> participant_columns_;  ///< Its texts are owned by `fields_`.
+  std::vector<RecordingColumn> told_;           ///< The columns that any of the recordings has.
   ExportOutcome outcome_;
 };
 

@@ -30,7 +30,7 @@ bool needs_quotes(std::string_view text) {
   });
 }
 
-/// All of the text is one: "-3.2", "+4", "-1e-6".
+/// Whether the whole text is a number, such as "-3.2", "+4" or "-1e-6".
 bool is_number_text(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double number = 0.0;
@@ -38,8 +38,8 @@ bool is_number_text(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
 }
 
-/// Whether a spreadsheet would run the text, or an apostrophe that it begins with would be
-/// taken for the one that keeps it from doing so.
+/// Whether a spreadsheet would run the text, or whether an initial apostrophe of the text would
+/// be mistaken for a protecting one.
 bool needs_apostrophe(std::string_view text) {
   constexpr std::string_view kBeginsFormula = "=+-@\t\r";
   const std::size_t first = text.find_first_not_of('\'');
@@ -59,7 +59,7 @@ CsvTableWriter::CsvTableWriter(std::filesystem::path file,
     : file_(std::move(file)), style_(style), num_columns_(names.size()) {
   stream_.reset(std::fopen(file_.c_str(), "wb"));
   if (!stream_) fail(errno);
-  std::setvbuf(stream_.get(), nullptr, _IONBF, 0);  // `buffer_` is one already.
+  std::setvbuf(stream_.get(), nullptr, _IONBF, 0);  // `buffer_` serves as the buffer.
   buffer_.reserve(2 * kBufferBytes);
   if (style == TableStyle::kBidsWithoutNames) return;
   for (const std::string& name : names) cell(name);
@@ -99,7 +99,8 @@ void CsvTableWriter::put_real(double number) {
 CsvTableWriter& CsvTableWriter::fixed_cell(double number, int decimals, double tolerance) {
   const std::int64_t unit = kPowerOfTen.at(static_cast<std::size_t>(decimals));
   const double multiple = number * static_cast<double>(unit);
-  // Also false for NaN. What lies off the grid by more than rounding is written in full.
+  // This is also false for NaN. A value off the grid by more than rounding is written with all
+  // digits.
   if (!(std::abs(multiple) < 1e15) || std::abs(multiple - std::round(multiple)) > tolerance) {
     put_real(number);
     return *this;
@@ -158,7 +159,7 @@ void CsvTableWriter::flush() {
 
 void CsvTableWriter::finish() {
   flush();
-  // Some file systems tell of a full disk only now.
+  // Some file systems report a full disk only here.
   if (std::fclose(stream_.release()) != 0) fail(errno);
 }
 

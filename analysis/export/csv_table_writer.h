@@ -12,24 +12,26 @@
 
 namespace jnd::analysis {
 
-/// How a table is written.
+/// The format of a table.
 enum class TableStyle {
-  kCsv,   ///< RFC 4180 with LF; what there is not is empty.
-  kBids,  ///< Tabs; what there is not is n/a; a tab or line end in a text is a space.
-  kBidsWithoutNames  ///< The same without its first line, as BIDS wants of motion.
+  kCsv,  ///< RFC 4180 with LF. Missing values are empty.
+  /// Tabs separate cells. Missing values are n/a, and tabs and line ends in a text become
+  /// spaces.
+  kBids,
+  kBidsWithoutNames  ///< The same without the first line, as BIDS requires for motion.
 };
 
-/// What codebooks say of the texts of `CsvTableWriter`.
+/// How codebooks describe the texts of `CsvTableWriter`.
 inline constexpr char kTextsOfTables[] =
     "A text that begins with =, +, -, @, a tab or a carriage return and is no number has an "
     "apostrophe before it, so that no spreadsheet runs it as a formula; where one of these "
     "follows apostrophes at the beginning of a text, the first apostrophe is not part of it";
 
-/// Writes one table, independent of the locale: "." decimals, the shortest digits that read
+/// Writes one table, independent of the locale: "." decimals, and the shortest digits that read
 /// back as the same number. A text that a spreadsheet would run as a formula gets an apostrophe
-/// before it, and so does one that has apostrophes there already, so that it is always right to
-/// remove the first. Throws `Error` naming the file if it cannot be written. Not real
-/// time.
+/// before it. So does such a text that already begins with apostrophes, so that removing the
+/// first one is always right. Throws `Error` that names the file if it cannot be written.
+/// Not real time.
 class CsvTableWriter final : public TableWriter {
  public:
   CsvTableWriter(std::filesystem::path file, const std::vector<CsvColumn>& columns,
@@ -37,11 +39,11 @@ class CsvTableWriter final : public TableWriter {
   CsvTableWriter(std::filesystem::path file, const std::vector<std::string>& names,
                  TableStyle style);
 
-  /// A number that was stored as a multiple of 10^-decimals, as that decimal fraction. One that
-  /// is off by more than `tolerance` of a step is written in full.
+  /// Writes a number that was stored as a multiple of 10^-decimals as that decimal fraction. If
+  /// it is off by more than `tolerance` of a step, all its digits are written.
   CsvTableWriter& fixed_cell(double number, int decimals, double tolerance = 1e-3);
   void end_row() override;
-  /// Everything is in the file. Throws `Error` if it is not.
+  /// Completes the file. Throws `Error` if something was not written.
   void finish();
 
  private:

@@ -55,8 +55,8 @@ std::vector<core::SessionRow> exported_sessions(const core::StudyStore& store,
 
 ExpectedSize expected_size(const core::StudyStore& store, const ExportOptions& options,
                            bool is_text) {
-  // What a value takes on average: seen in sessions of the shipped studies, whose hands mostly
-  // move along one axis. A person's take more.
+  // The average size of a value in sessions of the shipped studies, in which simulated hands
+  // mostly move along one axis. Persons' values take more.
   constexpr double kBytesAsText = 7.5, kBytesAsSteps = 0.5;
   ExpectedSize size;
   for (const core::SessionRow& session : exported_sessions(store, options)) {

@@ -16,7 +16,7 @@ std::vector<core::TickRange> claimed_ticks(const core::StudyStore& store,
   return core::merged(std::move(claimed));
 }
 
-/// What of the claimed ticks is not among these.
+/// The claimed ticks that are not recorded.
 std::vector<core::TickRange> lost_ticks(const std::vector<core::TickRange>& recorded,
                                         const std::vector<core::TickRange>& claimed) {
   std::vector<core::TickRange> lost;

@@ -9,19 +9,19 @@
 
 namespace jnd::analysis {
 
-/// The factors of the studies as columns of a table of trials, so that each trial tells its
+/// The factors of the studies as columns of a table of trials, so that each trial shows its
 /// condition. Not real time.
 class FactorColumns {
  public:
-  /// Of the studies of these sessions. `table`: what its rows have besides; the level of a
-  /// factor whose name is taken is in `field_FACTOR`.
+  /// Collects the factors of these sessions' studies. `table` holds the other columns. If a
+  /// factor's name is taken, its level is in `field_FACTOR`.
   FactorColumns(const core::StudyStore& store, const std::vector<core::SessionRow>& sessions,
                 const std::vector<CsvColumn>& table);
 
-  /// Those of the table, then those of the factors. Lives as long as this does.
+  /// The columns of the table, and then those of the factors. They live as long as this object.
   [[nodiscard]] const std::vector<CsvColumn>& columns() const noexcept { return columns_; }
-  /// The trial's level of each factor: its block's, or the arm that the participant is in;
-  /// empty where it has none. The row is not ended.
+  /// Writes the trial's level of each factor: that of its block, or the participant's arm. A
+  /// cell is empty if there is none. It does not end the row.
   void put(TableWriter& table, const core::SessionRow& session, const ExportedTrial& trial);
 
  private:

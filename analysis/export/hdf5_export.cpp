@@ -31,7 +31,8 @@ std::string group_name(std::int64_t session) {
   return name;
 }
 
-/// What stands alone: ticks, times and flags as they are, all else as steps.
+/// The type of a column that is stored unchanged: ticks, times and flags. All others are stored
+/// as steps.
 std::optional<Hdf5Number> plain_type_of(const RecordingColumn& column) {
   if (column.name() == "tick" || column.name() == "buttons") return Hdf5Number::kInt64;
   if (column.is_flags) return Hdf5Number::kUint8;
@@ -39,10 +40,10 @@ std::optional<Hdf5Number> plain_type_of(const RecordingColumn& column) {
   return column.unit == "s" ? std::optional(Hdf5Number::kDouble) : std::nullopt;
 }
 
-/// Columns that lie side by side in one array.
+/// Columns that form one array.
 struct ArrayOfColumns {
   Hdf5ArrayOptions options;
-  std::vector<std::size_t> columns;  ///< Part by part, places among those of the rows.
+  std::vector<std::size_t> columns;  ///< The indices of its columns, in the order of the parts.
 };
 
 void add_part(std::vector<std::string>& parts, const std::string& part) {
@@ -261,7 +262,7 @@ class Hdf5Export {
     write_samples(group, rows);
   }
 
-  /// For the codebook: each dataset once.
+  /// Collects each dataset once for the codebook.
   void tell(const RecordingColumn& column) {
     const std::string& dataset = plain_type_of(column) ? column.name() : column.column.array;
     if (std::ranges::find(told_, dataset, &RecordingColumn::name) != told_.end()) return;
@@ -298,7 +299,7 @@ class Hdf5Export {
   std::vector<core::SessionRow> sessions_;
   FactorColumns factors_;
   StudyQuestions questions_{store_};
-  std::vector<RecordingColumn> told_;  ///< Datasets of samples, of any session.
+  std::vector<RecordingColumn> told_;  ///< The datasets of samples in any session.
   ExportOutcome outcome_;
 };
 

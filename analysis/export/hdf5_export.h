@@ -6,15 +6,17 @@
 
 namespace jnd::analysis {
 
-/// Writes `folder`/study.h5: the tables that the CSV has, a group each with a dataset a column,
-/// in a group a session, session_0001: `trials`, `presentations`, `events`, `answers`,
-/// `questionnaires` and `gaps`, the ticks that were lost, for nothing is filled in; beside them
-/// a dataset for every channel of its recording, in SI and double precision, into which the
-/// ticks of the tables point. At the top `sessions`, and `codebook` with unit and meaning of
-/// every column, which are attributes, too. Recordings are what the format is for, so
-/// `options.recordings` changes nothing. Text is ASCII, or UTF-8 where a column needs it. The
-/// same study gives the same bytes. `folder` must not exist or be empty; it is there as a whole
-/// or not at all. Throws `Error`.
+/// Writes `folder`/study.h5. Each session has a group, such as session_0001, with the tables
+/// `trials`, `presentations`, `events`, `markers`, `answers`, `questionnaires`, `questions` and
+/// `gaps`. A table is a group with a dataset for each column, as in the CSV export. `gaps`
+/// holds the ticks that were lost, because nothing is filled in. The session's group also has
+/// the channels of its recording in SI units, of which most are arrays of steps with a
+/// `scale_factor`; the ticks of the tables refer to them. At the top are `sessions`,
+/// `session_values`, `deviations` if the study was registered, and `codebook`, which has the
+/// unit and meaning of every column; these are also attributes. The format is meant for
+/// recordings, so `options.recordings` is ignored. Text is ASCII, or UTF-8 if a column needs
+/// it. The same study gives the same bytes. `folder` must not exist or must be empty. It is
+/// written as a whole or not at all. Throws `Error`.
 ExportOutcome export_hdf5(const core::StudyStore& store, const std::filesystem::path& folder,
                           const ExportOptions& options);
 

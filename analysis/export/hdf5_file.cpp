@@ -18,7 +18,7 @@ namespace {
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 static_assert(sizeof(herr_t) == sizeof(int));
 
-constexpr unsigned kDeflateLevel = 1;  // Higher ones cost much time and save few bytes.
+constexpr unsigned kDeflateLevel = 1;  // Higher levels cost much time and save few bytes.
 
 [[noreturn]] void fail(const std::string& place) {
   const std::string reason = errno == 0 ? "" : std::string(": ") + std::strerror(errno);
@@ -35,11 +35,11 @@ Hdf5Handle handle(hid_t identifier, herr_t (*closing)(hid_t), const std::string&
 }
 
 hid_t create_file(const std::string& file) {
-  // A file that a full disk cut short cannot be closed, and the library would stumble over it
-  // at the end of the program. All that can be closed is closed here, so it has nothing to do
-  // then.
+  // A file that a full disk cut short cannot be closed, and the library would fail on it at the
+  // end of the program. Everything that can be closed is closed here, so the library need not
+  // do anything at exit.
   (void)H5dont_atexit();
-  // The library would print its own stack of errors.
+  // Otherwise the library would print its own stack of errors.
   (void)H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   errno = 0;
   return H5Fcreate(file.c_str(), H5F_ACC_EXCL, H5P_DEFAULT, H5P_DEFAULT);
@@ -49,7 +49,7 @@ bool is_ascii(std::string_view bytes) {
   return std::ranges::all_of(bytes, [](char byte) { return (byte & 0x80) == 0; });
 }
 
-/// Octave reads no text that is called UTF-8, whatever is in it.
+/// The type is ASCII if possible, because Octave does not read a text that is marked as UTF-8.
 Hdf5Handle text_type(std::size_t num_bytes, std::string_view bytes, const std::string& place) {
   Hdf5Handle type = handle(H5Tcopy(H5T_C_S1), H5Tclose, place);
   check(H5Tset_size(type.get(), std::max<std::size_t>(num_bytes, 1)), place);
@@ -93,14 +93,14 @@ std::int32_t steps_of(double number, double step) {
   return static_cast<std::int32_t>(std::clamp(std::round(number / step), -kMost, kMost));
 }
 
-/// Without time stamps, which would make every file another one.
+/// Settings without time stamps, which would make every file different.
 Hdf5Handle dataset_settings(const std::string& place) {
   Hdf5Handle settings = handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, place);
   check(H5Pset_obj_track_times(settings.get(), false), place);
   return settings;
 }
 
-/// Padding is most of a column with one long text.
+/// Compresses texts, because a column with one long text consists mostly of padding.
 void compress_texts(const Hdf5Handle& settings, hsize_t count, std::size_t num_bytes,
                     const std::string& place) {
   constexpr hsize_t kChunkBytes = hsize_t{1} << 20U;

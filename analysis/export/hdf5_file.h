@@ -7,7 +7,7 @@
 
 namespace jnd::analysis {
 
-/// What `hdf5.h` calls hid_t, closed when it goes. Not for use outside of these files.
+/// Owns an hid_t of `hdf5.h` and closes it. Only these files should use it.
 class Hdf5Handle {
  public:
   using Close = int (*)(std::int64_t);
@@ -17,7 +17,7 @@ class Hdf5Handle {
   Hdf5Handle(Hdf5Handle&& other) noexcept;
   Hdf5Handle& operator=(Hdf5Handle&&) = delete;
   [[nodiscard]] std::int64_t get() const noexcept { return identifier_; }
-  /// False if what was still to be written could not be.
+  /// Returns false if pending data could not be written.
   [[nodiscard]] bool close() noexcept;
 
  private:
@@ -27,7 +27,7 @@ class Hdf5Handle {
 
 enum class Hdf5Number { kDouble, kInt64, kUint8 };
 
-/// A column of numbers that grows: chunks of `kChunkRows`, shuffled and deflated.
+/// A growing column of numbers, in chunks of `kChunkRows` that are shuffled and deflated.
 class Hdf5Column {
  public:
   static constexpr std::size_t kChunkRows = 16384;
@@ -48,29 +48,30 @@ class Hdf5Column {
   std::uint64_t num_rows_ = 0;
 };
 
-/// How an array of numbers is told and stored: as whole steps, which take an eighth of the room
-/// of doubles.
+/// How an array of numbers is described and stored: as whole steps, which need an eighth of the
+/// space of doubles.
 struct Hdf5ArrayOptions {
   std::string name, unit, meaning;
-  /// Names along the dimensions before that of time, as {"palm_inner", ...}, {"x", "y", "z"}.
+  /// The names along the dimensions before time, such as {"palm_inner", ...}, {"x", "y", "z"}.
   std::vector<std::vector<std::string>> parts;
-  std::vector<std::string> dimensions;  ///< What these are: "point", "axis".
-  double step = 1.0;                    ///< The number is this times what is stored.
+  /// What these dimensions are, such as "point" and "axis".
+  std::vector<std::string> dimensions;
+  double step = 1.0;  ///< A number is its stored step times this.
 };
 
-/// An array of 32-bit steps that grows along its last dimension, time: parts x ... x time. The
-/// attributes scale_factor and _FillValue are those of the CF conventions, which xarray and
-/// others apply by themselves.
+/// An array of 32-bit steps that grows along its last dimension, time: parts x ... x time. Its
+/// attributes scale_factor and _FillValue follow the CF conventions, which xarray and other
+/// programs apply automatically.
 class Hdf5Array {
  public:
   static constexpr std::size_t kChunkRows = 2048;
 
-  /// How many numbers one moment has.
+  /// The number of values at one time.
   [[nodiscard]] std::size_t width() const noexcept { return width_; }
-  /// The numbers of one moment, `width` of them, the last part fastest. NaN: missing; what is
-  /// beyond 32 bits is stored as the largest. Throws `Error`.
+  /// Appends the `width` numbers of one time, with the last part varying fastest. NaN means
+  /// missing. A value beyond 32 bits is stored as the largest one. Throws `Error`.
   void append(const double* numbers);
-  /// Has to be called once at the end. Throws `Error`.
+  /// Must be called once at the end. Throws `Error`.
   void finish();
 
  private:
@@ -80,15 +81,15 @@ class Hdf5Array {
 
   std::string place_;
   Hdf5Handle dataset_;
-  std::vector<std::uint64_t> shape_;  ///< Without time.
+  std::vector<std::uint64_t> shape_;  ///< Without the dimension of time.
   double step_;
   std::size_t width_ = 1, num_waiting_ = 0;
   std::vector<std::int32_t> waiting_;  ///< width x kChunkRows
   std::uint64_t num_rows_ = 0;
 };
 
-/// A group of an HDF5 file, with attributes of text and numbers. All throw `Error` naming file
-/// and object. Not real time.
+/// A group of an HDF5 file, with attributes of text and numbers. All functions throw `Error`
+/// that names file and object. Not real time.
 class Hdf5Group {
  public:
   [[nodiscard]] Hdf5Group group(const std::string& name) const;
@@ -96,14 +97,14 @@ class Hdf5Group {
   void attribute(const std::string& name, double number) const;
   void attribute(const std::string& name, std::int64_t number) const;
 
-  /// With the attributes `unit`, if it has one, and `meaning`.
+  /// The dataset has the attributes `unit`, if there is one, and `meaning`.
   [[nodiscard]] Hdf5Column column(const std::string& name, Hdf5Number type,
                                   const std::string& unit, const std::string& meaning) const;
-  /// With the attributes `unit`, `meaning`, `dimensions`, the names of each dimension but time,
-  /// `scale_factor` and `_FillValue`.
+  /// The dataset has the attributes `unit`, `meaning`, `dimensions`, the names along each
+  /// dimension except time, `scale_factor` and `_FillValue`.
   [[nodiscard]] Hdf5Array array(const Hdf5ArrayOptions& options) const;
-  /// A whole column of texts of one length, padded with zeros: ASCII, which every program
-  /// reads, or UTF-8 where a text has more. With the attribute `meaning`.
+  /// Writes a whole column of texts of one length, padded with zeros. They are ASCII, which
+  /// every program reads, or UTF-8 if a text needs it. The dataset has the attribute `meaning`.
   void texts(const std::string& name, const std::vector<std::string>& texts,
              const std::string& meaning) const;
 
@@ -116,14 +117,14 @@ class Hdf5Group {
   Hdf5Handle handle_;
 };
 
-/// A new HDF5 file that any library since 1.8 reads: plain numbers and texts, no time stamps,
-/// so that the same content gives the same bytes. Throws `Error`. Not thread-safe.
+/// A new HDF5 file that every library since 1.8 can read: plain numbers and texts, and no time
+/// stamps, so that the same content gives the same bytes. Throws `Error`. Not thread-safe.
 class Hdf5File {
  public:
   explicit Hdf5File(const std::filesystem::path& file);
   [[nodiscard]] const Hdf5Group& root() const noexcept { return root_; }
-  /// Everything is in the file; groups and columns have to be gone. Throws `Error` if it is
-  /// not.
+  /// Completes the file. All groups and columns must be destroyed before. Throws `Error` if
+  /// something was not written.
   void finish();
 
  private:

@@ -9,8 +9,8 @@ namespace jnd::analysis {
 Hdf5TableWriter::Hdf5TableWriter(const std::vector<CsvColumn>& columns)
     : columns_(columns), data_(columns.size()) {}
 
-/// A real column takes whole numbers, too; anything else in a column of another type would be
-/// our own fault.
+/// A real column accepts whole numbers too. Any other mismatch of types is an error in the
+/// program.
 Hdf5TableWriter::Column& Hdf5TableWriter::next(ColumnType type) {
   if (num_cells_ < columns_.size() && columns_[num_cells_].type == type) {
     return data_[num_cells_++];

@@ -9,8 +9,9 @@
 
 namespace jnd::analysis {
 
-/// Collects a table and writes it as a group with a dataset a column, its unit and meaning as
-/// attributes. Numbers that there are not are NaN, texts empty. Throws `Error`. Not real time.
+/// Collects a table and writes it as a group, with a dataset for each column and its unit and
+/// meaning as attributes. Missing numbers are NaN, and missing texts are empty. Throws `Error`.
+/// Not real time.
 class Hdf5TableWriter final : public TableWriter {
  public:
   explicit Hdf5TableWriter(const std::vector<CsvColumn>& columns);

@@ -44,8 +44,8 @@ struct Unit {
   bool of_joints = false;
 };
 
-/// The decimals are those of the units in core/storage/sample_codec.h. "_n_m" stands before
-/// "_m", for the first that fits counts.
+/// The decimals follow the units in core/storage/sample_codec.h. The first match counts, so
+/// "_n_m" stands before "_m".
 constexpr Unit kUnits[] = {{"_n_m", "N m", 4, true},
                            {"_rad", "rad", 6, true},
                            {"_m_per_s", "m/s", 4},
@@ -73,7 +73,7 @@ std::vector<RecordingColumn> recording_columns(const core::SampleColumns& which)
       if (!name.ends_with(unit.ending)) continue;
       column.unit = unit.unit;
       column.decimals = unit.decimals;
-      // Single precision is coarser than the step from 8 rad on, so any value is rounded.
+      // From 8 rad on, single precision is coarser than the step, so every value is rounded.
       if (unit.of_joints) column.tolerance = 0.5;
       break;
     }
@@ -88,7 +88,7 @@ double on_grid(double value, const RecordingColumn& column) {
   static constexpr double kSteps[] = {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7};
   const double steps_per_unit = kSteps[column.decimals];
   const double steps = value * steps_per_unit;
-  // Also false for NaN.
+  // This is also false for NaN.
   if (!(std::abs(steps) < 1e15) || std::abs(steps - std::round(steps)) > column.tolerance) {
     return value;
   }

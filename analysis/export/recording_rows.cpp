@@ -12,7 +12,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Which ones a recording of any device may have.
+/// The channels that a recording of any device may have.
 std::vector<std::string> known_channels() {
   core::SampleColumns every{.times = true, .joints = true};
   every.channels = static_cast<core::ChannelBits>(~core::ChannelBits{0});
@@ -38,7 +38,7 @@ void check_channels(const std::vector<std::string>& chosen) {
 std::int64_t ticks_per_row_of(double chosen_hz, const core::SessionRow& session) {
   if (chosen_hz == 0.0) return 1;
   const double ticks = session.rate_hz / chosen_hz;
-  // Written so that NaN is refused.
+  // The comparison also rejects NaN.
   if (!(ticks >= 1.0 && ticks < 1e9 && std::abs(ticks - std::round(ticks)) < 1e-9 * ticks)) {
     char text[160];
     std::snprintf(text, sizeof text,
@@ -51,7 +51,7 @@ std::int64_t ticks_per_row_of(double chosen_hz, const core::SessionRow& session)
   return std::llround(ticks);
 }
 
-/// The row that is being put together of several ticks.
+/// The row that is made from several ticks.
 class RowOfTicks {
  public:
   explicit RowOfTicks(const std::vector<RecordingColumn>& columns)
@@ -69,7 +69,7 @@ class RowOfTicks {
     }
   }
 
-  /// And begins the next one.
+  /// Returns the row and begins the next one.
   std::vector<double> take(std::int64_t first_tick) {
     std::vector<double> row(columns_.size());
     for (std::size_t i = 0; i < columns_.size(); ++i) {
@@ -87,7 +87,7 @@ class RowOfTicks {
   }
 
  private:
-  /// A fault has a code, of which the last one counts; all else are bits.
+  /// A fault is a code, and the last one counts. All other flags are bits.
   static double any_of(double a, double b, const RecordingColumn& column) {
     if (column.name() == "fault") return b == 0.0 ? a : b;
     return static_cast<double>(static_cast<std::uint64_t>(a) | static_cast<std::uint64_t>(b));
@@ -137,7 +137,8 @@ void RecordingRows::read(std::int64_t first_tick, std::int64_t last_tick,
     if (!row.empty()) visit(row.take(begun));
   };
   recording_.read(first_tick, last_tick, [&](const core::Sample& sample) {
-    // Rows are counted from the session's first tick, so that those of all blocks fit together.
+    // Rows are counted from the session's first tick, so that the rows of all blocks have a
+    // common grid.
     const std::int64_t its = sample.tick - sample.tick % ticks_per_row_;
     if (its != begun) finish();
     begun = its;

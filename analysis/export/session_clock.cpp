@@ -12,12 +12,12 @@ namespace jnd::analysis {
 namespace {
 
 constexpr double kSPerNs = 1e-9;
-/// By which a clock of the day is set at most while a machine runs; more is another start.
+/// While a machine runs, its time of day is set by at most this. A larger jump means a restart.
 constexpr double kAnotherStart_s = 1.0;
 
 double day_s(std::int64_t time_ns) { return kSPerNs * static_cast<double>(time_ns); }
 
-/// The tick at which the event happened, where it tells one.
+/// The tick at which the event happened, if the event states it.
 std::optional<std::int64_t> tick_of(const core::EventRow& event) {
   if (event.kind == "trial_started" || event.kind == "presentation_started") {
     return event.first_tick;
@@ -32,7 +32,7 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-/// What `stream_opened` tells of our clock; none of another event.
+/// The time of our clock in a `stream_opened` event; absent for other events.
 std::optional<double> monotonic_in(const core::EventRow& event) {
   if (event.kind != "stream_opened") return std::nullopt;
   const auto data = nlohmann::json::parse(event.data, nullptr, /*allow_exceptions=*/false);
@@ -97,7 +97,7 @@ void SessionClock::finish() {
     } else if (!part.ahead_by_ticks_s.empty()) {
       part.ahead_s = median_of(part.ahead_by_ticks_s);
     } else {
-      part.ahead_s = known_s;  // Nothing of it says otherwise.
+      part.ahead_s = known_s;  // Nothing in this part contradicts the known difference.
     }
     if (!is_known) known_s = part.ahead_s;
     is_known = true;

@@ -24,9 +24,9 @@ class SessionClock {
   /// `events`: all of the session, by their sequence.
   SessionClock(std::vector<core::EventRow> events, double rate_hz);
 
-  /// Each sample that is recorded, in the order of ticks, before anything is asked.
+  /// Takes each recorded sample, in the order of ticks, before any time is asked for.
   void take(const core::Sample& sample);
-  /// Once all were taken.
+  /// Must be called after all samples were taken.
   void finish();
 
   [[nodiscard]] double time_s(const core::Sample& sample) const;
@@ -36,7 +36,7 @@ class SessionClock {
   [[nodiscard]] double shift_s(const core::EventRow& event) const;
 
  private:
-  /// From one start of the program to the next.
+  /// The part of a session between two starts of the program.
   struct Part {
     std::int64_t first_sequence = 0;
     std::int64_t first_tick = 0;

@@ -23,13 +23,13 @@ typename Columns<Cells>::iterator place_of(Columns<Cells>& columns, std::string_
                            [](const auto& one) { return std::string_view(one.column.name); });
 }
 
-/// Puts a column behind the one of that name.
+/// Inserts a column after the one with this name.
 template <typename Cells>
 void insert_after(Columns<Cells>& columns, std::string_view name, Column<Cells> column) {
   columns.insert(std::next(place_of(columns, name)), std::move(column));
 }
 
-/// Whose the row is, then its columns. `Cells` has the session.
+/// Puts the columns that say whose the row is before the others. `Cells` has the session.
 template <typename Cells>
 Columns<Cells> owned(Columns<Cells> columns) {
   Columns<Cells> all = stored_columns<Cells>(
@@ -41,13 +41,13 @@ Columns<Cells> owned(Columns<Cells> columns) {
 
 using NamedValues = std::map<std::string, std::string>;
 
-/// What the participant got and brought.
+/// What the participant was assigned and had at the start.
 struct SessionStart {
   std::string language;
   NamedValues fields, fitting;
 };
 
-/// "hand=left;sex=female"
+/// For example "hand=left;sex=female".
 std::string packed(const NamedValues& values) {
   std::string text;
   for (const auto& [name, value] : values) {
@@ -56,7 +56,7 @@ std::string packed(const NamedValues& values) {
   return text;
 }
 
-/// Empty where the session has not begun, or does not say.
+/// The result is empty if the session has not begun or does not say.
 SessionStart start_of(const std::vector<core::EventRow>& events) {
   SessionStart start;
   for (const core::EventRow& event : events) {
@@ -73,7 +73,7 @@ SessionStart start_of(const std::vector<core::EventRow>& events) {
   return start;
 }
 
-// What a row of each table is made of.
+// The following structs hold the data of a row of each table.
 
 struct SessionCells {
   const core::SessionRow& session;
@@ -116,7 +116,7 @@ struct MarkerCells {
   const core::SessionRow& session;
   std::int64_t code = 0;
   double monotonic_s = 0.0, uncertainty_s = 0.0;
-  const core::EventRow* event = nullptr;  ///< nullptr: the end.
+  const core::EventRow* event = nullptr;  ///< nullptr marks the end.
 };
 struct GapCells {
   const core::SessionRow& session;
@@ -184,7 +184,8 @@ const Columns<TrialCells>& trial_table() {
     insert_after(all, "reference_intensity",
                  {{"standard_medium", "", "What the reference stimulus is; empty: the medium"},
                   [](auto& to, const auto& it) { to.cell(it.trial.standard_medium); }});
-    // What `response` means depends on the procedure; of these each means one thing.
+    // The meaning of `response` depends on the procedure. Each of these columns has one
+    // meaning.
     using enum experiments::Measure;
     struct Answer {
       experiments::Measure measure;
@@ -325,7 +326,7 @@ const Columns<MarkerCells>& marker_table() {
   return kColumns;
 }
 
-/// What an event `markers_sent` holds; nothing of a damaged one.
+/// The pulses in a `markers_sent` event; none if the event is damaged.
 std::vector<MarkerCells> pulses_in(const core::SessionRow& session, const core::EventRow& row,
                                    const std::vector<core::EventRow>& events) {
   std::vector<MarkerCells> pulses;

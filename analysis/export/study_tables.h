@@ -11,8 +11,8 @@
 
 namespace jnd::analysis {
 
-// The columns of every table, as codebook and sidecars tell them: one spelling for all data
-// sets.
+// The columns of every table with the names that the codebook and sidecars use, so that all
+// data sets spell them alike.
 
 [[nodiscard]] const std::vector<CsvColumn>& session_columns();
 [[nodiscard]] const std::vector<CsvColumn>& session_value_columns();
@@ -28,17 +28,17 @@ namespace jnd::analysis {
 [[nodiscard]] const std::vector<CsvColumn>& codebook_columns();
 [[nodiscard]] const std::vector<CsvColumn>& deviation_columns();
 
-/// How many columns of trials say whose they are, not what was done: BIDS says that by the name
-/// of the file.
+/// The number of columns of trials that say whose the trial is. BIDS says this in the name of
+/// the file.
 inline constexpr std::size_t kNumTrialOwners = 2;
 
-// A session's rows of each table.
+// These functions write a session's rows of each table.
 
-/// `events`: of the session.
+/// `events` are those of the session.
 void write_session(TableWriter& table, const core::SessionRow& session, bool completed,
                    const std::vector<core::EventRow>& events);
-/// What was known of the participant, the arms of counterbalances and the fitting of the
-/// device, a row each.
+/// Writes one row each for what was known about the participant, the arms of counterbalances
+/// and the fitting of the device.
 void write_session_values(TableWriter& table, const core::SessionRow& session,
                           const std::vector<core::EventRow>& events);
 void write_trials(TableWriter& table, const core::SessionRow& session,
@@ -49,32 +49,33 @@ void write_events(TableWriter& table, const core::SessionRow& session,
                   const std::vector<core::EventRow>& events);
 void write_answers(TableWriter& table, const core::SessionRow& session,
                    const std::vector<core::AnswerRow>& answers);
-/// The questions of the session's study file, with what of the answers belongs to each.
+/// Writes the questions of the session's study file, with the answers that belong to each.
 void write_questionnaire(TableWriter& table, const core::SessionRow& session,
                          const std::vector<core::AnswerRow>& answers,
                          const std::vector<QuestionnaireItem>& questions);
-/// Answers to questions after trials, a row each.
+/// Writes one row for each answer to a question after a trial.
 void write_questions(TableWriter& table, const core::SessionRow& session,
                      const std::vector<ExportedAnswer>& answers);
-/// The cells of such an answer after those of its owner, the row not ended.
+/// Writes the cells of such an answer after those of its owner. It does not end the row.
 void write_question_cells(TableWriter& table, const core::SessionRow& session,
                           const ExportedAnswer& answer);
-/// Pulses that were sent to another recorder, a row each, with the event that each tells of.
+/// Writes one row for each pulse that was sent to another recorder, with the event that it
+/// marks.
 void write_markers(TableWriter& table, const core::SessionRow& session,
                    const std::vector<core::EventRow>& events);
 void write_gaps(TableWriter& table, const core::SessionRow& session,
                 const ExportedRecording& recording);
 
-/// A row for each thing that is not as it was registered.
+/// Writes one row for each deviation from the preregistration.
 void write_deviations(TableWriter& table, const PreregisteredStudy& preregistration);
 
-/// A row for every column of every table, by the name that the data set gives the table.
+/// Writes one row for every column of every table, with the name of the table in the data set.
 void write_codebook(
     TableWriter& table,
     const std::vector<std::pair<std::string, const std::vector<CsvColumn>*>>& tables);
 
-/// The cells of a trial after those of its owner, the levels of factors last, the row not
-/// ended: `simulated` is the first.
+/// Writes the cells of a trial after those of its owner. `simulated` comes first, and the
+/// levels of factors last. It does not end the row.
 void write_trial_cells(TableWriter& table, const core::SessionRow& session,
                        const ExportedTrial& trial, FactorColumns& factors);
 

@@ -13,8 +13,8 @@
 
 namespace jnd::analysis {
 
-/// A column of a table: how the codebook tells it, and what a row puts there. So a column is
-/// one line, for CSV, BIDS, HDF5 and the codebook alike. `Cells` is what a row is made of.
+/// A column of a table: its description in the codebook, and what a row puts there. So one line
+/// defines a column for CSV, BIDS, HDF5 and the codebook. `Cells` holds the data of a row.
 template <typename Cells>
 struct Column {
   CsvColumn column;
@@ -30,7 +30,7 @@ template <typename Cells>
   return all;
 }
 
-/// The cells of a row from the column `first` on.
+/// Writes the cells of a row, starting at the column `first`.
 template <typename Cells>
 TableWriter& put(TableWriter& table, const Columns<Cells>& columns, const Cells& it,
                  std::size_t first = 0) {
@@ -38,7 +38,7 @@ TableWriter& put(TableWriter& table, const Columns<Cells>& columns, const Cells&
   return table;
 }
 
-/// What a column of such fields holds. Numbers that may be missing are real.
+/// The type of a column for such a field. Numbers that may be missing are real.
 template <typename Value>
 constexpr ColumnType type_of_column() {
   if (std::same_as<Value, std::string> || std::same_as<Value, std::uint64_t>) {
@@ -58,7 +58,7 @@ void put_value(TableWriter& to, const Value& value) {
   }
 }
 
-/// The columns of a stored row that data sets have; `row_of(it)` is the row.
+/// The columns of a stored row that data sets have. `row_of(it)` returns the row.
 template <typename Cells, typename RowOf>
 [[nodiscard]] Columns<Cells> stored_columns(RowOf row_of) {
   using StoredRow = std::remove_cvref_t<std::invoke_result_t<RowOf, const Cells&>>;

@@ -45,7 +45,7 @@ std::vector<ExportedPresentation> exported_presentations(
   std::vector<ExportedPresentation> presentations;
   for (core::PresentationRow& row : store.presentations(session, true)) {
     const auto its = by_number.find(row.trial);
-    if (its == by_number.end()) continue;  // Of a block that was not chosen.
+    if (its == by_number.end()) continue;  // It belongs to a block that was not chosen.
     presentations.push_back({.row = std::move(row),
                              .block = its->second->row.block,
                              .excluded = its->second->excluded});

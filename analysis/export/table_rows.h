@@ -15,26 +15,26 @@
 
 namespace jnd::analysis {
 
-/// A trial whose answer stands.
+/// A trial with a valid answer.
 struct ExportedTrial {
   core::TrialRow row;
-  bool excluded = false;        ///< Set aside with a reason.
+  bool excluded = false;        ///< Whether it was set aside with a reason.
   bool is_practice = false;     ///< Whether the trial belongs to a practice block.
-  std::string standard_medium;  ///< Medium of the reference; "" where it is the block's own.
-  /// What its answer is; none where the study file has no such block.
+  std::string standard_medium;  ///< The medium of the reference; "" if it is the block's own.
+  /// The kind of its answer; absent if the study file has no such block.
   std::optional<experiments::Measure> measure;
 
-  /// The answer, where it is one of that.
+  /// The answer, if it is of the wanted kind.
   [[nodiscard]] std::optional<double> response_if(experiments::Measure wanted) const {
     return measure == wanted ? row.response : std::nullopt;
   }
 };
-/// Those of the chosen blocks, in the order of the trials.
+/// The trials of the chosen blocks, in their order.
 [[nodiscard]] std::vector<ExportedTrial> exported_trials(const core::StudyStore& store,
                                                          std::int64_t session,
                                                          const ExportSelection& selection);
 
-/// The questions of study files, each file read once.
+/// The questions of study files. Each file is read once.
 class StudyQuestions {
  public:
   explicit StudyQuestions(const core::StudyStore& store) : studies_(store) {}
@@ -45,37 +45,38 @@ class StudyQuestions {
   std::map<std::string, std::vector<QuestionnaireItem>> by_hash_;
 };
 
-/// A presentation of such a trial.
+/// A presentation of an exported trial.
 struct ExportedPresentation {
   core::PresentationRow row;
-  std::string block;      ///< Its trial's.
-  bool excluded = false;  ///< Its trial is.
+  std::string block;      ///< The block of its trial.
+  bool excluded = false;  ///< Whether its trial was set aside.
 };
 [[nodiscard]] std::vector<ExportedPresentation> exported_presentations(
     const core::StudyStore& store, std::int64_t session,
     const std::vector<ExportedTrial>& trials);
 
-/// An answer to a question after a trial, beside the question.
+/// An answer to a question after a trial, with the question.
 struct ExportedAnswer {
   core::QuestionAnswerRow row;
-  std::string kind, unit;       ///< Of the question; "" for one that the study has not.
-  std::string asked;            ///< What was asked, and what the ends of a scale are.
-  std::optional<double> value;  ///< Of a number or a scale.
-  bool excluded = false;        ///< Its trial is.
+  /// The kind and unit of the question; "" if the study does not have it.
+  std::string kind, unit;
+  std::string asked;            ///< The question, with the labels of a scale's ends.
+  std::optional<double> value;  ///< The value of a number or a scale.
+  bool excluded = false;        ///< Whether its trial was set aside.
 };
-/// Of the trials whose answer stands, in the order in which they were given.
+/// The answers after trials with a valid answer, in the order in which they were given.
 [[nodiscard]] std::vector<ExportedAnswer> exported_question_answers(
     const core::StudyStore& store, std::int64_t session,
     const std::vector<ExportedTrial>& trials);
 
-/// From the first to the last tick of each of the chosen blocks, ascending; empty where none is
+/// The ticks from the first to the last of each chosen block, ascending; empty if none is
 /// chosen.
 [[nodiscard]] std::vector<core::TickRange> ticks_of_blocks(
     const std::vector<ExportedTrial>& trials,
     const std::vector<ExportedPresentation>& presentations, const ExportSelection& selection);
 
-/// Of a field of the study in a table of participants: its name, or "field_NAME" where the
-/// table has a column of that name.
+/// The name of a field's column in a table of participants: the field's name, or "field_NAME"
+/// if the table already has a column of that name.
 [[nodiscard]] std::string field_column(const std::string& field,
                                        const std::vector<std::string>& taken);
 

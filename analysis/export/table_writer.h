@@ -10,18 +10,19 @@ namespace jnd::analysis {
 enum class ColumnType {
   kText,
   kCount,  ///< Whole numbers, one in every row.
-  kReal,   ///< Numbers, also whole ones of which some rows have none.
+  kReal,   ///< Numbers, including whole ones that some rows lack.
 };
 
-/// One column of a table, as the codebook tells it.
+/// One column of a table, as the codebook describes it.
 struct CsvColumn {
   const char* name;
-  const char* unit;  ///< "" where there is none.
+  const char* unit;  ///< "" if there is none.
   const char* meaning;
   ColumnType type = ColumnType::kText;
 };
 
-/// Takes a table cell by cell, row by row. Throws `Error` where it writes to. Not real time.
+/// Receives a table cell by cell and row by row. Throws `Error` if it cannot be written.
+/// Not real time.
 class TableWriter {
  public:
   virtual ~TableWriter() = default;
@@ -30,14 +31,16 @@ class TableWriter {
   TableWriter& cell(const std::string& text) { return cell(std::string_view(text)); }
   TableWriter& cell(const char* text) { return cell(std::string_view(text)); }
   TableWriter& cell(std::int64_t number) { return put_count(number), *this; }
-  TableWriter& cell(double number) { return put_real(number), *this; }  ///< NaN: nothing.
-  TableWriter& cell(bool flag) { return cell(std::int64_t{flag}); }     ///< 1 or 0.
+  /// NaN is written as missing.
+  TableWriter& cell(double number) { return put_real(number), *this; }
+  TableWriter& cell(bool flag) { return cell(std::int64_t{flag}); }  ///< Written as 1 or 0.
   template <typename T>
   TableWriter& cell(const std::optional<T>& value) {
     return value ? cell(*value) : nothing();
   }
-  TableWriter& nothing() { return put_nothing(), *this; }  ///< What there is not.
-  /// Throws `Error` if the row has not one cell a column, which would be our own fault.
+  TableWriter& nothing() { return put_nothing(), *this; }  ///< Writes a missing value.
+  /// Ends the row. Throws `Error` if the row does not have one cell for each column, which is
+  /// an error in the program.
   virtual void end_row() = 0;
 
  private:

@@ -34,7 +34,8 @@ bool is_there(const fs::path& folder) {
   return true;
 }
 
-/// Without a slash at the end, and where a link points to, so that it can be renamed to.
+/// The path without a final slash and with links resolved, so that a folder can be renamed to
+/// it.
 fs::path place_of(const fs::path& folder) {
   std::error_code error;
   fs::path whole = fs::weakly_canonical(fs::absolute(folder), error);
@@ -72,7 +73,7 @@ UnfinishedFolder::UnfinishedFolder(const fs::path& folder)
     refuse_to_make(folder, std::error_code(errno, std::generic_category()));
   }
   path_ = pattern;
-  // As any folder of this user; mkdtemp makes it for its owner alone.
+  // The folder gets the usual permissions of this user, because mkdtemp makes it private.
   const mode_t mask = ::umask(0);
   ::umask(mask);
   fs::permissions(path_, static_cast<fs::perms>(0777 & ~mask), error);
@@ -96,7 +97,7 @@ void UnfinishedFolder::refuse(const std::string& reason) const {
                     kNothingWritten);
 }
 
-/// Everything one folder up, or back down again.
+/// Moves everything one folder up, and back again after a failure.
 void UnfinishedFolder::publish_inside() {
   std::error_code error;
   std::vector<fs::path> names;

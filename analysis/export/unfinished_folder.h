@@ -5,24 +5,25 @@
 
 namespace jnd::analysis {
 
-/// A folder that is there as a whole or not at all. It is filled beside its place, as
-/// NAME.unfinished-XXXXXX, or in it if there is an empty folder already, perhaps of another
-/// disk, as NAME/unfinished-XXXXXX; it gets its name at the end, and what failed is removed. Of
-/// a program that was killed only the unfinished one is left. Not real time.
+/// A folder that is written as a whole or not at all. It is filled beside its place, as
+/// NAME.unfinished-XXXXXX. If there is an empty folder already, which may be on another disk,
+/// it is filled inside, as NAME/unfinished-XXXXXX. It gets its name at the end, and is removed
+/// after a failure. If the program is killed, only the unfinished folder remains.
+/// Not real time.
 class UnfinishedFolder {
  public:
-  /// Throws `Error` if there is something in `folder` or at its place, or nothing can be
-  /// written there; `MissingRight` if that is not allowed.
+  /// Throws `Error` if `folder` or its place contains something, or if nothing can be written
+  /// there. Throws `MissingRight` if writing is not permitted.
   explicit UnfinishedFolder(const std::filesystem::path& folder);
   ~UnfinishedFolder();
   UnfinishedFolder(const UnfinishedFolder&) = delete;
   UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;
 
-  /// Where to write to until it is published.
+  /// The folder to write to until it is published.
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-  /// Makes a folder in it, and those above. Throws `Error`.
+  /// Makes a folder inside, with its parents. Throws `Error`.
   std::filesystem::path make(const std::filesystem::path& relative) const;
-  /// Throws `Error` if somebody put something in its place meanwhile.
+  /// Throws `Error` if something has appeared at its place meanwhile.
   void publish();
 
  private:
@@ -34,8 +35,8 @@ class UnfinishedFolder {
   bool published_ = false;
 };
 
-/// Fills a new or empty folder and publishes it. An `Error` of `fill` is passed on with
-/// `folder` for the unfinished place, and says that nothing was written.
+/// Fills a new or empty folder and publishes it. An `Error` from `fill` is passed on with
+/// `folder` in place of the unfinished path, and says that nothing was written.
 void write_folder(const std::filesystem::path& folder,
                   const std::function<void(const UnfinishedFolder&)>& fill);
 

@@ -30,7 +30,7 @@ std::string xdf_name(std::int64_t session) {
   return name;
 }
 
-/// Name of the study as its file has it; its place where that cannot be read.
+/// The study's name in its file, or the name of its folder if the file cannot be read.
 std::string study_name(const core::StudyStore& store, const core::SessionRow& session) {
   const std::string text = store.protocol(session.protocol_sha256).text;
   const auto study = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false,
@@ -100,7 +100,7 @@ class XdfSession {
     clock_.finish();
   }
 
-  /// Of ours, which need no correction.
+  /// Adds the clock offsets of our own streams, which need no correction.
   static void add_no_offsets(XdfStream& stream, double first_s, double last_s) {
     stream.add(core::ClockOffset{.time_s = first_s});
     if (last_s > first_s) stream.add(core::ClockOffset{.time_s = last_s});

@@ -6,11 +6,12 @@
 
 namespace jnd::analysis {
 
-/// Writes `folder`/session_0001.xdf for every session: its markers, its samples (the channels
-/// of `options.selection`, or the hand's position, velocity and force), and every stream of
-/// others that was recorded with it, as it came, with the comparisons of its clock with ours.
-/// Times are those of the machine's monotonic clock; see `SessionClock`. `folder` must not
-/// exist or be empty; it is there as a whole or not at all. Throws `Error`.
+/// Writes `folder`/session_0001.xdf and so on, one file for every session. It has the session's
+/// markers, its samples (the channels of `options.selection`, or the hand's position, velocity
+/// and force), and every stream of another recorder, unchanged, with the comparisons of its
+/// clock with ours. Times are those of the machine's monotonic clock; see `SessionClock`.
+/// `folder` must not exist or must be empty. It is written as a whole or not at all. Throws
+/// `Error`.
 ExportOutcome export_xdf(const core::StudyStore& store, const std::filesystem::path& folder,
                          const ExportOptions& options);
 

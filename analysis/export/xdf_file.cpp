@@ -11,10 +11,10 @@
 namespace jnd::analysis {
 namespace {
 
-// What chunks are.
+// The types of chunks.
 constexpr std::uint16_t kFileHeader = 1, kStreamHeader = 2, kSamples = 3, kClockOffset = 4,
                         kBoundary = 5, kStreamFooter = 6;
-/// Of every boundary, as it is specified.
+/// The specified mark in every boundary.
 constexpr std::array<unsigned char, 16> kBoundaryMark = {0x43, 0xA5, 0x46, 0xDC, 0xCB, 0xF5,
                                                          0x41, 0x0F, 0xB3, 0x0E, 0xD5, 0x46,
                                                          0x73, 0x83, 0xCB, 0xE4};
@@ -28,7 +28,7 @@ void put(std::string& bytes, Number value) {
   bytes.append(raw, sizeof value);
 }
 
-/// A length with how many bytes it takes before it: 1, 4 or 8.
+/// Writes a length, preceded by its number of bytes: 1, 4 or 8.
 void put_length(std::string& bytes, std::uint64_t length) {
   if (length <= 0xFF) {
     bytes += char{1};

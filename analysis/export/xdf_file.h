@@ -12,24 +12,24 @@
 
 namespace jnd::analysis {
 
-/// A file of the Extensible Data Format, version 1.0, as it is specified
-/// (github.com/sccn/xdf/wiki/Specifications): chunks, each with its length and what it is.
-/// Streams have numbers from 1. Not real time.
+/// A file in the Extensible Data Format, version 1.0 (github.com/sccn/xdf/wiki/Specifications).
+/// It consists of chunks, each with its length and type. Streams are numbered from 1.
+/// Not real time.
 class XdfFile {
  public:
-  /// Throws `core::Error` where it cannot be made.
+  /// Throws `core::Error` if the file cannot be made.
   explicit XdfFile(std::filesystem::path file);
 
-  /// Before anything else of a stream. `xml`: what it says of itself.
+  /// Must come before everything else of a stream. `xml` describes the stream.
   void stream_header(std::uint32_t stream, std::string_view xml);
-  /// Of one stream, each with its time.
+  /// Writes samples of one stream, each with its time.
   void samples(std::uint32_t stream, core::ChannelFormat format,
                const std::vector<core::StreamSample>& samples);
   void clock_offset(std::uint32_t stream, const core::ClockOffset& offset);
-  /// From which a reader finds its way again in a file that is damaged before it.
+  /// Writes a mark from which a reader can continue if the file is damaged before it.
   void boundary();
   void stream_footer(std::uint32_t stream, std::string_view xml);
-  /// Throws `core::Error` where something was not written.
+  /// Throws `core::Error` if something was not written.
   void finish();
 
  private:
@@ -39,8 +39,8 @@ class XdfFile {
   std::ofstream stream_;
 };
 
-/// One stream of such a file: its header at once, then samples, cut into chunks with boundaries
-/// between them, and at the end the footer, which says how many there were.
+/// One stream of such a file. It writes its header at once, then its samples in chunks with
+/// boundaries between them, and at the end the footer with their number.
 class XdfStream {
  public:
   XdfStream(XdfFile& file, std::uint32_t number, core::ChannelFormat format,

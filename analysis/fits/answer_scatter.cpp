@@ -19,8 +19,9 @@ struct Count {
   }
 };
 
-/// Rows of a single answer in the order in which they were given: a quarter of them each is a
-/// row. Not where the table is sorted by level, which says nothing of when they were given.
+/// Divides rows of a single answer into quarters, in the order in which they were given. It
+/// does not divide them if the table is sorted by level, because its order then does not tell
+/// when the answers were given.
 class Runs {
  public:
   explicit Runs(const std::vector<AnswerCount>& rows) {
@@ -37,7 +38,7 @@ class Runs {
     is_in_order_ = num_singles_ > 0 && num_changes > 2 * std::ssize(asked);
   }
 
-  /// Of the next such row.
+  /// The quarter, 0 to 3, of the next row of a single answer.
   std::int64_t next() {
     constexpr std::int64_t kNumRuns = 4;
     return is_in_order_ ? kNumRuns * at_++ / num_singles_ : 0;
@@ -48,7 +49,7 @@ class Runs {
   bool is_in_order_ = false;
 };
 
-/// Twice what the answers' own share gains over the probability.
+/// Twice the log-likelihood that the observed share has above the predicted probability.
 double deviance_of(double num_yes, double num_trials, double probability) {
   const double num_no = num_trials - num_yes;
   double deviance = 0.0;
@@ -61,7 +62,8 @@ struct Moments {
   double mean = 0.0, variance = 0.0;
 };
 
-/// Of the deviance, over all numbers of yes that are not out of reach.
+/// The moments of the deviance, summed over all numbers of yes that have a noticeable
+/// probability.
 Moments deviance_moments(double num_trials, double probability) {
   constexpr double kReach = 9.0, kMargin = 30.0;
   const double mean_yes = num_trials * probability;
@@ -82,8 +84,9 @@ Moments deviance_moments(double num_trials, double probability) {
   return {raw.mean, raw.variance - raw.mean * raw.mean};
 }
 
-/// Levels with several answers as they are, and those with one, which cannot lie far from any
-/// curve, in groups of ten neighbours by the curve (after Hosmer and Lemeshow 1980).
+/// Keeps levels with several answers as they are. Levels with one answer cannot lie far from
+/// any curve, so they are put into groups of ten with neighbouring probabilities (after Hosmer
+/// and Lemeshow 1980).
 std::vector<FittedAnswers> with_grouped_singles(const std::vector<FittedAnswers>& answers) {
   constexpr std::size_t kInGroup = 10;
   std::vector<FittedAnswers> result, singles;
@@ -127,7 +130,8 @@ bool RowScatter::is_significant() const {
 RowScatter row_scatter(const std::vector<AnswerCount>& rows) {
   struct Level {
     std::vector<Count> rows;
-    std::map<std::int64_t, Count> singles;  ///< By the run.
+    /// Pooled single answers, by the quarter in which they were given.
+    std::map<std::int64_t, Count> singles;
   };
   Runs runs(rows);
   std::map<std::pair<double, double>, Level> levels;
@@ -169,7 +173,7 @@ std::optional<double> misfit_p_value(const std::vector<FittedAnswers>& answers,
     num_levels += 1.0;
   }
   if (!(num_levels - num_fitted >= 1.0)) return std::nullopt;
-  // Levels of which nothing is in doubt have next to no deviance, and no degree of freedom.
+  // Levels with a certain answer have almost no deviance, and add no degree of freedom.
   const double left = expected.mean - num_fitted;
   if (!(left > 0.0)) return std::nullopt;
   const double scale = expected.variance / expected.mean;

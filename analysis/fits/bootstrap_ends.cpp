@@ -16,7 +16,7 @@ std::optional<double> end_at(const std::vector<double>& ascending, double probab
   return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
-/// Whether the interval was refused, because it would miss the estimate.
+/// Opens both ends of an interval that would miss the estimate, and returns whether it did so.
 bool refused(Interval& interval, double estimate) {
   if (estimate >= interval.low.value_or(-core::kInfinity) &&
       estimate <= interval.high.value_or(core::kInfinity)) {
@@ -26,7 +26,7 @@ bool refused(Interval& interval, double estimate) {
   return true;
 }
 
-/// BCa's place for a tail of the percentile interval.
+/// The probability at which BCa reads the end that the percentile interval reads at `tail_z`.
 double corrected_probability(double tail_z, double bias, double acceleration) {
   const double shifted = bias + tail_z;
   return core::standard_normal_cdf(bias + shifted / (1.0 - acceleration * shifted));

@@ -9,25 +9,28 @@
 
 namespace jnd::analysis {
 
-/// A value found anew without one answer, and how many answers are like it.
+/// The estimate after one answer was left out, and the number of answers that would give the
+/// same estimate if left out.
 struct LeftOut {
   double value = 0.0, num_answers = 0.0;
 };
 
-/// Skewness of the influence of single answers, over 6 (Efron 1987); absent where none has any.
+/// The acceleration of BCa: the skewness of the influence of single answers, divided by 6
+/// (Efron 1987). It is absent if no answer has any influence.
 [[nodiscard]] std::optional<double> acceleration_of(const std::vector<LeftOut>& all);
 
-/// Intervals of an estimate over values found anew, infinite ones included: where leaving them
-/// out would narrow it.
+/// Intervals of an estimate from its resampled values. Infinite values are included, because
+/// leaving them out would narrow the interval.
 struct BootstrapEnds {
-  Interval ci95;            ///< The 2.5 and 97.5 percentiles; an infinite end is open.
-  bool is_refused = false;  ///< It would miss the estimate, so both ends are open.
-  Interval bca_ci95;        ///< Corrected for bias and acceleration (Efron 1987).
-  std::string bca_reason;   ///< Why there is none; "" if there is.
+  Interval ci95;  ///< The 2.5 and 97.5 percentiles. An infinite end is open.
+  /// The percentile interval would miss the estimate, so both ends are open.
+  bool is_refused = false;
+  Interval bca_ci95;       ///< The interval corrected for bias and acceleration (Efron 1987).
+  std::string bca_reason;  ///< Why there is no corrected interval; "" if there is one.
   std::optional<double> bias_correction;
 };
 
-/// `ascending` has one value or more.
+/// `ascending` holds at least one value.
 [[nodiscard]] BootstrapEnds bootstrap_ends(const std::vector<double>& ascending,
                                            double estimate, std::optional<double> acceleration);
 

@@ -17,13 +17,13 @@
 namespace jnd::analysis {
 namespace {
 
-/// Likelihood ratios of answers that were drawn anew.
+/// The likelihood ratios of one set of redrawn answers.
 struct Ratios {
-  bool exist = false;  ///< The redrawn answers rise.
+  bool exist = false;  ///< The redrawn answers rise with the intensity.
   double of_slope = 0.0, of_pse = 0.0;
 };
 
-/// Half the 95 % quantile of chi-squared or of the values, whichever is larger.
+/// Half the 95 % quantile of chi-squared or of the given ratios, whichever is larger.
 double drop_of(std::vector<double> ratios) {
   constexpr double kQuantile = 0.95;
   if (ratios.empty()) return kLikelihoodDrop;
@@ -33,18 +33,18 @@ double drop_of(std::vector<double> ratios) {
   return std::max(kLikelihoodDrop, 0.5 * ratios[static_cast<std::size_t>(place)]);
 }
 
-/// Refits of answers drawn anew from a probit line: `fit_probit` from that line, which is near
-/// them, in vectors and matrices of a known size. Where answers are separated it ends as near
-/// the limit as rounding can tell.
+/// Refits answers that were redrawn from a probit line. It does what `fit_probit` does, but
+/// starts from that line, which is near the optimum, and uses vectors and matrices of a fixed
+/// size. For separated answers it ends as near the limit of the likelihood as rounding permits.
 template <int kColumns>
 class ProbitRefit {
  public:
   struct Found {
     double log_likelihood = 0.0;
-    double first = 0.0;  ///< The first coefficient.
+    double first = 0.0;  ///< The first coefficient of the refitted line.
   };
 
-  /// `line`: what the answers are drawn from. `offset`: as of `fit_probit`.
+  /// The answers are redrawn from `line`. `offset` means the same as in `fit_probit`.
   ProbitRefit(const Eigen::MatrixXd& design, const Eigen::VectorXd& num_trials,
               Eigen::VectorXd line, Eigen::VectorXd offset = {})
       : design_(design),
@@ -57,7 +57,7 @@ class ProbitRefit {
   [[nodiscard]] Found find(const Eigen::VectorXd& num_yes) const {
     constexpr int kMaxSteps = 60;
     constexpr double kSmallStep = 1e-5, kSmallGain = 1e-13;
-    // Of answers all alike the slope's sign hangs on where the search starts.
+    // If all answers are alike, the sign of the slope depends on the start of the search.
     const double sum = num_yes.sum();
     Coefficients at = line_;
     double last_gain = core::kInfinity;
@@ -66,7 +66,7 @@ class ProbitRefit {
       const Eigen::LLT<Information> cholesky(rise.information);
       if (cholesky.info() != Eigen::Success) break;
       const Coefficients step = cholesky.solve(rise.gradient);
-      // Half of it is what Newton's step gains, but for the step's cube.
+      // Newton's step gains half of this, apart from terms of third order.
       const double gain = step.dot(rise.gradient);
       if (!(gain < last_gain)) break;
       if (gain <= kSmallGain ||
@@ -83,7 +83,7 @@ class ProbitRefit {
  private:
   using Coefficients = Eigen::Matrix<double, kColumns, 1>;
   using Information = Eigen::Matrix<double, kColumns, kColumns>;
-  /// Derivatives of the log-likelihood; the second ones negated.
+  /// The gradient of the log-likelihood, and minus its second derivatives.
   struct Rise {
     Coefficients gradient;
     Information information;
@@ -126,7 +126,7 @@ class ProbitRefit {
   Coefficients line_;
 };
 
-/// With this many columns, or `Eigen::Dynamic`.
+/// Calibrates a line with `kColumns` columns, which may be `Eigen::Dynamic`.
 template <int kColumns>
 CalibratedDrops drops_of_columns(const Eigen::MatrixXd& design,
                                  const Eigen::VectorXd& num_trials,

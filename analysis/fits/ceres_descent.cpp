@@ -14,7 +14,8 @@ namespace jnd::analysis {
 namespace {
 
 constexpr int kMaxIterations = 100;
-/// Relative change of the cost: parameters are then right to about its root.
+/// Relative change of the cost at which the search stops. The parameters are then accurate to
+/// about its square root.
 constexpr double kTolerance = 1e-14;
 
 class SmoothFunction final : public ceres::FirstOrderFunction {
@@ -30,7 +31,8 @@ class SmoothFunction final : public ceres::FirstOrderFunction {
 
  private:
   const SmoothCost& cost_;
-  mutable std::vector<double> gradient_;  ///< Where Ceres asks for the cost alone.
+  /// Receives the gradient when Ceres asks only for the cost.
+  mutable std::vector<double> gradient_;
 };
 
 class Residuals final : public ceres::CostFunction {
@@ -54,13 +56,15 @@ class Residuals final : public ceres::CostFunction {
   std::size_t num_parameters_;
 };
 
-/// Ceres warns of what its caller can see, even where it is told to be silent.
+/// Ceres logs warnings even if its options silence it. The caller sees the same facts in the
+/// result, so the log is switched off.
 void silence_log() { FLAGS_minloglevel = google::GLOG_FATAL; }
 
 }  // namespace
 
 std::vector<double> ceres_minimum(const SmoothCost& cost, std::vector<double> start) {
-  ceres::GradientProblem problem(new SmoothFunction(cost, start.size()));  // Which owns it.
+  // The problem owns the function.
+  ceres::GradientProblem problem(new SmoothFunction(cost, start.size()));
   silence_log();
   ceres::GradientProblemSolver::Options options;
   options.line_search_direction_type = ceres::BFGS;

@@ -7,16 +7,16 @@
 
 namespace jnd::analysis {
 
-/// A smooth cost and its gradient at `x`, which may take any values. False where `x` has left
-/// the range of numbers. `gradient` is as long as `x`.
+/// Computes a smooth cost and its gradient at any `x`. It returns false where `x` has left the
+/// range of numbers. `gradient` is as long as `x`.
 using SmoothCost =
     std::function<bool(std::span<const double> x, double& cost, std::span<double> gradient)>;
 
-/// A sum of squares, as residuals and their derivatives.
+/// A sum of squares, given by its residuals and their derivatives.
 struct SquaresProblem {
   int num_residuals = 0;
-  /// Residuals at `x` and, row by row, their Jacobian; empty where it is not asked for. False
-  /// where `x` has left the range of numbers.
+  /// Computes the residuals at `x` and their Jacobian, stored row by row. An empty `jacobian`
+  /// is not asked for. It returns false where `x` has left the range of numbers.
   std::function<bool(std::span<const double> x, std::span<double> residuals,
                      std::span<double> jacobian)>
       evaluate;
@@ -24,15 +24,16 @@ struct SquaresProblem {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
   };
-  std::vector<Bound> bounds;  ///< One for each parameter, or none at all.
+  std::vector<Bound> bounds;  ///< One bound for each parameter, or none at all.
 };
 
-/// Where Ceres comes to rest when it goes downhill from `start`: BFGS with a line search.
-/// Silent and in the calling thread; the caller judges what was found. Not real time.
+/// The point where Ceres comes to rest when it descends from `start` by BFGS with a line
+/// search. Ceres prints nothing and uses only the calling thread. The caller must judge what
+/// was found. Not real time.
 [[nodiscard]] std::vector<double> ceres_minimum(const SmoothCost& cost,
                                                 std::vector<double> start);
 
-/// The same for a sum of squares, within its bounds: Levenberg and Marquardt.
+/// The same for a sum of squares within its bounds, by the method of Levenberg and Marquardt.
 [[nodiscard]] std::vector<double> ceres_minimum(const SquaresProblem& squares,
                                                 std::vector<double> start);
 

@@ -13,8 +13,9 @@ namespace {
 
 struct Chance {
   double chance;
-  double least_log_ratio;  ///< Of the likelihoods, where right answers are many.
-  double many;             ///< Share of right answers.
+  /// The least log ratio of the likelihoods if right answers are many.
+  double least_log_ratio;
+  double many;  ///< The least share of right answers that counts as many.
 };
 constexpr std::array<Chance, 3> kChances = {{
     {.chance = 1.0 / 2.0, .least_log_ratio = -0.5, .many = 0.68},
@@ -23,7 +24,7 @@ constexpr std::array<Chance, 3> kChances = {{
 }};
 
 struct Level {
-  double place = 0.0;  ///< ln of the intensity; -infinity at 0.
+  double place = 0.0;  ///< ln of the intensity; -infinity for an intensity of 0.
   double yes = 0.0, trials = 0.0;
 };
 
@@ -34,7 +35,7 @@ double log_likelihood(double yes, double trials, double probability) {
   return value;
 }
 
-/// By ascending intensity, not more than 60 of them.
+/// At most 60 levels, by ascending intensity.
 std::vector<Level> levels_of(const std::vector<AnswerCount>& rows) {
   constexpr double kMostLevels = 60.0;
   std::map<double, Level> by_intensity;
@@ -66,9 +67,10 @@ std::vector<Level> levels_of(const std::vector<AnswerCount>& rows) {
   return levels;
 }
 
-/// Twice the log-likelihood that rising curves lose by staying at or above the chance.
+/// Twice the log-likelihood that the best rising curve loses if it must stay at or above the
+/// chance.
 double loss_at_or_above(const std::vector<Level>& levels, double chance) {
-  std::vector<Level> pools;  // Adjacent violators (Ayer et al. 1955).
+  std::vector<Level> pools;  // Pooling of adjacent violators (Ayer et al. 1955).
   for (const Level& level : levels) {
     pools.push_back(level);
     while (pools.size() > 1) {
@@ -90,8 +92,9 @@ double loss_at_or_above(const std::vector<Level>& levels, double chance) {
   return 2.0 * loss;
 }
 
-/// ln of the best likelihood of curves from 0, then from each chance: over a grid of place and
-/// slope, without lapses and with 3 %, and flat ones.
+/// The logarithms of the best likelihood: first of curves from 0, then of curves from each
+/// chance. The search covers a grid of places and slopes, without lapses and with 3 % of them,
+/// and flat curves.
 std::array<double, 4> best_log_likelihoods(const std::vector<Level>& levels) {
   constexpr int kPlaces = 41, kSlopes = 30;
   constexpr double kFarthest = 3.0, kFlattest = 0.1, kSteepest = 30.0;
@@ -127,7 +130,7 @@ std::array<double, 4> best_log_likelihoods(const std::vector<Level>& levels) {
       }
       for (std::size_t curve = 0; curve < best.size(); ++curve) {
         for (const double lapse : kLapses) {
-          // Lapses of yes and no are at either end.
+          // In yes-no answers lapses occur at both ends.
           const double low = curve == 0 ? lapse : guess_of(curve);
           double value = 0.0;
           for (std::size_t level = 0; level < levels.size() && value > best[curve]; ++level) {
@@ -143,7 +146,8 @@ std::array<double, 4> best_log_likelihoods(const std::vector<Level>& levels) {
   return best;
 }
 
-/// Whether a share of right answers is more than half by more than chance (10 %).
+/// Whether the share of right answers is above one half by more than chance explains
+/// (one-sided, 10 %).
 bool above_half(double yes, double trials) {
   constexpr double kLevel = 0.1;
   if (yes <= 0.5 * trials) return false;
@@ -153,7 +157,8 @@ bool above_half(double yes, double trials) {
 }  // namespace
 
 std::optional<double> suspected_chance(const std::vector<AnswerCount>& rows) {
-  constexpr double kNoise = 3.841458820694124;  // Chi-squared, one degree, 95 %.
+  // The 95 % quantile of chi-squared with one degree of freedom.
+  constexpr double kNoise = 3.841458820694124;
   const double kTwentyTimes = std::log(20.0);
   const std::vector<Level> levels = levels_of(rows);
   if (levels.empty()) return std::nullopt;

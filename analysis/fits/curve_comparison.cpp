@@ -15,7 +15,7 @@ using Shared = JointCurves::Shared;
 constexpr std::size_t kMostLevelsCompared = 1024;
 constexpr std::size_t kMostContrasted = 30;
 
-/// The value on the axis, x or ln x, at a place on the abscissa.
+/// The value on the axis, x or ln x, at place 0 of the abscissa.
 double axis_origin(const PsychometricLevels& levels) {
   return levels.logarithmic() ? std::log(levels.origin) : levels.origin;
 }
@@ -110,7 +110,7 @@ int JointCurves::num_parameters(const Shared& shared) const {
          rates * (shared.rates ? 1 : groups);
 }
 
-/// Where a group's parameters are among all: those that are shared come first.
+/// The indices of a group's parameters in the joint vector. The shared parameters come first.
 std::vector<std::size_t> JointCurves::places_of(const Shared& shared, std::size_t group) const {
   std::vector<std::size_t> places;
   std::size_t next_shared = 0, next_own = 0;
@@ -145,7 +145,8 @@ LikelihoodOptimum JointCurves::optimum(const Shared& shared) const {
     }
     return true;
   };
-  // From the groups' own curves, what is shared at their mean and flatter.
+  // The search starts from the groups' own curves. Shared parameters start at their mean, once
+  // as they are and once with a flatter slope.
   std::vector<std::vector<double>> starts;
   for (const double flatter : {0.0, 1.0}) {
     std::vector<double> start(size, 0.0), count(size, 0.0);
@@ -153,7 +154,7 @@ LikelihoodOptimum JointCurves::optimum(const Shared& shared) const {
       for (std::size_t i = 0; i < size_of_group(); ++i) {
         double own = found_[group][i];
         if (i == 1) own -= flatter;
-        if (i >= 2) own = std::max(own, 0.15);  // At 0 an angle has no gradient.
+        if (i >= 2) own = std::max(own, 0.15);  // At an angle of 0 the cost has no gradient.
         start[places[group][i]] += own;
         count[places[group][i]] += 1.0;
       }

@@ -9,12 +9,12 @@
 
 namespace jnd::analysis {
 
-/// Curves of several groups of answers, on one abscissa, some of whose parameters are the same.
-/// The parameters of a group are the place of its location on the abscissa, ln slope, and
-/// angles a of the rates that are free: rate = limit sin^2 a.
+/// The curves of several groups of answers on one abscissa, which may share some of their
+/// parameters. Each group has these parameters: the place of its location on the abscissa, ln
+/// slope, and an angle a for each free rate, where rate = limit sin^2 a.
 class JointCurves {
  public:
-  /// Which of location, scale and rates all groups share.
+  /// Which of location, scale and rates all groups have in common.
   struct Shared {
     bool location = false, scale = false, rates = false;
   };
@@ -26,19 +26,20 @@ class JointCurves {
     return levels_[group];
   }
   [[nodiscard]] int num_parameters(const Shared& shared) const;
-  /// Of all groups, where the parameters that are shared are at their best.
+  /// The optimum over all groups under the given sharing of parameters.
   [[nodiscard]] LikelihoodOptimum optimum(const Shared& shared) const;
-  /// A group's own parameters, as its fit found them.
+  /// A group's parameters as its own fit found them.
   [[nodiscard]] const std::vector<double>& found(std::size_t group) const {
     return found_[group];
   }
   [[nodiscard]] double found_cost(std::size_t group) const { return found_cost_[group]; }
 
-  /// Minus the log-likelihood of a group's answers and its gradient in the group's parameters;
-  /// false where they have left the range of numbers. `level` is what F is at the location.
+  /// Computes minus the log-likelihood of a group's answers, and its gradient in the group's
+  /// parameters. Returns false where the parameters have left the range of numbers. `level` is
+  /// the value of F at the location.
   bool cost(std::size_t group, double level, std::span<const double> x, double& value,
             std::span<double> gradient) const;
-  /// The group's parameters with the place where F is `level` for that of the location.
+  /// The group's parameters, with the place where F is `level` in the position of the location.
   [[nodiscard]] std::vector<double> at_level(std::size_t group, double level) const;
   [[nodiscard]] double location_level() const noexcept { return location_level_; }
   [[nodiscard]] std::size_t size_of_group() const noexcept {
@@ -57,30 +58,34 @@ class JointCurves {
   std::vector<double> found_cost_;
 };
 
-/// One way in which groups may share parameters.
+/// One way in which the groups may share parameters, and how well it fits.
 struct ComparedModel {
-  std::string name;  ///< "different location, same scale"
+  std::string name;  ///< For example "different location, same scale".
   JointCurves::Shared shared;
   int num_parameters = 0;
   std::optional<double> log_likelihood, aic, bic;
 };
 
-/// Whether groups differ in a parameter: the likelihood ratio of the model in which all differ
-/// and the one in which this is the same.
+/// Tests whether groups differ in a parameter. It is the likelihood ratio between the model in
+/// which all parameters differ and the model in which the groups share this one.
 struct ComparisonTest {
-  std::string name;  ///< "location", "scale", "rates", "all"
+  std::string name;  ///< "location", "scale", "rates" or "all".
   double statistic = 0.0;
   int degrees_of_freedom = 0;
   double p_value = 1.0;
 };
 
-/// Two groups' thresholds compared, the second less the first and over it.
+/// Compares the thresholds of two groups: the second minus the first, and the second divided by
+/// the first.
 struct CurveContrast {
   std::string one, other;
   double at = 0.5;
-  CurveValue difference;                        ///< In the unit of the intensities.
-  CurveValue ratio;                             ///< Absent unless both thresholds are > 0.
-  std::optional<double> p_value, p_value_holm;  ///< Likelihood ratio, of equal thresholds.
+  /// The difference, in the unit of the intensities.
+  CurveValue difference;
+  /// The ratio. It is absent unless both thresholds are > 0.
+  CurveValue ratio;
+  /// p values of the likelihood-ratio test that both thresholds are equal.
+  std::optional<double> p_value, p_value_holm;
 };
 
 struct CurveComparison {
@@ -92,16 +97,16 @@ struct CurveComparison {
   std::vector<CurveContrast> contrasts;
 };
 
-/// One group of answers and its fit.
+/// One group of answers.
 struct ComparedGroup {
   std::string name;
   std::vector<AnswerCount> rows;
 };
 
-/// Compares groups that have the same model: which parameters they share, and the thresholds of
-/// every two of them at the levels of `options`, adjusted by Holm (1979) over the pairs of a
-/// level. `degenerate` where a group has no curve, or there are fewer than two. At most 30
-/// groups have contrasts. Not real time.
+/// Compares groups that have the same model. It finds out which parameters they share, and
+/// contrasts the thresholds of every pair at the levels of `options`, adjusted by Holm (1979)
+/// over the pairs of one level. The status is `degenerate` if a group has no curve or if there
+/// are fewer than two groups. With more than 30 groups there are no contrasts. Not real time.
 [[nodiscard]] CurveComparison compare_curves(const std::vector<ComparedGroup>& groups,
                                              const CurveOptions& options);
 

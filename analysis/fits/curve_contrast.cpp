@@ -10,8 +10,9 @@
 namespace jnd::analysis {
 namespace {
 
-/// Two groups, whose thresholds are `way` apart: the parameters are what they are apart by, the
-/// first one's threshold, and all else of both.
+/// The joint likelihood of two groups as a function of the contrast of their thresholds. Its
+/// parameters are the contrast (a difference or a log ratio), the first group's threshold, and
+/// all other parameters of both groups.
 class ThresholdPair {
  public:
   enum class Way { kDifference, kLogRatio };
@@ -26,7 +27,7 @@ class ThresholdPair {
     return joint_.levels(group).intensity_at(joint_.at_level(group, level_)[0]);
   }
 
-  /// In steps of which one is about what the answers can tell.
+  /// The unit of the contrast. One unit is about as much as the answers can resolve.
   [[nodiscard]] double unit(Way way) const {
     const PsychometricLevels& levels = joint_.levels(one_);
     if (way == Way::kLogRatio) return levels.logarithmic() ? levels.unit : 1.0;
@@ -95,7 +96,8 @@ class ThresholdPair {
     return ends;
   }
 
-  /// The likelihood ratio of equal thresholds: chi-squared with one degree of freedom.
+  /// The p value of the likelihood ratio against equal thresholds, by chi-squared with one
+  /// degree of freedom.
   [[nodiscard]] std::optional<double> p_value() const {
     const SmoothCost its = cost(Way::kDifference);
     const auto size = start(Way::kDifference, 0.0).size() - 1;
@@ -122,7 +124,7 @@ class ThresholdPair {
   }
 
  private:
-  /// On the abscissa, NaN where there is no such intensity.
+  /// The place of the second threshold on the abscissa. It is NaN if no such intensity exists.
   [[nodiscard]] double place_of_other(Way way, double apart, double place) const {
     const PsychometricLevels& levels = joint_.levels(one_);
     const double by = apart * unit(way);

@@ -6,9 +6,9 @@
 
 namespace jnd::analysis {
 
-/// The thresholds of every two groups at the levels of `options`: difference and ratio with
-/// likelihood-ratio intervals, all else at its best, and with those of a bootstrap where that
-/// is asked for. Not real time.
+/// Contrasts the thresholds of every two groups at the levels of `options`. Difference and
+/// ratio have likelihood-ratio intervals with all other parameters at their optimum, and
+/// bootstrap intervals if they are asked for. Not real time.
 [[nodiscard]] std::vector<CurveContrast> contrasts_of(const std::vector<ComparedGroup>& groups,
                                                       const std::vector<FoundCurve>& found,
                                                       const JointCurves& joint,

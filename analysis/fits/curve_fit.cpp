@@ -23,11 +23,11 @@ namespace {
 using Kind = CurveQuantity::Kind;
 using enum PsychometricMethod;
 
-/// What is searched over many curves is searched over at most so many levels.
+/// A search over many curves uses at most this many levels.
 constexpr std::size_t kMostLevelsOfMany = 2048;
 constexpr std::size_t kMostPoints = 200;
 
-/// A quantity, and where in the result it belongs.
+/// A quantity, and the field of the result that receives it.
 struct Told {
   CurveQuantity quantity;
   CurveValue* value;
@@ -43,7 +43,7 @@ std::vector<Told> told_of(CurveFit& fit, const FreeParameters& free) {
       {{Kind::kGuess, half}, &fit.guess_rate},
       {{Kind::kLapse, half}, &fit.lapse_rate},
   };
-  // A rate that is known has no interval.
+  // A known rate has no interval.
   if (!free[3] && !free[2]) all.resize(4);
   for (CurveThreshold& one : fit.thresholds) {
     if (one.is_by_proportion) {
@@ -68,7 +68,8 @@ std::optional<double> finite_value(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Values of redraws that have no optimum: of the step or the level line that they tend to.
+/// The value of a quantity for a redraw that has no optimum. The curve then tends to a step or
+/// to a flat line.
 class LimitOfRedraw {
  public:
   LimitOfRedraw(const CurveModel& model, const PsychometricLevels& redrawn,
@@ -91,7 +92,7 @@ class LimitOfRedraw {
         if (is_step_ || quantity.kind == Kind::kGuess || quantity.kind == Kind::kLapse) {
           return value_of(quantity, model_, levels_, curve_);
         }
-        // Beyond all levels, on the side of the answers that are rarer.
+        // The limit lies beyond all levels, on the side of the rarer answers.
         return mostly_yes() == model_.falling ? core::kInfinity : -core::kInfinity;
       case Kind::kDistance:
         return is_step_ ? 0.0 : core::kInfinity;
@@ -114,9 +115,11 @@ class LimitOfRedraw {
     }
     return 2.0 * yes > trials;
   }
-  /// In the middle between the levels that the step with the fewest errors lies between.
+  /// The place of the step with the fewest errors, in the middle between its two neighbouring
+  /// levels.
   [[nodiscard]] double step_place() const {
-    double errors = 0.0;  // Yes below it, no above it.
+    // The errors of a step that has every yes below it and every no above it.
+    double errors = 0.0;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       errors += levels_.num_trials[i] - levels_.num_yes[i];
     }
@@ -155,7 +158,7 @@ std::vector<double> values_or_limits(const std::vector<CurveQuantity>& quantitie
   return values;
 }
 
-/// Of each quantity, the acceleration of BCa by leaving out one answer at a time.
+/// The acceleration of BCa for each quantity, from leaving out one answer at a time.
 std::vector<std::optional<double>> accelerations(const std::vector<CurveQuantity>& quantities,
                                                  const CurveModel& model,
                                                  const PsychometricRefit& refit,
@@ -222,7 +225,7 @@ void add_bootstrap(CurveFit& fit, std::vector<Told>& all, const FoundCurve& foun
   }
 }
 
-/// The medians where the prior of the rates has other weights.
+/// Adds the posterior medians that follow from other weights of the rates' prior.
 void add_prior_effects(const CurveFit& fit, std::vector<Told>& all,
                        const PsychometricLevels& levels, const FreeParameters& free,
                        const BetaPrior& rates) {
@@ -271,8 +274,8 @@ void add_posterior(CurveFit& fit, std::vector<Told>& all, const PsychometricLeve
   }
 }
 
-/// The exact moments of the deviance take a sum over every count that could be; with many
-/// answers a level it is chi-squared.
+/// The p value of the misfit. The exact moments of the deviance need a sum over every possible
+/// count. If a level has very many answers, chi-squared replaces them.
 std::optional<double> misfit_of(const CurveFit& fit, const PsychometricLevels& levels,
                                 const FreeParameters& free, const PsychometricCurve& curve) {
   constexpr double kManyAnswers = 1e4;
@@ -290,15 +293,15 @@ std::string shown(double value) {
   return text;
 }
 
-/// Where the curve ends, as answered.
+/// The proportion of yes at the curve's upper or lower end.
 double one_end(const CurveFit& fit, bool is_upper) {
   const double lapse = fit.lapse_rate.value.value_or(0.0);
   if (is_upper) return 1.0 - lapse;
   return fit.guess_rate.value.value_or(0.0) + (fit.model.symmetric ? lapse : 0.0);
 }
 
-/// The levels of proportions that were asked for. A curve that never has one has no threshold
-/// there, and no interval: the entries of it in `all` go.
+/// Computes the levels that belong to the requested proportions. A curve that never reaches a
+/// proportion has no threshold and no interval there, so its entries are removed from `all`.
 void settle_proportions(CurveFit& fit, std::vector<Told>& all, const PsychometricLevels& levels,
                         const PsychometricCurve& curve) {
   for (CurveThreshold& one : fit.thresholds) {
@@ -404,11 +407,12 @@ double CurveFit::probability(double intensity) const {
 
 FoundCurve found_curve(const std::vector<AnswerCount>& rows, const CurveModel& model) {
   FoundCurve result{.levels = levels_of(rows, model), .found = {}};
-  // A falling curve's lapses are the engine's guesses.
+  // The lapses of a falling curve are the guesses of the engine's rising curve.
   const bool exchanged = model.falling && !model.symmetric;
   const bool free_upper = exchanged ? model.free_guess : model.free_lapse;
-  // A grid over very many levels is slow, and their likelihood has few minima. Where there is
-  // no grid, all levels tell exactly whether there is an optimum.
+  // A grid over very many levels is slow, and their likelihood has few minima, so the levels
+  // are binned. Without a grid all levels are used, because they decide exactly whether an
+  // optimum exists.
   constexpr std::size_t kMostLevelsOfGrid = 200;
   const auto search_over = [&](const PsychometricLevels& levels) {
     const PsychometricSearch search(levels, kMaximumLikelihood, true, free_upper);
@@ -554,7 +558,8 @@ bool answers_fall(const std::vector<std::vector<AnswerCount>>& groups) {
       squares += static_cast<double>(row.num_trials) * from_mean * from_mean;
     }
     if (!(squares > 0.0)) continue;
-    const double unit = std::sqrt(squares);  // Groups may have other units.
+    // Dividing by the deviation makes groups with different units comparable.
+    const double unit = std::sqrt(squares);
     sum += together / unit;
     variance += share * (1.0 - share);
   }

@@ -10,7 +10,8 @@ using json_values::number;
 using json_values::sentence;
 using CurveJson = nlohmann::ordered_json;
 
-/// Adds `NAME_ci95` and, where they were asked for, the bootstrap's and the posterior's.
+/// Adds `NAME_ci95` and, if they were asked for, the intervals of the bootstrap and the
+/// posterior.
 void add_uncertainty(CurveJson& json, const std::string& name, const CurveValue& value,
                      const CurveFit& fit) {
   json[name + "_ci95"] = interval(value.ci95);

@@ -7,7 +7,7 @@
 
 namespace jnd::analysis {
 
-/// With the keys of the command line's contract. Every number is finite or null.
+/// Uses the keys that the command line promises. Every number is finite or null.
 [[nodiscard]] nlohmann::ordered_json to_json(const CurveFit& fit);
 [[nodiscard]] nlohmann::ordered_json to_json(const CurveComparison& comparison);
 

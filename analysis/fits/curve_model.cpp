@@ -12,7 +12,7 @@ namespace {
 constexpr double kAtScale = 0.63212055882855767840;     // 1 - 1 / e
 constexpr double kAtReversed = 0.36787944117144232160;  // 1 / e
 
-/// Slope of z by the axis: ln x or x.
+/// The slope of z by the axis value, x or ln x.
 double slope_by_axis(const PsychometricLevels& levels, const PsychometricCurve& curve) {
   return curve.slope / levels.unit;
 }
@@ -91,7 +91,8 @@ PsychometricLevels binned(const PsychometricLevels& levels, std::size_t most) {
     if (its != bin || result.size() == 0) {
       bin = its;
       result.intensity.push_back(levels.intensity[level]);
-      result.abscissa.push_back(0.0);  // A sum until all of the bin are in.
+      // The place is a sum until all levels of the bin are added.
+      result.abscissa.push_back(0.0);
       result.num_yes.push_back(0.0);
       result.num_trials.push_back(0.0);
     }

@@ -14,17 +14,19 @@ using Kind = CurveQuantity::Kind;
 using Cost = std::function<double(double)>;
 
 constexpr double kPrecision = 1e-10;
-constexpr double kSteepestZ = 40.0;  ///< Neighbouring levels this many z apart: a step.
-constexpr double kFlattest = 1e-6;   ///< Rises less than this from end to end: flat.
+/// A curve is a step if neighbouring levels lie this many z apart.
+constexpr double kSteepestZ = 40.0;
+/// A curve is flat if it rises less than this from end to end.
+constexpr double kFlattest = 1e-6;
 constexpr double kSomeRate = 0.03;
 
-/// Newton's method from several curves; the lowest counts.
+/// Runs Newton's method from several curves and keeps the lowest cost.
 class LowestCost {
  public:
   LowestCost(const FreeParameters& free, const PsychometricOptimum& optimum)
       : free_(free), last_(optimum.curve), first_(optimum.curve) {}
 
-  /// `prepare` puts a curve onto what is held.
+  /// `prepare` sets the parameters of a curve that are held.
   double operator()(const PsychometricLevels& levels,
                     const std::function<void(PsychometricCurve&)>& prepare) {
     PsychometricOptimum best;
@@ -38,7 +40,8 @@ class LowestCost {
     consider(last_);
     if (!levels.ends.are_bare(free_[2])) {
       consider(first_);
-      PsychometricCurve inside = last_;  // On a bound a rate may seem to be at rest.
+      // On its bound a rate may wrongly seem to be at rest, so the search also starts inside.
+      PsychometricCurve inside = last_;
       if (free_[2]) inside.lapse = std::max(inside.lapse, kSomeRate);
       if (free_[3]) inside.guess = std::max(inside.guess, kSomeRate);
       consider(inside);
@@ -56,7 +59,7 @@ class LowestCost {
   PsychometricCurve last_, first_;
 };
 
-/// The two ends from a cost by a coordinate that the optimum has `at`.
+/// Finds both ends of an interval from a cost along one coordinate, whose optimum is at `at`.
 struct Coordinate {
   double at = 0.0, step = 0.1, lowest = 0.0, highest = 0.0;
 };
@@ -81,7 +84,7 @@ class CurveProfile {
         optimum_(optimum),
         level_(optimum.cost.value + drop) {}
 
-  /// On the abscissa, of where F has this probability.
+  /// The interval of the place on the abscissa where F has this probability.
   [[nodiscard]] Interval place(double probability) const {
     const double z = sigmoid_quantile(levels_.sigmoid, probability);
     const auto make = [&]() -> Cost {
@@ -98,7 +101,7 @@ class CurveProfile {
     return ends_of(make, {at, 0.2 / optimum_.curve.slope, -farthest, farthest}, level_);
   }
 
-  /// Of ln slope.
+  /// The interval of ln slope.
   [[nodiscard]] Interval log_slope() const {
     const auto make = [&]() -> Cost {
       LowestCost lowest({false, true, free_[2], free_[3]}, optimum_);
@@ -115,7 +118,7 @@ class CurveProfile {
     return ends_of(make, {at, 0.1, std::log(kFlattest), std::max(steepest, at + 1.0)}, level_);
   }
 
-  /// Of the lapse or guess rate of the engine's curve.
+  /// The interval of the engine's lapse or guess rate.
   [[nodiscard]] Interval rate(bool is_lapse) const {
     const auto make = [&]() -> Cost {
       FreeParameters others = free_;
@@ -135,8 +138,9 @@ class CurveProfile {
     return ends;
   }
 
-  /// Of ln of a number that slope, place and rates make together: for what no one parameter of
-  /// the engine is. Of the threshold of a proportion, which may be negative, the place itself.
+  /// The interval of the logarithm of a quantity that depends on slope, place and rates
+  /// together, so that no single parameter of the engine stands for it. For the threshold of a
+  /// proportion, which may be negative, it is the interval of the place itself.
   [[nodiscard]] Interval logarithm(const CurveQuantity& quantity) const {
     const SmoothCost cost = [&](std::span<const double> x, double& value,
                                 std::span<double> gradient) {
@@ -179,8 +183,9 @@ class CurveProfile {
     return limit * std::sin(angle) * std::sin(angle);
   }
 
-  /// The optimum as ln of the number, the place on the abscissa where F has its level (of a
-  /// distance F = 0.5), and angles of the rates that are free, these at least as given.
+  /// The optimum in these coordinates: ln of the quantity, the place on the abscissa where F
+  /// has its level (F = 0.5 for a distance), and the angles of the free rates. Rates below
+  /// `least_rate` are raised to it.
   [[nodiscard]] std::vector<double> coordinates(const CurveQuantity& quantity,
                                                 double least_rate) const {
     const PsychometricCurve& curve = optimum_.curve;
@@ -200,7 +205,7 @@ class CurveProfile {
     return x;
   }
 
-  /// What F is at the quantity's place on a curve with these rates.
+  /// The value of F at the quantity's place on a curve with these rates.
   [[nodiscard]] double level_of_f_at(const CurveQuantity& quantity,
                                      const PsychometricCurve& curve) const {
     const bool is_of_proportion = quantity.kind == Kind::kThresholdOfProportion ||
@@ -225,7 +230,8 @@ class CurveProfile {
     }
     const double value = std::exp(x[0]), at = levels_.intensity_at(x[1]);
     if (quantity.kind == Kind::kDistance) {
-      // x_level - x_0.5 = value, or on a logarithmic axis x_0.5 (e^(z unit / slope) - 1).
+      // The value is x_level - x_0.5, which on a logarithmic axis is x_0.5 (e^(z unit / slope)
+      // - 1).
       const double step = levels_.logarithmic() ? std::log1p(std::copysign(value, z) / at)
                                                 : std::copysign(value, z);
       curve.slope = z * levels_.unit / step;
@@ -266,7 +272,7 @@ Interval profile_interval(const CurveQuantity& quantity, const CurveModel& model
   const CurveProfile profile(model, levels, free, optimum, drop);
   const auto by_slope = [&](double log_slope) {
     PsychometricCurve curve = optimum.curve;
-    curve.offset *= std::exp(log_slope) / curve.slope;  // The same place of F = 0.5.
+    curve.offset *= std::exp(log_slope) / curve.slope;  // The place of F = 0.5 stays the same.
     curve.slope = std::exp(log_slope);
     return value_of(quantity, model, levels, curve);
   };
@@ -285,7 +291,7 @@ Interval profile_interval(const CurveQuantity& quantity, const CurveModel& model
       });
     case Kind::kGuess:
     case Kind::kLapse: {
-      // A curve that falls has them exchanged.
+      // A falling curve has its rates exchanged.
       const bool is_lapse = model.symmetric || (quantity.kind == Kind::kLapse) != model.falling;
       return free[is_lapse ? 2 : 3] ? profile.rate(is_lapse) : Interval{};
     }

@@ -6,11 +6,11 @@
 
 namespace jnd::analysis {
 
-/// The likelihood-ratio interval of a number of the curve: where minus the log-likelihood, at
-/// its least over all else, has risen by `drop` above the optimum's on either side. An end is
-/// open where it does not rise so far while the curve is one: before it is flat, a step, or
-/// out of the range of numbers. Of a rate, an end on its bound is that bound. `optimum` is
-/// that of these levels. Not real time.
+/// The likelihood-ratio interval of a quantity of the curve. Its ends lie where minus the
+/// log-likelihood, minimised over everything else, has risen by `drop` above the optimum. An
+/// end is open if the cost does not rise that far before the curve becomes flat, becomes a
+/// step, or leaves the range of numbers. If a rate's interval reaches the rate's bound, the end
+/// is that bound. `optimum` must belong to these levels. Not real time.
 [[nodiscard]] Interval profile_interval(const CurveQuantity& quantity, const CurveModel& model,
                                         const PsychometricLevels& levels,
                                         const FreeParameters& free,

@@ -11,7 +11,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// k ln p + (n - k) ln q, where 0 ln 0 is 0.
+/// k ln p + (n - k) ln q, with 0 ln 0 = 0.
 double binomial_log(double k, double n, double p, double q) {
   return (k > 0.0 ? k * std::log(p) : 0.0) + (n > k ? (n - k) * std::log(q) : 0.0);
 }
@@ -19,8 +19,9 @@ double largest_binomial_log(double k, double n) {
   return n > 0.0 ? binomial_log(k, n, k / n, 1.0 - k / n) : 0.0;
 }
 
-/// The data, and minus their log-likelihood in (place of the threshold, ln s, a), places being
-/// those of the levels and g = sin^2 a: so that a rate of 0 is no end of the parameter.
+/// The data, and minus their log-likelihood as a function of the threshold's place on the
+/// abscissa, ln s, and an angle a with g = sin^2 a. The angle lets a rate of 0 lie inside the
+/// range of the parameter.
 class DetectionModel {
  public:
   explicit DetectionModel(const PsychometricLevels& levels) : levels_(levels) {}
@@ -44,7 +45,7 @@ class DetectionModel {
       const double p = guess + (1.0 - guess) * tails.lower;
       double by_z = -no * tails.mills_upper;
       if (yes > 0.0) {
-        // Without guesses the logarithm stays finite where p underflows.
+        // Without guesses the log tail stays finite where p underflows.
         cost -= yes * (guess > 0.0 ? std::log(p) : tails.log_lower);
         by_z += yes * (guess > 0.0 ? (1.0 - guess) * tails.mills_lower * tails.lower / p
                                    : tails.mills_lower);
@@ -61,7 +62,7 @@ class DetectionModel {
       const double yes = levels_.zero_yes;
       const double no = levels_.zero_trials - yes;
       cost -= binomial_log(yes, yes + no, guess, 1.0 - guess);
-      // d/da of ln sin^2 a is 2 cot a, also at a rate of 0.
+      // The derivative of ln sin^2 a by a is 2 cot a, also at a rate of 0.
       double by_own = -no * 2.0 * std::tan(x[2]);
       if (yes > 0.0) by_own += yes * 2.0 / std::tan(x[2]);
       gradient[2] = -(by_own + (std::isfinite(by_guess) ? by_guess * by_angle : 0.0));
@@ -69,8 +70,8 @@ class DetectionModel {
     return std::isfinite(cost);
   }
 
-  /// Minus the largest log-likelihood of a step: below it g, at it any rate, above it "yes"
-  /// alone.
+  /// Minus the largest log-likelihood of a step. A step has the rate g below its place, any
+  /// rate at it, and only "yes" above it.
   [[nodiscard]] double step_cost() const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t above = 0; above <= levels_.size(); ++above) {
@@ -81,7 +82,8 @@ class DetectionModel {
     }
     return least;
   }
-  /// The same of one rate for all stimuli, which is not below that of catch trials.
+  /// Minus the largest log-likelihood of one rate for all stimuli. This rate is at least that
+  /// of the catch trials.
   [[nodiscard]] double flat_cost() const {
     double yes = 0.0;
     double trials = 0.0;
@@ -97,7 +99,8 @@ class DetectionModel {
     return -largest_binomial_log(yes + levels_.zero_yes, trials + levels_.zero_trials);
   }
 
-  /// A threshold at each level, for a steep curve is at its best where one lies on it.
+  /// Starts with the threshold at each level, because a steep curve is best where its threshold
+  /// lies on a level.
   [[nodiscard]] std::vector<std::vector<double>> starts() const {
     const double range = levels_.abscissa.back() - levels_.abscissa.front();
     const double rate =
@@ -150,7 +153,8 @@ std::string why_degenerate(const DetectionModel& model, double cost) {
 }  // namespace
 
 DetectionFit fit_detection(const std::vector<AnswerCount>& data) {
-  // Far enough for every quotient of levels, and where a curve is a step or a flat line.
+  // The search covers every quotient of levels, and ends where a curve is a step or a flat
+  // line.
   constexpr double kFarthestPlace = 50.0;
   constexpr double kFarthestLog = 12.0;
   DetectionFit fit{.status = FitStatus::kDegenerate};

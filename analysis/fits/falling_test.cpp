@@ -10,11 +10,11 @@
 namespace jnd::analysis {
 namespace {
 
-/// Trials and "yes" at each rank of the intensities, of one order of the intervals.
+/// Trials and "yes" at each rank of the intensities, for one order of the intervals.
 struct Stratum {
   std::map<std::size_t, std::int64_t> num_trials;
   std::int64_t num_all = 0, num_yes = 0;
-  std::size_t sum_of_ranks = 0;  ///< Over the "yes".
+  std::size_t sum_of_ranks = 0;  ///< The sum of ranks over all "yes".
 };
 
 std::vector<Stratum> strata_of(const std::vector<AnswerCount>& rows) {
@@ -39,7 +39,8 @@ std::vector<Stratum> strata_of(const std::vector<AnswerCount>& rows) {
   return strata;
 }
 
-/// Binomial coefficients n over 0 .. n; n <= 200, so that they are numbers.
+/// The binomial coefficients n over 0, 1, ..., n. With n <= 200 they stay in the range of
+/// double.
 std::vector<double> choices(std::int64_t n) {
   std::vector<double> row = {1.0};
   for (std::int64_t k = 1; k <= n; ++k) {
@@ -48,11 +49,11 @@ std::vector<double> choices(std::int64_t n) {
   return row;
 }
 
-/// Probability of each sum of ranks, given how many "yes" there are.
+/// The probability of each sum of ranks, given the number of "yes".
 std::vector<double> exact_distribution(const Stratum& stratum) {
   const auto num_yes = static_cast<std::size_t>(stratum.num_yes);
   const std::size_t largest = num_yes * stratum.num_trials.rbegin()->first;
-  // By "yes" placed so far, and their sum of ranks.
+  // Indexed by the number of "yes" placed so far, and by their sum of ranks.
   std::vector<std::vector<double>> ways(num_yes + 1, std::vector<double>(largest + 1, 0.0));
   ways[0][0] = 1.0;
   for (const auto& [rank, num_trials] : stratum.num_trials) {
@@ -87,7 +88,8 @@ double exact_p_value(const std::vector<Stratum>& strata) {
   return std::min(p_value, 1.0);
 }
 
-/// The moments of the hypergeometric distribution, with correction for continuity.
+/// The p value from the moments of the hypergeometric distribution, with a correction for
+/// continuity.
 std::optional<double> normal_p_value(const std::vector<Stratum>& strata) {
   double excess = 0.0, variance = 0.0;
   for (const Stratum& stratum : strata) {

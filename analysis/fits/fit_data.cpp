@@ -8,9 +8,11 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr double kLargestCount = 1e15;  ///< Beyond, double does not hold every whole number.
+/// Above this a double does not hold every whole number.
+constexpr double kLargestCount = 1e15;
 
-/// Reports the cells of a column that break a rule. A cell that is no number has been reported.
+/// Reports the cells of a column that break a rule. Cells that are not numbers have been
+/// reported before.
 template <typename Rule>
 void check(CsvReader& reader, const std::string& column, const std::vector<double>& values,
            const char* words, const Rule& holds) {
@@ -69,7 +71,7 @@ std::vector<DataGroup<AnswerCount>> read_answer_counts(
   const std::vector<double> num_yes = counts(reader, "num_yes");
   const std::vector<double> num_trials = counts(reader, "num_trials");
   for (std::size_t row = 0; row < std::min(num_yes.size(), num_trials.size()); ++row) {
-    // A count that is none has been reported, and may be too large to be written as one.
+    // An invalid count has been reported before, and may be too large to print as an integer.
     if (num_yes[row] > num_trials[row] && num_trials[row] >= 0.0 &&
         num_trials[row] <= kLargestCount) {
       reader.report(

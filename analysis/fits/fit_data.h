@@ -15,20 +15,22 @@ namespace jnd::analysis {
 /// The rows of a table that agree in the grouping columns.
 template <typename Row>
 struct DataGroup {
-  std::vector<std::pair<std::string, std::string>> key;  ///< Column and value; empty for all.
+  /// Columns and their values. It is empty if there are no grouping columns.
+  std::vector<std::pair<std::string, std::string>> key;
   std::vector<Row> rows;
-  std::vector<int> lines;  ///< Line of the file each row starts on.
+  std::vector<int> lines;  ///< The line of the file on which each row starts.
 };
 
-/// Reads the columns intensity, num_yes, num_trials. Groups come in the order of their first
-/// rows; without grouping columns there is one group, of all rows. Throws `core::Error` with
-/// every problem, each "FILE:LINE: column: expected this, found that": a column missing, a cell
-/// that is no number, a count that is not whole, more yes than trials, an intensity < 0.
+/// Reads the columns intensity, num_yes and num_trials. Groups come in the order of their first
+/// rows; without grouping columns, one group holds all rows. Throws `core::Error` with every
+/// problem in the form "FILE:LINE: column: expected this, found that". Problems are a missing
+/// column, a cell that is not a number, a count that is not whole, more yes than trials, and an
+/// intensity < 0.
 [[nodiscard]] std::vector<DataGroup<AnswerCount>> read_answer_counts(
     const CsvTable& table, const std::vector<std::string>& group_by = {});
 
-/// What different cells of a column a group's rows have, those without trials left out; none
-/// without such a column.
+/// The different cells that a group's rows have in a column. Rows without trials are left out.
+/// The set is empty if there is no such column.
 template <typename Row>
 [[nodiscard]] std::set<std::string> different_cells(const CsvTable& table,
                                                     const std::string& column,
@@ -38,7 +40,8 @@ template <typename Row>
   if (!place) return cells;
   std::size_t line = 0;
   for (std::size_t i = 0; i < group.rows.size(); ++i) {
-    while (table.line(line) != group.lines[i]) ++line;  // A group keeps the table's order.
+    // The rows of a group keep the table's order.
+    while (table.line(line) != group.lines[i]) ++line;
     if constexpr (requires { group.rows[i].num_trials; }) {
       if (group.rows[i].num_trials == 0) continue;
     }
@@ -47,7 +50,7 @@ template <typename Row>
   return cells;
 }
 
-/// As `read_answer_counts`, for the columns intensity, magnitude.
+/// Reads the columns intensity and magnitude in the same way as `read_answer_counts`.
 [[nodiscard]] std::vector<DataGroup<Magnitude>> read_magnitudes(
     const CsvTable& table, const std::vector<std::string>& group_by = {});
 

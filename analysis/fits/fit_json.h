@@ -12,8 +12,8 @@
 
 namespace jnd::analysis {
 
-/// Results as JSON objects with the keys of the command line's contract. Every number is
-/// finite; what does not exist is null, an open end of an interval too.
+/// Results as JSON objects with the keys that the command line promises. Every number is
+/// finite. Absent values and open ends of intervals are null.
 [[nodiscard]] nlohmann::ordered_json to_json(const PsychometricFit& fit);
 [[nodiscard]] nlohmann::ordered_json to_json(const PowerFit& fit);
 [[nodiscard]] nlohmann::ordered_json to_json(const ShiftedPowerFit& fit);

@@ -16,7 +16,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Answers at one intensity in one order.
+/// The answers at one intensity in one order.
 struct Cell {
   double log_ratio = 0.0;  ///< ln(x / reference)
   double order = 0.0, num_yes = 0.0, num_trials = 0.0;
@@ -38,7 +38,7 @@ Cells cells_of(const std::vector<AnswerCount>& data, double reference) {
   return cells;
 }
 
-/// Columns: ln(x / reference), order, and 1 where the pse is free.
+/// The columns are ln(x / reference), the order, and 1 if the pse is free.
 Eigen::MatrixXd design_of(const Cells& cells, bool free_pse) {
   const auto size = static_cast<Eigen::Index>(cells.size());
   Eigen::MatrixXd design = Eigen::MatrixXd::Ones(size, free_pse ? 3 : 2);
@@ -62,12 +62,13 @@ ProbitRegression regression_of(const Cells& cells, bool free_pse) {
                     counts_of(cells, &Cell::num_trials));
 }
 
-/// x ln(share), 0 where there is nothing.
+/// x ln(share), or 0 for a count of 0.
 double log_term(double count, double share) {
   return count > 0.0 ? count * std::log(share) : 0.0;
 }
 
-/// Twice what every cell's own proportion has more.
+/// Twice the log-likelihood that the saturated model, which gives each cell its own proportion,
+/// gains.
 double deviance_of(const Cells& cells, double log_likelihood) {
   double saturated = 0.0;
   for (const Cell& cell : cells) {
@@ -78,8 +79,8 @@ double deviance_of(const Cells& cells, double log_likelihood) {
   return std::max(0.0, 2.0 * (saturated - log_likelihood));
 }
 
-/// Minus the log-likelihood in (ln slope, order effect, ln(pse / reference)); the last is
-/// absent where the pse is at the reference.
+/// Minus the log-likelihood as a function of ln slope, order effect and ln(pse / reference).
+/// The last one is absent if the pse is held at the reference.
 SmoothCost cost_of(const Cells& cells) {
   return [&cells](std::span<const double> x, double& value, std::span<double> gradient) {
     const double slope = std::exp(x[0]);
@@ -135,8 +136,8 @@ std::vector<FittedAnswers> fitted_answers(const Cells& cells,
   return answers;
 }
 
-/// How often answers redrawn from the fitted curve and fitted again lie as far off it. Where
-/// the redrawn ones are separated, their limit counts.
+/// Computes how often answers that are redrawn from the fitted curve and refitted lie at least
+/// as far from their curve. Separated redraws count with the limit of their likelihood.
 void add_goodness(PsychometricFit& fit, const Cells& cells, const LikelihoodOptimum& optimum,
                   const PsychometricOptions& options) {
   const bool free_pse = optimum.at.size() > 2;
@@ -155,14 +156,14 @@ void add_goodness(PsychometricFit& fit, const Cells& cells, const LikelihoodOpti
       }
     }
     const double log_likelihood = regression_of(redrawn, free_pse).log_likelihood;
-    // Ties are common at few answers: rounding must not break them.
+    // With few answers ties are common, and rounding must not break them.
     if (deviance_of(redrawn, log_likelihood) >= *fit.deviance * (1.0 - 1e-9)) ++num_as_far;
   }
   fit.goodness.n = options.num_goodness;
   fit.goodness.p_value = (1.0 + num_as_far) / (1.0 + options.num_goodness);
 }
 
-/// The order whose answers are all alike, if there is one alone.
+/// The order whose answers are all alike, if this holds for exactly one order.
 std::optional<double> order_all_alike(const Cells& cells) {
   std::optional<double> found;
   for (const double order : {kTestFirst, kTestSecond}) {
@@ -180,9 +181,9 @@ std::optional<double> order_all_alike(const Cells& cells) {
   return found;
 }
 
-/// With a free pse, answers all alike are explained best by an endless order effect and then
-/// say nothing of the slope: it is that of the other order, whose place is free. Neither pse
-/// nor order effect has a value.
+/// Fits the other order alone. With a free pse, an order whose answers are all alike is best
+/// explained by an infinite order effect, and tells nothing about the slope. The slope is then
+/// that of the other order with a free place. Neither the pse nor the order effect has a value.
 PsychometricFit fit_of_other_order(const std::vector<AnswerCount>& data, double alike,
                                    const PsychometricOptions& options) {
   std::vector<AnswerCount> rows;

@@ -28,7 +28,7 @@ Point point_at(const SmoothCost& cost, const std::vector<double>& x) {
 /// Newton's method over some of the parameters.
 class Newton {
  public:
-  /// `free`: places of the parameters that may move.
+  /// `free` holds the indices of the parameters that may move.
   Newton(const SmoothCost& cost, std::vector<std::size_t> free)
       : cost_(cost), free_(std::move(free)) {}
 
@@ -69,7 +69,7 @@ class Newton {
     return 0.5 * (values + values.transpose());
   }
 
-  /// Downhill also where the Hessian is not positive definite.
+  /// A step that leads downhill even if the Hessian is not positive definite.
   [[nodiscard]] Eigen::VectorXd step_from(const std::vector<double>& x,
                                           const Point& here) const {
     constexpr double kLongest = 2.0;
@@ -83,7 +83,7 @@ class Newton {
     return length > kLongest ? Eigen::VectorXd(step * (kLongest / length)) : step;
   }
 
-  /// Whether any part of the step leads down.
+  /// Halves the step until the cost falls. Returns whether any part of the step lowers it.
   bool walk(std::vector<double>& x, Point& here, const Eigen::VectorXd& step) const {
     constexpr int kMaxHalvings = 40;
     double share = 1.0;
@@ -102,7 +102,7 @@ class Newton {
     return false;
   }
 
-  /// Where rounding of the cost hides what is left to go.
+  /// Whether the step is so small that rounding of the cost hides what it gains.
   static bool is_small(const Eigen::VectorXd& step) {
     constexpr double kSmall = 1e-6;
     return step.cwiseAbs().maxCoeff() < kSmall;
@@ -120,7 +120,8 @@ std::vector<std::size_t> places(std::size_t count, std::optional<std::size_t> wi
   return all;
 }
 
-/// Where `excess`, -`drop` at 0, first is 0 on the way by growing steps toward `farthest`.
+/// The first place where `excess` reaches 0 on a walk with growing steps from 0 toward
+/// `farthest`. `excess` is -`drop` at 0.
 std::optional<double> crossing(const std::function<double(double)>& excess, double drop,
                                double farthest) {
   double inside = 0.0;

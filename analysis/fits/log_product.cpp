@@ -7,7 +7,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Gamma functions of a smaller step would cancel.
+/// Whether to multiply the factors. With a smaller step the gamma functions would cancel.
 bool is_by_factors(double step, double count) noexcept {
   constexpr double kMostFactors = 2000.0;
   return count <= kMostFactors || !(step > 1e-7);

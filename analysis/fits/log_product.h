@@ -2,19 +2,20 @@
 
 namespace jnd::analysis {
 
-/// ln of a product of evenly spaced factors and its derivatives in the first factor and in the
-/// step between factors.
+/// The logarithm of a product of evenly spaced factors, with its derivatives by the first
+/// factor and by the step between factors.
 struct LogProduct {
   double value = 0.0, by_first = 0.0, by_step = 0.0;
-  double squares = 0.0;  ///< Minus the second derivative in the first factor.
+  double squares = 0.0;  ///< Minus the second derivative by the first factor.
 };
 
-/// first (first + step) ... (first + (count - 1) step), by its factors; where they are many, by
-/// gamma functions. The likelihood of a beta-binomial count is made of three of them. `first` >
-/// 0, `step` >= 0, `count` a whole number; 1 where it is 0 or less.
+/// The product first (first + step) ... (first + (count - 1) step), computed from its factors
+/// or, if they are many, from gamma functions. The likelihood of a beta-binomial count is made
+/// of three such products. `first` is > 0, `step` is >= 0, and `count` is a whole number. The
+/// product is 1 for a count of 0 or less.
 [[nodiscard]] LogProduct log_product(double first, double step, double count);
 
-/// Its value alone, which is all that most of a search asks for.
+/// Only the logarithm itself, which is all that most of a search needs.
 [[nodiscard]] double log_product_value(double first, double step, double count);
 
 }  // namespace jnd::analysis

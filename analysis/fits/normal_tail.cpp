@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInvSqrtTwoPi = std::numbers::inv_sqrtpi / std::numbers::sqrt2;
 constexpr double kHalfLogTwoPi = 0.91893853320467274178;
-/// erfc(x / sqrt 2) keeps its full accuracy up to about here, then underflows.
+/// erfc(x / sqrt 2) keeps its full accuracy up to about this x, and then underflows.
 constexpr double kFarTail = 36.0;
 
 /// phi(x) / Phi(-x) for x >= 36: Laplace's continued fraction x + 1/(x + 2/(x + 3/(x + ...)))
@@ -22,20 +22,20 @@ double far_mills(double x) noexcept {
   return fraction;
 }
 
-/// ln Phi(-x) and its slope, negated: phi(x) / Phi(-x).
+/// ln Phi(-x), and minus its slope phi(x) / Phi(-x).
 struct LogTail {
   double log = 0.0, mills = 0.0;
 };
 
-/// ln Phi(-x) for 0 <= x < 9 by polynomials of fifth degree between knots 1/64 apart, which
-/// share value, first and second derivative with it at each knot. Its sixth derivative is below
-/// 1, so the error is below 1e-15 of the value and 1e-13 of the slope.
+/// ln Phi(-x) for 0 <= x < 9. Polynomials of fifth degree between knots 1/64 apart have the
+/// function's value, first and second derivative at each knot. The sixth derivative of the
+/// function is below 1, so the error is below 1e-15 for the value and 1e-13 for the slope.
 class LogTailTable {
  public:
   static constexpr double kEnd = 9.0;
 
   LogTailTable() {
-    // In long double, for the coefficients are small differences.
+    // The coefficients are small differences, so they are computed in long double.
     Knot low = knot_at(0);
     for (std::size_t number = 0; number < intervals_.size(); ++number) {
       const Knot high = knot_at(number + 1);
@@ -52,7 +52,7 @@ class LogTailTable {
     }
   }
 
-  /// 0 <= x < kEnd.
+  /// x must be in [0, kEnd).
   [[nodiscard]] LogTail at(double x) const noexcept {
     const double place = x * kKnotsPerUnit;
     const auto number = static_cast<int>(place);
@@ -66,7 +66,7 @@ class LogTailTable {
 
  private:
   static constexpr double kKnotsPerUnit = 64.0;
-  /// By the place within an interval, 0 to 1.
+  /// Derivatives are taken by the place within an interval, which goes from 0 to 1.
   struct Knot {
     long double value, slope, bend;
   };
@@ -92,7 +92,7 @@ LogTail log_tail(double x) noexcept {
 
 NormalTails normal_tails(double z) noexcept {
   const double x = std::fabs(z);
-  NormalTails tails;  // For z = -x <= 0.
+  NormalTails tails;  // The tails at -x, which is <= 0.
   if (x < LogTailTable::kEnd) {
     const LogTail of = log_tail(x);
     const double tail = std::exp(of.log);
@@ -108,7 +108,7 @@ NormalTails normal_tails(double z) noexcept {
 
 LogNormalTails log_normal_tails(double z) noexcept {
   const double x = std::fabs(z);
-  LogNormalTails tails;  // For z = -x <= 0: the lower tail is the small one.
+  LogNormalTails tails;  // The tails at -x, which is <= 0, so the lower tail is the small one.
   if (x < LogTailTable::kEnd) {
     const LogTail of = log_tail(x);
     const double tail = std::exp(of.log), rest = 1.0 - tail;

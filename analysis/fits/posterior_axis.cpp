@@ -6,8 +6,9 @@
 namespace jnd::analysis {
 namespace {
 
-/// The marginal on a sixteen times finer axis: its logarithm is nearly a parabola, so a cubic
-/// through four neighbours of that keeps seven digits where one through the density would not.
+/// The marginal on an axis that is sixteen times finer. Its logarithm is nearly a parabola, so
+/// a cubic through four neighbouring logarithms keeps seven digits; a cubic through the density
+/// itself would not.
 std::vector<double> refined(PosteriorAxis& axis, const std::vector<double>& density) {
   constexpr std::size_t kFiner = 16;
   constexpr double kSteep = 30.0;
@@ -17,7 +18,7 @@ std::vector<double> refined(PosteriorAxis& axis, const std::vector<double>& dens
   std::vector<double> finer;
   for (std::size_t i = 0; i < last; ++i) {
     const std::size_t from = std::clamp<std::size_t>(i, 1, last - 2) - 1;
-    // Beside a value ruled out, such as a lapse rate of 0, a cubic would swing.
+    // Next to an excluded value, such as a lapse rate of 0, a cubic would oscillate.
     const auto [least, most] =
         std::minmax_element(logs.begin() + static_cast<std::ptrdiff_t>(from),
                             logs.begin() + static_cast<std::ptrdiff_t>(from + 4));
@@ -76,7 +77,7 @@ double quantile_of(PosteriorAxis axis, const std::vector<double>& coarse, double
   const double wanted = probability * sum.back();
   std::size_t cell = 0;
   while (cell + 2 < sum.size() && sum[cell + 1] < wanted) ++cell;
-  // Hermite's cubic through both ends with the density as slope, by bisection: it rises.
+  // Bisects Hermite's cubic through both ends with the density as its slope. The cubic rises.
   const double h = axis.step(), from = sum[cell], to = sum[cell + 1];
   double low = 0.0, high = 1.0;
   for (int halving = 0; halving < 60; ++halving) {

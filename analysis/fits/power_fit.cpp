@@ -11,12 +11,13 @@ namespace jnd::analysis {
 namespace {
 
 constexpr int kFewestRowsOfInterval = 4;
-/// Of a residual in units of the largest magnitude, or of one in logarithms: what rounding
-/// leaves of none.
+/// A residual below this counts as none, because rounding leaves about as much. The unit is the
+/// largest magnitude, or the natural logarithm.
 constexpr double kNoResidual = 1e-9;
 
-/// Variances of intercept and slope of a line over x per unit of variance, the intercept's
-/// column being `weight` and the slope's weight x: (J^T J)^-1.
+/// The variances of the intercept and slope of a line over x, for a residual variance of 1: the
+/// diagonal of (J^T J)^-1. The intercept's column of J is `weight`, and the slope's column is
+/// weight x.
 struct LineVariance {
   double intercept, slope;
 };
@@ -35,7 +36,8 @@ LineVariance line_variance(const std::vector<double>& weight, const std::vector<
   return {.intercept = 1.0 / sum + mean * mean / spread, .slope = 1.0 / spread};
 }
 
-/// 0 where all are alike, whatever rounding makes of their mean.
+/// The sum of squares about the mean. It is exactly 0 if all values are equal, whatever
+/// rounding makes of their mean.
 double sum_about_mean(const std::vector<double>& values) {
   if (std::all_of(values.begin(), values.end(), [&](double v) { return v == values[0]; })) {
     return 0.0;
@@ -53,15 +55,15 @@ std::optional<double> in_range(double value, bool positive) {
   return holds ? std::optional(value) : std::nullopt;
 }
 
-/// What the two methods share once k and a are known: `squares` are those of the residuals of
-/// `values`, which the fit predicts.
+/// Fills in what both methods share once k and a are known. `squares` is the sum of squared
+/// residuals of `values`.
 void fill(PowerFit& fit, double log_k, double a, const LineVariance& variance, double squares,
           const std::vector<double>& values) {
   fit.status = FitStatus::kOk;
   fit.reason.clear();
   fit.k = std::exp(log_k);
   const double about_mean = sum_about_mean(values);
-  fit.a = about_mean > 0.0 ? a : 0.0;  // Rounding makes a little of values that are all alike.
+  fit.a = about_mean > 0.0 ? a : 0.0;  // For equal values rounding would leave a tiny exponent.
   if (about_mean > 0.0) fit.r_squared = 1.0 - squares / about_mean;
   if (fit.num_rows <= 2) {
     fit.no_interval = "no degree of freedom is left";
@@ -87,7 +89,7 @@ void fill(PowerFit& fit, double log_k, double a, const LineVariance& variance, d
   fit.a_ci95 = {in_range(a - t * a_error, false), in_range(a + t * a_error, false)};
 }
 
-/// At intensity 0 a law has no magnitude that depends on k and a: 0 for every a > 0.
+/// At intensity 0 the magnitude does not depend on k and a: it is 0 for every a > 0.
 constexpr std::string_view kAtZero =
     "the intensity is 0, where k I^a is 0 for every k and every a > 0";
 
@@ -108,7 +110,7 @@ void fit_nonlinear(PowerFit& fit, const std::vector<Magnitude>& all, Solver solv
   fit.status = minimum.status;
   fit.reason = minimum.reason;
   if (minimum.status != FitStatus::kOk) return;
-  // The Jacobian in (ln k, a) is (S, S ln I): a weighted line.
+  // The Jacobian in (ln k, a) is (S, S ln I), which is that of a weighted line.
   std::vector<double> predicted, log_intensity, magnitudes;
   for (const Magnitude& row : data) {
     magnitudes.push_back(row.magnitude / minimum.largest);

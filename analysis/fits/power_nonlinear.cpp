@@ -18,21 +18,23 @@ constexpr std::string_view kFalling =
     "only the lowest intensity's magnitude counts: the exponent falls without bound";
 constexpr std::string_view kLost = "the search for the optimum did not come to rest";
 
-/// Intensities as t = (ln I - origin) / unit, which lies in [-1, 1]; with
-/// b = a unit and c = k exp(a origin), S = c exp(b t). Magnitudes over the largest of them.
+/// Scaled data. Intensities become t = (ln I - origin) / unit, which lies in [-1, 1]. With b =
+/// a unit and c = k exp(a origin), the law is S = c exp(b t). Magnitudes are divided by the
+/// largest one.
 struct ScaledRows {
   double origin = 0.0, unit = 1.0, largest = 0.0;
   double smallest_gap = std::numeric_limits<double>::infinity();
   std::vector<double> t, magnitude;
 };
 
-/// The best c for one b, what is left over, and its derivatives in b, all of the sum of squares
-/// q(b) = sum S^2 - N^2 / D with N = sum S e, D = sum e^2, e = exp(b (t - top)).
+/// The best c for one b, the remaining sum of squares, and its derivatives by b. The sum of
+/// squares is q(b) = sum S^2 - N^2 / D with N = sum S e, D = sum e^2, e = exp(b (t - top)).
 struct Profile {
   double value, slope, curvature, log_scale, best_c;
 };
 
-double top_of(double b) { return b >= 0.0 ? 1.0 : -1.0; }  // So that no exponential overflows.
+// Shifting t by this value keeps every exponential from overflowing.
+double top_of(double b) { return b >= 0.0 ? 1.0 : -1.0; }
 
 Profile profile(const ScaledRows& rows, double b) {
   const double top = top_of(b);
@@ -55,7 +57,8 @@ Profile profile(const ScaledRows& rows, double b) {
     value += residual * residual;
   }
   const double c_slope = (n1 - c * d1) / d0;
-  // q = const - c N: q' = -(2 c N' - c^2 D'), q'' = -(2 c' N' + 2 c N'' - 2 c c' D' - c^2 D'').
+  // q = const - c N has the derivatives q' = -(2 c N' - c^2 D') and q'' = -(2 c' N' + 2 c N'' -
+  // 2 c c' D' - c^2 D'').
   return {
       .value = value,
       .slope = -(2.0 * c * n1 - c * c * d1),
@@ -64,8 +67,8 @@ Profile profile(const ScaledRows& rows, double b) {
       .best_c = c};
 }
 
-/// Sum of squares as the exponent goes to +- infinity: the rows at that end at their mean (or
-/// at 0 if that is negative), all others predicted as 0.
+/// The sum of squares as the exponent goes to plus or minus infinity. The rows at that end are
+/// predicted by their mean (by 0 if it is negative), and all others by 0.
 double limit(const ScaledRows& rows, double end) {
   double sum = 0.0, num_rows = 0.0;
   for (std::size_t row = 0; row < rows.t.size(); ++row) {
@@ -113,7 +116,8 @@ ScaledRows scaled(const std::vector<Magnitude>& data) {
   return rows;
 }
 
-/// Exponents to look between for minima, denser near 0, to where only one row counts.
+/// The exponents between which minima are sought. They are denser near 0, and end where only
+/// one row counts.
 std::vector<double> grid(const ScaledRows& rows) {
   const double steepest = 45.0 / std::max(rows.smallest_gap, 1e-3);
   std::vector<double> values = {0.0};
@@ -130,7 +134,7 @@ struct Bracket {
   double low, high;
 };
 
-/// The minimum in the bracket by Newton's method over b, kept inside by halving.
+/// The minimum within the bracket, by Newton's method over b. Halving keeps the search inside.
 double newton_exponent(const ScaledRows& rows, Bracket bracket, double start) {
   double b = start;
   for (int iteration = 0; iteration < 200; ++iteration) {
@@ -147,8 +151,8 @@ double newton_exponent(const ScaledRows& rows, Bracket bracket, double start) {
   return b;
 }
 
-/// Where Ceres comes to rest over (ln c, b); c is that of the row at the end where the law is
-/// largest. Its b.
+/// The b at which Ceres comes to rest over (ln c, b). Here c is the law's value at the end
+/// where the law is largest.
 double ceres_exponent(const ScaledRows& rows, double start) {
   const double top = top_of(start);
   SquaresProblem problem;
@@ -170,14 +174,15 @@ double ceres_exponent(const ScaledRows& rows, double start) {
   return ceres_minimum(problem, {std::log(profile(rows, start).best_c), start})[1];
 }
 
-/// A minimum, and whether all who looked for it agree.
+/// A minimum, and whether all solvers agree on it.
 struct Found {
   double b = 0.0;
   Profile at{.value = std::numeric_limits<double>::infinity()};
   bool agreed = false;
 };
 
-/// Ceres's minimum, its last digits by Newton's method; or Newton's alone.
+/// The minimum that Ceres finds, with its last digits by Newton's method; or the minimum of
+/// Newton's method alone.
 Found minimum_from(const ScaledRows& rows, const Bracket& bracket, double start,
                    Solver solver) {
   constexpr double kNear = 1e-4, kFlat = 1e-9;
@@ -212,7 +217,7 @@ Found lowest_minimum(const ScaledRows& rows, Solver solver) {
     left = right;
   }
   if (!best.agreed && std::isfinite(best.at.value)) {
-    best = minimum_from(rows, around, best.b, solver);  // Does Ceres stay there?
+    best = minimum_from(rows, around, best.b, solver);  // Checks whether Ceres stays there.
   }
   return best;
 }

@@ -11,18 +11,19 @@ inline constexpr std::string_view kTooFewRows =
     "too few rows: a power law needs two different intensities > 0";
 inline constexpr std::string_view kPowerOutOfRange = "k or a exceeds the range of numbers";
 
-/// The least-squares power law through magnitudes, S = exp(log_k) I^a.
+/// The least-squares power law S = exp(log_k) I^a through magnitudes.
 struct PowerMinimum {
   FitStatus status = FitStatus::kDegenerate;
-  std::string_view reason;  ///< Static; "" at kOk.
+  std::string_view reason;  ///< A static string; "" if the status is kOk.
   double log_k = 0.0, a = 0.0;
-  double largest = 0.0;         ///< Largest |magnitude|, so that no square overflows.
-  double sum_of_squares = 0.0;  ///< Sum of squares of the residuals, each over `largest`.
+  /// The largest |magnitude|. It scales the residuals, so that no square overflows.
+  double largest = 0.0;
+  double sum_of_squares = 0.0;  ///< The sum of squared residuals, each divided by `largest`.
 };
 
-/// The global minimum; every intensity is > 0. For each exponent the best k is known; where the
-/// sum of squares that is left turns from falling to rising on a grid of exponents, the solver
-/// goes downhill.
+/// The global minimum. Every intensity is > 0. For each exponent the best k is known. The
+/// solver descends wherever the remaining sum of squares turns from falling to rising on a grid
+/// of exponents.
 [[nodiscard]] PowerMinimum power_minimum(const std::vector<Magnitude>& data, Solver solver);
 
 }  // namespace jnd::analysis

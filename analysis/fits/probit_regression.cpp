@@ -10,7 +10,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// The log-likelihood and its derivatives at one place.
+/// The log-likelihood and its derivatives at one point.
 struct Likelihood {
   double value = 0.0;
   Eigen::VectorXd gradient;
@@ -38,9 +38,10 @@ Likelihood likelihood_at(const Eigen::MatrixXd& design, const Eigen::VectorXd& n
   return here;
 }
 
-/// Whether some column has next to no information left beside those before it. The columns do
-/// not depend on one another, so the answers that tell them apart lie far out on the curve, as
-/// separated ones do; what is left is rounding, which must not decide whether there is a fit.
+/// Whether a column has almost no information left after the columns before it. The columns are
+/// linearly independent, so the answers that tell them apart lie far out on the curve, as
+/// separated answers do. What is left is rounding, which must not decide whether there is a
+/// fit.
 bool is_of_rounding(const Eigen::LLT<Eigen::MatrixXd>& cholesky,
                     const Eigen::MatrixXd& information) {
   constexpr double kLeast = 1e-12;
@@ -78,7 +79,7 @@ ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd
   };
   Likelihood here = at(fit.coefficients);
   fit.log_likelihood = here.value;
-  // A sum of so many terms is no better than that.
+  // The sum has so many terms that rounding limits its accuracy to this value.
   const double rounding = std::max(1e-13, 1e-16 * static_cast<double>(design.rows()));
   double largest = 0.0;
   for (int step_number = 0; step_number < kMaxSteps; ++step_number) {
@@ -103,7 +104,7 @@ ProbitRegression fit_probit(const Eigen::MatrixXd& design, const Eigen::VectorXd
     fit.log_likelihood = here.value;
     if (!is_higher) here = at(fit.coefficients);
   }
-  // Answers that are separated send the curve ever further, by a third of z or more a step.
+  // Separated answers move the curve ever further, by at least a third of z in each step.
   constexpr double kAtRest = 1e-3;
   if (largest < kAtRest) {
     fit.reason = "not found: the search did not come to rest; add up rows that ask the same";

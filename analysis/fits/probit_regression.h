@@ -7,21 +7,24 @@
 
 namespace jnd::analysis {
 
-/// Maximum likelihood of P(yes) = Phi(offset + X beta).
+/// The maximum-likelihood fit of P(yes) = Phi(offset + X beta).
 struct ProbitRegression {
   FitStatus status = FitStatus::kNotRun;
-  std::string reason;         ///< Why there is no fit; "" if there is one.
-  bool is_separated = false;  ///< There is none for answers split without overlap.
+  std::string reason;  ///< Why there is no fit; "" if there is one.
+  /// There is no fit because the answers are split without overlap.
+  bool is_separated = false;
   Eigen::VectorXd coefficients;
-  Eigen::MatrixXd covariance;   ///< Inverse of the observed information.
-  double log_likelihood = 0.0;  ///< Without binomial coefficients; where separated, near its
-                                ///< limit.
+  Eigen::MatrixXd covariance;  ///< The inverse of the observed information.
+  /// The log-likelihood without binomial coefficients. For separated answers it is near its
+  /// limit.
+  double log_likelihood = 0.0;
 };
 
-/// One row of `design` for each count. Concave, so Newton's method from 0 finds the optimum;
-/// `degenerate` where there is none (answers separated by some combination of the columns) or
-/// where columns depend on one another. `offset`: what is known of z in each row; empty: 0.
-/// Throws `core::Error` if the sizes differ.
+/// `design` has one row for each count. The log-likelihood is concave, so Newton's method from
+/// 0 finds the optimum. The status is `degenerate` if there is no optimum (some combination of
+/// the columns separates the answers) or if the columns are linearly dependent. `offset` is the
+/// known part of z in each row; an empty vector means 0. Throws `core::Error` if the sizes
+/// differ.
 [[nodiscard]] ProbitRegression fit_probit(const Eigen::MatrixXd& design,
                                           const Eigen::VectorXd& num_yes,
                                           const Eigen::VectorXd& num_trials,

@@ -5,8 +5,9 @@
 
 namespace jnd::analysis {
 
-/// Where `excess`, < 0 at `from`, first is 0 when going by growing steps toward `limit`; absent
-/// if it is not by then. `precision` is relative.
+/// The first place where `excess` reaches 0 on a walk with growing steps from `from` toward
+/// `limit`. `excess` is < 0 at `from`. The result is absent if `excess` does not reach 0 before
+/// `limit`. `precision` is relative.
 [[nodiscard]] std::optional<double> crossing(const std::function<double(double)>& excess,
                                              double from, double first_step, double limit,
                                              double precision = 1e-13);

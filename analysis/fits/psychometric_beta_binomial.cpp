@@ -12,12 +12,13 @@ namespace jnd::analysis {
 namespace {
 
 constexpr double kLargestCorrelation = 1.0 - 1e-6;
-/// Below these a rate is taken to be on its bound 0.
+/// Below these values a rate counts as being on its bound 0.
 constexpr double kFewestLapses = 1e-7, kNoCorrelation = 1e-9;
 
-/// Minus the log-likelihood of one level, with its derivatives in f and rho:
-/// f (1 - rho) + j rho over the yes, (1 - f) (1 - rho) + j rho over the no, 1 - rho + j rho
-/// over all.
+/// Minus the log-likelihood of one level, with its derivatives by f and rho. The likelihood is
+/// the product of f (1 - rho) + j rho over every yes and of (1 - f) (1 - rho) + j rho over
+/// every no, divided by the product of 1 - rho + j rho over all answers, with j counting from
+/// 0.
 struct SpreadCost {
   double value, by_f, by_correlation;
 };
@@ -32,9 +33,10 @@ SpreadCost level_cost(double yes, double no, double f, double g, double correlat
               of_all.by_first + of_all.by_step};
 }
 
-/// The parameters of the search: ln of the spread (of a curve over the intensity itself, where
-/// that is asked for, ln of the Weber fraction), the place of the pse, and angles whose squared
-/// sines are the lapse rate, over its limit, and the correlation.
+/// Maps the parameters of the search to a curve and a correlation. The parameters are ln of the
+/// spread (or, if asked for, ln of the Weber fraction for a curve over the intensity itself),
+/// the place of the pse, and two angles. The squared sines of the angles are the lapse rate,
+/// divided by its limit, and the correlation.
 class SpreadModel {
  public:
   SpreadModel(const PsychometricLevels& levels, const FreeParameters& free, bool by_fraction)
@@ -99,7 +101,7 @@ class SpreadModel {
     gradient[0] = -by_slope * here.slope;
     if (free_[1]) {
       gradient[1] = by_place;
-      if (by_fraction_) {  // At one fraction the spread grows with the pse.
+      if (by_fraction_) {  // With a constant Weber fraction the spread grows with the pse.
         gradient[1] -= by_slope * here.slope * levels_.unit / levels_.intensity_at(x[1]);
       }
     }
@@ -130,8 +132,8 @@ class SpreadModel {
   bool by_fraction_;
 };
 
-/// Standard error of parameter 0, what is on a bound held there: the Hessian by differences of
-/// the gradient.
+/// The standard error of parameter 0, with parameters on a bound held there. The Hessian comes
+/// from differences of the gradient.
 std::optional<double> error_of_first(const SpreadModel& model, const LikelihoodOptimum& optimum,
                                      const FreeParameters& free) {
   constexpr double kStep = 1e-5;
@@ -168,7 +170,7 @@ std::optional<double> error_of_first(const SpreadModel& model, const LikelihoodO
 
 BetaBinomialFit fit_beta_binomial(const PsychometricLevels& levels, const FreeParameters& free,
                                   const PsychometricCurve& start, bool intervals) {
-  constexpr double kFarthest = 12.0;  // ln spread: further, and the curve is a step or flat.
+  constexpr double kFarthest = 12.0;  // In ln spread. Beyond it the curve is a step or flat.
   BetaBinomialFit fit;
   const SpreadModel spread(levels, free, false);
   const auto starts_of = [&](const SpreadModel& model, const PsychometricCurve& curve) {
@@ -198,14 +200,14 @@ BetaBinomialFit fit_beta_binomial(const PsychometricLevels& levels, const FreePa
   fit.status = FitStatus::kOk;
   const bool linear = !levels.logarithmic();
   const bool relative = !linear || fit.curve.pse(levels) > 0.0;
-  // Of a curve over the intensity itself w is no function of the spread alone.
+  // For a curve over the intensity itself, w depends on more than the spread.
   const SpreadModel fraction(levels, free, linear && relative);
   LikelihoodOptimum at_fraction = found;
   if (linear && relative) at_fraction.at[0] = std::log(fit.curve.weber_fraction(levels));
   if (relative) {
     const double w = fit.curve.weber_fraction(levels);
     const double by_first =
-        linear ? w : (1.0 + w) * std::log1p(w);  // dw / dx of w = exp(c exp(x)) - 1
+        linear ? w : (1.0 + w) * std::log1p(w);  // This is dw / dx for w = exp(c exp(x)) - 1.
     if (const auto error = error_of_first(fraction, at_fraction, free)) {
       fit.standard_error = *error * by_first;
     }

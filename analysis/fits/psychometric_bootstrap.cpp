@@ -15,8 +15,8 @@ namespace {
 
 using core::kInfinity;
 
-/// The refit's Weber fraction or, without an optimum, the limit it tends to; absent if the
-/// answers identify nothing.
+/// The Weber fraction of the refit. Without an optimum it is the limit that the fraction tends
+/// to. It is absent if the answers identify nothing.
 std::optional<double> fraction_or_limit(const PsychometricRefit& refit,
                                         const PsychometricLevels& levels, int& num_degenerate) {
   const PsychometricSearchResult found = refit.find(levels);
@@ -29,14 +29,14 @@ std::optional<double> fraction_or_limit(const PsychometricRefit& refit,
   return std::nullopt;
 }
 
-/// A Weber fraction of 0 is that of a refit without an optimum.
+/// Opens ends at a Weber fraction of 0, which come from refits without an optimum.
 void open_at_zero(Interval& interval) {
   if (interval.low && !(*interval.low > 0.0)) interval.low.reset();
   if (interval.high && !(*interval.high > 0.0)) interval.high.reset();
 }
 
-/// Skewness of the influence of single answers, over 6. Absent where leaving one answer out
-/// leaves no fit.
+/// The acceleration: the skewness of the influence of single answers, divided by 6. It is
+/// absent if some refit without one answer has no optimum.
 std::optional<double> acceleration_by(const PsychometricRefit& refit,
                                       const PsychometricLevels& levels) {
   std::vector<LeftOut> all;

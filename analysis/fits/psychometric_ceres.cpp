@@ -7,15 +7,16 @@
 namespace jnd::analysis {
 namespace {
 
-/// A lapse on its bound 0 is a stationary point of lapse = limit sin^2(angle): start inside.
+/// With lapse = limit sin^2(angle) a lapse on its bound 0 is a stationary point, so the search
+/// starts inside.
 constexpr double kSmallestAngle = 0.05;
-/// Below this the lapse is taken to be on its way to 0, and held there.
+/// A lapse below this is taken to tend to 0, and is held there.
 constexpr double kNoLapse = 1e-6;
 
-/// Ceres's parameters: those that are free, in the order slope, offset, lapse. For least
-/// squares the slope by its logarithm, within whose reach the cost is smooth; for the
-/// likelihood, which is concave in the slope itself, the lapse as limit sin^2(angle), which
-/// keeps it in [0, limit] without a bound.
+/// The free parameters as Ceres sees them, in the order slope, offset, lapse. Least squares
+/// uses ln slope, in which the cost is smooth. The likelihood is concave in the slope itself,
+/// so it uses the slope. It uses an angle for the lapse, limit sin^2(angle), which keeps the
+/// lapse in [0, limit] without a bound.
 class FreeVector {
  public:
   FreeVector(const PsychometricEnds& ends, const FreeParameters& free,
@@ -45,7 +46,7 @@ class FreeVector {
     return curve;
   }
 
-  /// Derivatives in these parameters from those in slope, offset and lapse.
+  /// Converts derivatives by slope, offset and lapse into derivatives by these parameters.
   void chain(std::span<const double> x, const Eigen::Vector3d& by_curve,
              std::span<double> to) const {
     std::size_t place = 0;
@@ -55,7 +56,8 @@ class FreeVector {
     }
     if (free_[1]) to[place++] = by_curve(1);
     if (free_[2]) {
-      // Where the lapse's own derivative is infinite, at a lapse of 0, the angle's is 0.
+      // At a lapse of 0 the derivative by the lapse may be infinite, but that by the angle is
+      // 0.
       const double by_angle = ends_.lapse_limit() * std::sin(2.0 * x[place]);
       to[place] = !likelihood_ ? by_curve(2) : by_angle == 0.0 ? 0.0 : by_curve(2) * by_angle;
     }
@@ -88,7 +90,8 @@ PsychometricCurve most_likely(const PsychometricLevels& levels, const FreeParame
                                                [](double part) { return std::isfinite(part); });
   };
   const PsychometricCurve found = vector.curve(ceres_minimum(cost, vector.start()));
-  // On its bound the lapse has next to no gradient left, but still a share in every step.
+  // On its bound the lapse has almost no gradient left but still a part in every step, so it is
+  // held at 0 and the search is repeated.
   const bool on_bound = free[2] && !(found.lapse > kNoLapse);
   if (!on_bound) return found;
   return most_likely(levels, {free[0], free[1], false, false},
@@ -130,15 +133,16 @@ PsychometricCurve least_squares(const PsychometricLevels& levels, const FreePara
     problem.bounds.back() = {0.0, levels.ends.largest_lapse()};
   }
   const PsychometricCurve found = vector.curve(ceres_minimum(problem, first));
-  // On a bound Ceres crawls, for its steps take no account of it: go on along the bound.
+  // The steps of Ceres ignore the bound, so it crawls along it. The lapse is held at 0 and the
+  // search is repeated.
   const bool on_bound = free[2] && !(found.lapse > kNoLapse);
   if (!on_bound) return found;
   return least_squares(levels, {free[0], free[1], false, false},
                        {found.slope, found.offset, 0.0});
 }
 
-/// Whether Newton's method, starting at `found`, stayed there: nearby, or where the cost is so
-/// flat that Ceres saw nothing left to gain.
+/// Whether Newton's method, started at `found`, stayed there: it ended nearby, or the cost is
+/// so flat that Ceres saw nothing left to gain.
 bool agree(const PsychometricCurve& found, double cost, const PsychometricOptimum& polished) {
   constexpr double kNear = 1e-3, kFlat = 1e-9;
   const PsychometricCurve& curve = polished.curve;

@@ -32,7 +32,8 @@ void check(const std::vector<OrderedAnswers>& answers, double reference) {
   }
 }
 
-/// Running numbers from -0.5 at the first trial to 0.5 at the last; empty if not all have one.
+/// Running numbers, scaled from -0.5 at the first trial to 0.5 at the last. The vector is empty
+/// if a row has no running number or all are equal.
 Eigen::VectorXd times_of(const std::vector<OrderedAnswers>& answers) {
   Eigen::VectorXd times(static_cast<Eigen::Index>(answers.size()));
   for (std::size_t row = 0; row < answers.size(); ++row) {
@@ -70,7 +71,7 @@ std::vector<Term> terms_of(const std::vector<OrderedAnswers>& answers,
   return terms;
 }
 
-/// Design of the slope and the terms, all or all but one.
+/// The design of the slope and the terms. The term `left_out` is missing.
 Eigen::MatrixXd design_of(const Eigen::VectorXd& log_ratio, const std::vector<Term>& terms,
                           std::size_t left_out) {
   std::vector<Eigen::VectorXd> columns = {log_ratio};
@@ -92,20 +93,21 @@ std::string four_digits(double value) {
 
 bool holds_zero(const Interval& ci95) { return *ci95.low <= 0.0 && *ci95.high >= 0.0; }
 
-/// "95 % -0.2 to 0.3"
+/// For example "95 % -0.2 to 0.3".
 std::string words_of(const Interval& ci95) {
   return "95 % " + four_digits(*ci95.low) + " to " + four_digits(*ci95.high);
 }
 
-/// "response_bias and drift", those that are told of the reference.
+/// The terms that are reported at the reference, with their verb: "response_bias is" or
+/// "response_bias and drift are".
 std::string told_at_reference(const std::vector<Term>& terms) {
   const bool drifts = std::ranges::find(terms, "drift", &Term::name) != terms.end();
   return drifts ? "response_bias and drift are" : "response_bias is";
 }
 
-/// That the answers scatter more than the regression has it, as rows of several sessions do;
-/// "" where they do not. Of what was asked alike, rows of one answer each count together, with
-/// the mean of their probabilities.
+/// A warning if the answers scatter more than the regression explains, as rows of several
+/// sessions do; "" otherwise. Rows of one answer each that were asked alike are pooled, at the
+/// mean of their probabilities.
 std::string scatter_of(const std::vector<OrderedAnswers>& answers,
                        const Eigen::VectorXd& expected_z, double num_fitted) {
   std::map<std::pair<double, int>, FittedAnswers> singles;
@@ -133,7 +135,7 @@ std::string scatter_of(const std::vector<OrderedAnswers>& answers,
          "found as one value a session";
 }
 
-/// That the answers fall, or that nothing was asked near the reference.
+/// Warnings that the answers fall, or that nothing was asked near the reference.
 std::vector<std::string> warnings_of(const PsychometricEffects& found,
                                      const std::vector<OrderedAnswers>& answers,
                                      double reference, const std::vector<Term>& terms) {
@@ -195,7 +197,7 @@ PsychometricEffects psychometric_effects(const std::vector<OrderedAnswers>& answ
                               .meaning = terms[term].meaning};
     if (full.status == FitStatus::kOk) {
       const auto at = static_cast<Eigen::Index>(term) + 1;
-      // Of the slope's change, the mean slope is the unit, taken as known.
+      // Learning is the slope's change in units of the mean slope, which is taken as known.
       const bool is_share = effect.name == "learning";
       const double unit = is_share ? *found.slope : 1.0;
       const double reach = kWaldReach * std::sqrt(full.covariance(at, at)) / std::fabs(unit);

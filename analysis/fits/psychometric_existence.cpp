@@ -44,7 +44,8 @@ constexpr std::string_view kAtChance =
 constexpr std::string_view kInverted =
     "inverted: yes becomes rarer as the intensity rises, so no Weber fraction > 0 fits";
 
-/// Smallest and largest log ratio with a yes, and with a no; infinite if there is none.
+/// The smallest and largest log ratio with a yes, and with a no. They are infinite if there is
+/// none.
 struct Reach {
   double first_yes = kInfinity, last_yes = -kInfinity;
   double first_no = kInfinity, last_no = -kInfinity;
@@ -71,7 +72,7 @@ Reach reach_of(const PsychometricLevels& levels) noexcept {
 }
 
 PsychometricExistence flat_or_inverted(const PsychometricLevels& levels, bool free_pse) {
-  // Answers that are all alike do not fall, though they may weigh more on one side.
+  // Answers that are all alike do not fall, even if the levels lie more on one side.
   if (!free_pse && reach_of(levels).all_alike()) {
     return {PsychometricSupremum::kFlat, kAllAlikeAtReference};
   }
@@ -102,7 +103,8 @@ double rise_of_answers(const PsychometricLevels& levels, bool free_pse) noexcept
 std::string_view why_unidentified(const PsychometricLevels& levels, bool free_pse,
                                   bool free_lapse) {
   if (levels.size() == 0 && !(levels.zero_trials > 0.0)) return kNoTrials;
-  // Intensity 0 tells the lower end, which guesses alone have fixed.
+  // Intensity 0 measures the lower end, which is fixed if it depends on a known guess rate
+  // alone.
   const bool has_free_low = levels.ends.symmetric || levels.ends.free_guess;
   const int at_zero = levels.zero_trials > 0.0 && has_free_low ? 1 : 0;
   if (free_pse) {
@@ -114,7 +116,7 @@ std::string_view why_unidentified(const PsychometricLevels& levels, bool free_ps
   std::vector<double> distances;
   bool at_reference = false;
   for (const double u : levels.abscissa) {
-    // Between ends that lapses move alike, a curve through the reference is symmetric about it.
+    // If lapses affect both ends equally, a curve through the reference is symmetric about it.
     if (u != 0.0) distances.push_back(levels.ends.symmetric ? std::fabs(u) : u);
     at_reference = at_reference || u == 0.0;
   }

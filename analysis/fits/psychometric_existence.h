@@ -8,15 +8,17 @@ namespace jnd::analysis {
 
 /// Where the supremum of the likelihood lies.
 enum class PsychometricSupremum {
-  kAttained,      ///< At one curve.
-  kStep,          ///< At infinite slope: w falls to 0.
-  kFlat,          ///< At slope 0: w grows without bound.
-  kUnidentified,  ///< At many curves alike, or for want of data nowhere in particular.
-  kImpossible,    ///< No curve gives these answers: a yes at intensity 0 without lapses.
+  kAttained,      ///< One curve attains it.
+  kStep,          ///< It lies at infinite slope, so w falls to 0.
+  kFlat,          ///< It lies at slope 0, so w grows without bound.
+  kUnidentified,  ///< Many curves are equally likely, or the data are too few to tell.
+  /// No curve can give these answers: there is a yes at intensity 0 without lapses.
+  kImpossible,
   kNotConverged,
 };
 
-/// With a sentence for people, static; "" if the supremum is attained or was not reached.
+/// The kind of supremum with a sentence for people, which is a static string. It is "" if the
+/// supremum is attained or the search did not converge.
 struct PsychometricExistence {
   PsychometricSupremum supremum = PsychometricSupremum::kNotConverged;
   std::string_view reason;
@@ -25,22 +27,24 @@ struct PsychometricExistence {
 inline constexpr std::string_view kYesAtZero =
     "impossible: a yes at intensity 0 has probability 0 without lapses";
 
-/// Why the levels alone, whatever the answers, cannot identify the free parameters; "" if they
+/// Why the levels cannot identify the free parameters, whatever the answers are; "" if they
 /// can.
 [[nodiscard]] std::string_view why_unidentified(const PsychometricLevels& levels, bool free_pse,
                                                 bool free_lapse);
 
-/// Whether maximum likelihood without lapses and guesses has an optimum, exactly, from the
-/// counts alone: it is concave (Albert and Anderson 1984). For levels that identify.
+/// Decides exactly, from the counts alone, whether maximum likelihood without lapses and
+/// guesses has an optimum. The log-likelihood is concave (Albert and Anderson 1984). The levels
+/// must identify the parameters.
 [[nodiscard]] PsychometricExistence existence_from_counts(const PsychometricLevels& levels,
                                                           bool free_pse);
 
-/// Which limit the cost falls to where it has no minimum below both. For levels that identify.
+/// The limit, step or flat line, to which the cost falls if it has no minimum below both
+/// limits. The levels must identify the parameters.
 [[nodiscard]] PsychometricExistence lower_limit(const PsychometricLevels& levels, bool free_pse,
                                                 double step_cost, double flat_cost);
 
-/// Rise of the answers along the levels, in trials: sum of (num_yes - expected) abscissa. At
-/// most 0 if they do not rise.
+/// How much the answers rise along the levels, in trials: the sum of (num_yes - expected)
+/// abscissa. It is at most 0 if they do not rise.
 [[nodiscard]] double rise_of_answers(const PsychometricLevels& levels, bool free_pse) noexcept;
 
 }  // namespace jnd::analysis

@@ -40,7 +40,7 @@ double sum_about_mean(const PsychometricLevels& levels) {
   if (levels.zero_trials > 0.0) proportions.push_back(levels.zero_yes / levels.zero_trials);
   if (std::all_of(proportions.begin(), proportions.end(),
                   [&](double proportion) { return proportion == proportions[0]; })) {
-    return 0.0;  // Whatever rounding makes of their mean.
+    return 0.0;  // It is exactly 0, whatever rounding makes of the mean.
   }
   double mean = 0.0;
   for (const double proportion : proportions) mean += proportion;
@@ -50,8 +50,9 @@ double sum_about_mean(const PsychometricLevels& levels) {
   return sum;
 }
 
-/// Derivatives of w in slope, offset and lapse: of exp(c unit / slope) - 1, or, the pse being
-/// origin - unit offset / slope, of c unit / (slope origin - unit offset).
+/// The derivatives of w by slope, offset and lapse. w is exp(c unit / slope) - 1 on a
+/// logarithmic abscissa. On a linear one the pse is origin - unit offset / slope, so w is c
+/// unit / (slope origin - unit offset).
 Eigen::Vector3d fraction_gradient(const PsychometricLevels& levels,
                                   const PsychometricCurve& curve) {
   const double step = sigmoid_jnd(levels.sigmoid) * levels.unit / curve.slope;
@@ -61,8 +62,8 @@ Eigen::Vector3d fraction_gradient(const PsychometricLevels& levels,
           step * levels.unit / (curve.slope * pse * pse), 0.0};
 }
 
-/// Standard error of w by the delta method, the matrix being that of the information over its
-/// `scale`. A lapse on its bound is held there.
+/// The standard error of w by the delta method. Its matrix is `information` divided by `scale`.
+/// A lapse rate on its bound is held there.
 std::optional<double> standard_error(const PsychometricLevels& levels,
                                      const PsychometricCurve& curve, const FreeParameters& free,
                                      Eigen::Matrix3d information, double scale) {
@@ -78,12 +79,13 @@ std::optional<double> standard_error(const PsychometricLevels& levels,
   return finite(std::sqrt(by_curve.dot(information.inverse() * by_curve) * scale));
 }
 
-/// The 95 % quantile of F with one degree of freedom above and these below.
+/// The 95 % quantile of F with 1 and `degrees_of_freedom` degrees of freedom.
 double fisher_quantile(int degrees_of_freedom) {
   return fisher_f_quantile(0.95, 1.0, degrees_of_freedom);
 }
 
-/// Of the curve's line in the scaled abscissa; see `PsychometricOptions::num_calibration`.
+/// The calibrated drops of the curve, which is a line in the scaled abscissa; see
+/// `PsychometricOptions::num_calibration`.
 CalibratedDrops drops_of(const PsychometricLevels& levels, const PsychometricCurve& curve,
                          const PsychometricOptions& options) {
   const auto size = static_cast<Eigen::Index>(levels.size());
@@ -151,7 +153,7 @@ void add_uncertainty(PsychometricFit& fit, const BetaBinomialFit& scattered) {
   fit.overdispersion.log_likelihood = scattered.log_likelihood;
 }
 
-/// The curve in the family's own words.
+/// Adds the curve's parameters in the family's own words.
 void add_parameters(PsychometricFit& fit, const PsychometricLevels& levels,
                     const PsychometricCurve& curve) {
   switch (fit.family) {

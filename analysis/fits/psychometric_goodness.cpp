@@ -17,7 +17,7 @@ namespace {
 
 using enum PsychometricMethod;
 
-/// Log-likelihood of a level at its own proportion.
+/// The log-likelihood of a level at its own proportion.
 double saturated_term(double yes, double trials) {
   double value = 0.0;
   if (yes > 0.0) value += yes * std::log(yes / trials);
@@ -25,7 +25,7 @@ double saturated_term(double yes, double trials) {
   return value;
 }
 
-/// Root of a level's share in the deviance, with the sign of observed minus fitted.
+/// The root of a level's part of the deviance, with the sign of observed minus fitted.
 double deviance_residual(double yes, double trials, double fitted) {
   const double no = trials - yes;
   double log_likelihood = 0.0;
@@ -35,14 +35,15 @@ double deviance_residual(double yes, double trials, double fitted) {
   return std::copysign(std::sqrt(std::max(0.0, share)), yes / trials - fitted);
 }
 
-/// Answers that were drawn anew, beside those that were given.
+/// How redrawn answers compare with the given ones.
 struct Judgement {
   bool is_as_far = false, has_correlation = false, is_as_correlated = false;
 };
 
 struct StandardResiduals {
-  std::vector<double> fitted, deviance;  ///< By level.
-  double pearson = 0.0;                  ///< Sum of squared standardised residuals.
+  /// Fitted probabilities and deviance residuals, by level.
+  std::vector<double> fitted, deviance;
+  double pearson = 0.0;  ///< The sum of squared standardised residuals.
 };
 
 StandardResiduals residuals_of(const PsychometricLevels& levels,
@@ -77,7 +78,7 @@ std::optional<double> correlation(const std::vector<double>& a, const std::vecto
   return aa > 0.0 && bb > 0.0 && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Log-likelihood that a search without optimum tends to.
+/// The log-likelihood to which a search without an optimum tends.
 double limit_log_likelihood(const PsychometricLevels& levels, const FreeParameters& free,
                             PsychometricSupremum supremum) {
   return supremum == PsychometricSupremum::kStep
@@ -163,7 +164,7 @@ PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
         !attained ? limit_log_likelihood(redrawn, search.free(), found.supremum)
         : search.method() == kMaximumLikelihood ? -found.optimum.cost.value
                                                 : log_likelihood(redrawn, found.optimum.curve);
-    // Ties are common at few answers: rounding must not break them.
+    // With few answers ties are common, and rounding must not break them.
     judgement.is_as_far = deviance_of(redrawn, value) >= deviance * (1.0 - 1e-9);
     if (!attained || !redraws.correlation || !goodness.level_correlation) return judgement;
     const StandardResiduals of_redrawn = residuals_of(redrawn, found.optimum.curve);

@@ -4,32 +4,37 @@
 
 namespace jnd::analysis {
 
-/// Twice the log-likelihood that the saturated model, each level's own proportion, has more.
+/// Twice the log-likelihood that the saturated model has above the given one. The saturated
+/// model gives each level its own proportion.
 [[nodiscard]] double deviance_of(const PsychometricLevels& levels, double log_likelihood);
 
-/// Pearson's: the sum over levels > 0 of squared standardised residuals.
+/// Pearson's statistic: the sum of squared standardised residuals over levels > 0.
 [[nodiscard]] double pearson_statistic(const PsychometricLevels& levels,
                                        const PsychometricCurve& curve);
 
-/// Levels minus parameters that are free; a lapse rate on its bound 0 is not.
+/// The number of levels minus the number of free parameters. A lapse rate on its bound 0 does
+/// not count as free.
 [[nodiscard]] int residual_degrees_of_freedom(const PsychometricLevels& levels,
                                               const FreeParameters& free, double lapse);
 
-/// Probability that answers of the curve lie as far from it as these, by `misfit_p_value`.
+/// The probability that answers of the curve lie as far from it as these do; see
+/// `answer_scatter.h`.
 [[nodiscard]] std::optional<double> misfit_p_value(const PsychometricLevels& levels,
                                                    const FreeParameters& free,
                                                    const PsychometricCurve& fitted);
 
-/// What is drawn anew for a goodness of fit.
+/// What is redrawn to judge the goodness of fit.
 struct GoodnessRedraws {
-  int num = 0;  ///< 0: nothing.
+  int num = 0;  ///< The number of redraws; 0 for none.
   std::uint64_t seed = 1;
-  bool correlation = true;  ///< Also how often residuals correlate with the curve as much.
+  /// Whether to find out too how often residuals correlate as strongly with the curve.
+  bool correlation = true;
 };
 
-/// Residuals, overdispersion and, with `redraws.num` > 0, how often data drawn from the fitted
-/// curve and refitted lie at least as far off: chi-squared does not hold at few answers a level
-/// (Wichmann and Hill 2001). A refit without an optimum has the deviance of its limit.
+/// Residuals and overdispersion. If `redraws.num` > 0, it also finds how often data that are
+/// redrawn from the fitted curve and refitted lie at least as far from their curve, because
+/// chi-squared does not hold if levels have few answers (Wichmann and Hill 2001). A refit
+/// without an optimum has the deviance of its limit.
 [[nodiscard]] PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
                                                    const PsychometricLevels& levels,
                                                    const PsychometricCurve& fitted,

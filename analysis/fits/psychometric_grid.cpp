@@ -13,8 +13,8 @@ namespace {
 
 using core::kInfinity;
 
-/// Where to try the pse at one slope, ascending: every so many z within 6 z of a level, and in
-/// the middle of wider gaps.
+/// The ascending places at which the pse is tried for one slope. They are `spacing_z` apart
+/// within 6 z of a level, with one more in the middle of each wider gap.
 std::vector<double> places_of_pse(const PsychometricLevels& levels, double slope,
                                   double spacing_z) {
   constexpr double kReachZ = 6.0, kMostPlaces = 400.0;
@@ -34,10 +34,12 @@ std::vector<double> places_of_pse(const PsychometricLevels& levels, double slope
   return places;
 }
 
-/// So many levels tell where the minima are: the search goes on from there with all of them.
+/// This many levels are enough to tell where the minima are. The search continues from there
+/// with all levels.
 constexpr std::size_t kMostLevels = 512;
 
-/// Where each of at most `kMostLevels` groups of neighbouring levels begins, then their end.
+/// The index at which each of at most `kMostLevels` groups of neighbouring levels begins, and
+/// at last the number of levels.
 std::vector<std::size_t> groups_of(std::size_t num_levels) {
   const std::size_t num = std::min(num_levels, kMostLevels);
   std::vector<std::size_t> begin;
@@ -45,7 +47,8 @@ std::vector<std::size_t> groups_of(std::size_t num_levels) {
   return begin;
 }
 
-/// Each group one level, at the mean of its places on the abscissa.
+/// Levels in which each group is pooled into one level, at the mean of its places on the
+/// abscissa.
 PsychometricLevels grouped(const PsychometricLevels& levels) {
   if (levels.size() <= kMostLevels) return levels;
   PsychometricLevels result = levels;
@@ -74,7 +77,7 @@ PsychometricLevels grouped(const PsychometricLevels& levels) {
 PsychometricGrid::PsychometricGrid(const PsychometricLevels& every_level, bool free_pse,
                                    const GridSpacing& spacing) {
   const PsychometricLevels levels = grouped(every_level);
-  // A search may leave this range.
+  // A descent from the grid may leave this range.
   constexpr double kSmallestGap = 1e-3;
   const double steepest_z = 2.25 * sigmoid_reach(levels.sigmoid);
   const double steepest = steepest_z / std::max(levels.smallest_gap(free_pse), kSmallestGap);
@@ -98,7 +101,7 @@ void PsychometricGrid::add(const PsychometricLevels& levels, bool free_pse, doub
   for (const double u : levels.abscissa) {
     const double z = slope * (u - place);
     lower_tail_.push_back(sigmoid_tails(levels.sigmoid, z).lower);
-    // A level at a fixed pse is at F = 0.5 whatever the slope.
+    // A level at a fixed pse has F = 0.5 for every slope.
     if ((free_pse || u != 0.0) && std::fabs(z) < sigmoid_reach(levels.sigmoid)) ++num_rising;
   }
   points_.push_back({slope, place, num_rising < (free_pse ? 2 : 1)});
@@ -106,7 +109,7 @@ void PsychometricGrid::add(const PsychometricLevels& levels, bool free_pse, doub
 
 bool PsychometricGrid::is_lowest_around(std::size_t slope, std::size_t point,
                                         const std::vector<double>& cost) const {
-  // Strict on one side, so that a plateau counts once.
+  // The comparison is strict on one side only, so a plateau counts once.
   const double here = cost[point];
   if (point > slope_begin_[slope] && cost[point - 1] <= here) return false;
   if (point + 1 < slope_begin_[slope + 1] && cost[point + 1] < here) return false;
@@ -118,7 +121,7 @@ bool PsychometricGrid::is_lowest_around(std::size_t slope, std::size_t point,
     const auto above =
         std::lower_bound(begin, end, points_[point].place,
                          [](const Point& one, double place) { return one.place < place; });
-    // The places on either side of it.
+    // The two points of the other slope whose places enclose the point's place.
     const auto first = static_cast<std::size_t>(above - points_.begin());
     double there = above == end ? kInfinity : cost[first];
     if (above != begin) there = std::min(there, cost[first - 1]);
@@ -171,7 +174,7 @@ std::vector<std::size_t> PsychometricGrid::lowest_points(const std::vector<doubl
 
 std::vector<double> PsychometricGrid::log_likelihoods(const PsychometricLevels& every_level,
                                                       double lapse, double guess) const {
-  // A probability of 0 or 1 must not spoil the sum where the count is 0.
+  // The bound keeps the sum finite if a probability is 0 or 1 where the count is 0.
   constexpr double kLeast = -1e6;
   const PsychometricLevels levels = grouped(every_level);
   const double low = levels.ends.low(lapse, guess), rise = levels.ends.rise(lapse, guess);
@@ -189,7 +192,7 @@ std::vector<PsychometricCurve> PsychometricGrid::minima(const PsychometricLevels
                                                         const std::vector<double>& logs,
                                                         double lapse, double guess,
                                                         std::size_t most) const {
-  std::vector<double> counts;  // Yes and no of each level.
+  std::vector<double> counts;  // The yes and no of each level.
   const auto add = [&](const PsychometricLevels& levels) {
     for (std::size_t level = 0; level < levels.size(); ++level) {
       counts.push_back(levels.num_yes[level]);

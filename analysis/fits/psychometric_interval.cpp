@@ -11,16 +11,20 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr double kLargestLog = 700.0;  ///< exp of more would leave the range of double.
-constexpr double kStepZ = 40.0;        ///< Neighbouring levels this many z apart: a step.
-/// A curve over the intensity itself that rises less than this from end to end is flat.
+/// exp of a larger number would leave the range of double.
+constexpr double kLargestLog = 700.0;
+/// A curve is a step if neighbouring levels lie this many z apart.
+constexpr double kStepZ = 40.0;
+/// A curve over the intensity itself is flat if it rises less than this from end to end.
 constexpr double kFlattestLinear = 1e-6;
-/// A linear curve's Weber fraction beyond this is none: its pse is all but 0.
+/// The Weber fraction of a curve over the intensity itself does not exist beyond this limit,
+/// because the pse is nearly 0.
 constexpr double kLargestLinearFraction = 1e6;
 
-/// Newton's method from one curve and, where there can be several minima, from others: with a
-/// lapse rate that is free from a larger one; between ends of their own, where the likelihood
-/// is not concave even without, from `others`. The lowest counts.
+/// Runs Newton's method from one curve and, if there can be several minima, from further
+/// curves, and keeps the lowest cost. If the lapse rate is free, one further start has a larger
+/// lapse rate. The likelihood of a curve with known guesses or lapses is not concave, so the
+/// search also starts from `others`.
 PsychometricOptimum lowest_from(const PsychometricLevels& levels, PsychometricMethod method,
                                 const FreeParameters& free, const PsychometricCurve& start,
                                 const std::vector<PsychometricCurve>& others) {
@@ -38,13 +42,13 @@ PsychometricOptimum lowest_from(const PsychometricLevels& levels, PsychometricMe
   return best;
 }
 
-/// Whether the cost can have several minima for its ends alone.
+/// Whether the cost can have several minima because of its known guesses or lapses.
 bool has_ends_of_its_own(const PsychometricLevels& levels) noexcept {
   return levels.ends.guess > 0.0 || levels.ends.known_lapse > 0.0;
 }
 
-/// Cost at a given slope, at its best over what else is free. Follows the optimum as the slope
-/// moves, because with lapses there can be several.
+/// The cost at a given slope, minimised over the other free parameters. It follows the optimum
+/// as the slope moves, because with lapses there can be several.
 class SlopeProfile {
  public:
   SlopeProfile(const PsychometricLevels& levels, PsychometricMethod method,
@@ -72,9 +76,9 @@ class SlopeProfile {
   PsychometricCurve last_;
 };
 
-/// Cost of a curve over the intensity itself at a given Weber fraction, at its best over what
-/// else is free. With the abscissa's origin at intensity 0 the offset is -jnd / w, whatever the
-/// slope.
+/// The cost of a curve over the intensity itself at a given Weber fraction, minimised over the
+/// other free parameters. The abscissa's origin is at intensity 0, so the offset is -jnd / w
+/// for every slope.
 class LinearFractionProfile {
  public:
   LinearFractionProfile(const PsychometricLevels& levels, PsychometricMethod method,
@@ -85,14 +89,14 @@ class LinearFractionProfile {
         last_{start.slope, start.offset - start.slope * levels.origin / levels.unit,
               start.lapse} {}
 
-  /// ln(1 / w) of the curve it starts from.
+  /// ln(1 / w) of the curve from which the profile starts.
   [[nodiscard]] double start() const noexcept {
     return std::log(-last_.offset / sigmoid_jnd(levels_.sigmoid));
   }
 
   double operator()(double minus_log_fraction) {
     const double offset = -sigmoid_jnd(levels_.sigmoid) * std::exp(minus_log_fraction);
-    // The same pse with a steeper or a flatter curve.
+    // The start has the same pse with a steeper or flatter curve.
     const PsychometricCurve start = {last_.slope * offset / last_.offset, offset, last_.lapse};
     std::vector<PsychometricCurve> others;
     if (has_ends_of_its_own(levels_)) {
@@ -117,7 +121,7 @@ class LinearFractionProfile {
   PsychometricCurve last_;
 };
 
-/// Cost at a given pse, `place` = ln(pse / origin) / unit.
+/// The cost at a given pse, as a function of `place` = ln(pse / origin) / unit.
 class PseProfile {
  public:
   PseProfile(const PsychometricLevels& levels, PsychometricMethod method,
@@ -132,7 +136,7 @@ class PseProfile {
     for (std::size_t level = 0; level < levels_.size(); ++level) {
       shifted_.abscissa[level] = levels_.abscissa[level] - place;
     }
-    // The best slope may be 0 or infinite here, though it is not at the optimum.
+    // At this pse the best slope may be 0 or infinite although it is neither at the optimum.
     double best = std::min(flat_limit_cost(shifted_, method_, false, free_[2]),
                            step_limit_cost(shifted_, method_, false, free_[2]));
     PsychometricOptimum found = minimised_by_newton(shifted_, method_, free_, last_);

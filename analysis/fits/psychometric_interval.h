@@ -4,15 +4,15 @@
 
 namespace jnd::analysis {
 
-/// Where the profiled cost rises by `drop` above its minimum on either side of the optimum: the
-/// stretch around the estimate, never one that misses it. An end is open where the profile does
-/// not rise that far before the value leaves the range of numbers, or the curve is a step.
+/// The interval around the optimum whose ends lie where the profiled cost has risen by `drop`
+/// above its minimum. It always contains the estimate. An end is open if the profile does not
+/// rise that far before the value leaves the range of numbers or the curve becomes a step.
 [[nodiscard]] Interval weber_fraction_interval(const PsychometricLevels& levels,
                                                PsychometricMethod method,
                                                const FreeParameters& free,
                                                const PsychometricOptimum& optimum, double drop);
 
-/// The same for the pse, where it is free.
+/// The same interval for the pse, if it is free.
 [[nodiscard]] Interval pse_interval(const PsychometricLevels& levels, PsychometricMethod method,
                                     const FreeParameters& free,
                                     const PsychometricOptimum& optimum, double drop);

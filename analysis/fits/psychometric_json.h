@@ -8,11 +8,12 @@
 
 namespace jnd::analysis {
 
-/// Adds to a fit's JSON what goes beyond the curve itself: family, the bootstrap's corrected
-/// interval, goodness of fit, posterior, warnings. Every number is finite or null.
+/// Adds to a fit's JSON the family, the bootstrap's corrected interval, the goodness of fit,
+/// the posterior and the warnings. Every number is finite or null.
 void add_psychometric_details(nlohmann::ordered_json& json, const PsychometricFit& fit);
 
-/// `status`, the last that is not "ok", the slope, the list `effects` and the warnings.
+/// An object with `status` (the last one that is not "ok"), the slope, the list `effects` and
+/// the warnings.
 [[nodiscard]] nlohmann::ordered_json to_json(const PsychometricEffects& found);
 
 }  // namespace jnd::analysis

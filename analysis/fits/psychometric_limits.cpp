@@ -9,11 +9,13 @@ namespace {
 
 using enum PsychometricMethod;
 
-/// Levels that share one probability f, as a weighted count: answers for maximum likelihood,
-/// levels for least squares.
+/// Levels that share one probability f, as a weighted count. Maximum likelihood counts answers,
+/// and least squares counts levels.
 struct Pool {
   double yes = 0.0, total = 0.0;
-  double squares = 0.0;  ///< Of the levels' shares about their mean: nothing cancels.
+  /// The sum of squares of the levels' shares about their mean, updated so that nothing
+  /// cancels.
+  double squares = 0.0;
 
   void add(double num_yes, double num_trials, PsychometricMethod method) noexcept {
     const double weight = method == kMaximumLikelihood ? 1.0 : 1.0 / num_trials;
@@ -23,7 +25,7 @@ struct Pool {
     yes += share;
     total += num_trials * weight;
   }
-  /// Cost if all of them had probability f.
+  /// The cost if all pooled levels have probability f.
   [[nodiscard]] double cost(double f, PsychometricMethod method) const noexcept {
     if (method == PsychometricMethod::kLeastSquares) {
       return squares + total * (mean() - f) * (mean() - f);
@@ -36,12 +38,13 @@ struct Pool {
   [[nodiscard]] double mean() const noexcept { return total > 0.0 ? yes / total : 0.0; }
 };
 
-/// A probability that is at least 0 and at most 1, whatever rounding makes of it.
+/// Clamps a value to [low, high], and to low if rounding has made high smaller than low.
 double within(double value, double low, double high) noexcept {
   return std::min(std::max(value, low), std::max(low, high));
 }
 
-/// f without lapses, and its derivative in the lapse, where F = `lower`.
+/// The probability f without lapses where F = `lower`. `by_lapse` is its derivative by the
+/// lapse rate.
 double without_lapses(const PsychometricEnds& ends, double lower) noexcept {
   return ends.guess == 0.0 ? lower : ends.guess + (1.0 - ends.guess) * lower;
 }
@@ -55,7 +58,7 @@ Pool pool_at_zero(const PsychometricLevels& levels, PsychometricMethod method) {
   return pool;
 }
 
-/// Derivative of -(log-likelihood) in the lapse.
+/// The derivative of minus the log-likelihood by the lapse rate.
 double lapse_gradient(const PsychometricLevels& levels, double lapse,
                       const double* lower_tail) noexcept {
   const PsychometricEnds& ends = levels.ends;
@@ -78,7 +81,8 @@ double likelihood_lapse(const PsychometricLevels& levels, const double* lower_ta
   double low = 0.0, high = levels.ends.lapse_limit();
   if (!(lapse_gradient(levels, low, lower_tail) < 0.0)) return 0.0;
   if (lapse_gradient(levels, high, lower_tail) < 0.0) return high;
-  for (int halving = 0; halving < 9; ++halving) {  // A start for Newton: 1e-3 will do.
+  // A precision of 1e-3 is enough for a start of Newton's method.
+  for (int halving = 0; halving < 9; ++halving) {
     const double middle = 0.5 * (low + high);
     (lapse_gradient(levels, middle, lower_tail) < 0.0 ? low : high) = middle;
   }
@@ -101,8 +105,8 @@ double least_squares_lapse(const PsychometricLevels& levels,
   return denominator > 0.0 ? std::clamp(numerator / denominator, 0.0, ends.lapse_limit()) : 0.0;
 }
 
-/// Least value of a convex cost of the lapse in [0, limit], by golden sections: near the
-/// minimum it is as good as exact, because the cost is flat there.
+/// The least value of a cost that is convex in the lapse rate over [0, limit], by golden
+/// sections. The value is nearly exact, because the cost is flat near its minimum.
 template <typename Cost>
 double least_over_lapse(const PsychometricEnds& ends, const Cost& cost) {
   constexpr double kGolden = 0.6180339887498949;
@@ -128,12 +132,13 @@ double least_over_lapse(const PsychometricEnds& ends, const Cost& cost) {
   return std::min({best_end, at_left, at_right});
 }
 
-/// Whether lapses are errors of one kind at both ends, with one closed form for all.
+/// Whether lapses are the same kind of error at both ends, so that one closed form covers all
+/// errors.
 bool pool_as_errors(const PsychometricEnds& ends, bool free_lapse) noexcept {
   return ends.symmetric && ends.guess == 0.0 && (free_lapse || ends.known_lapse == 0.0);
 }
 
-/// `step_limit_cost` and `flat_limit_cost` between ends that errors do not share.
+/// The cost of a step if its two ends do not share their errors.
 double step_between_ends(const PsychometricLevels& levels, PsychometricMethod method,
                          std::size_t num_below, bool level_at, bool free_pse, bool free_lapse) {
   const Pool zero = pool_at_zero(levels, method);
@@ -144,7 +149,7 @@ double step_between_ends(const PsychometricLevels& levels, PsychometricMethod me
   }
   const PsychometricEnds& ends = levels.ends;
   if (!ends.symmetric && free_pse) {
-    // Each end has levels of its own, so each is best at their mean.
+    // Each end has levels of its own, so it is best at their mean.
     const double least_high = ends.free_guess ? 1.0 - ends.lapse_limit() : ends.guess;
     double high = 1.0 - ends.known_lapse;
     if (free_lapse) high = above.total > 0.0 ? within(above.mean(), least_high, 1.0) : 1.0;
@@ -189,9 +194,9 @@ double flat_between_ends(const PsychometricLevels& levels, PsychometricMethod me
   return free_lapse ? least_over_lapse(ends, cost) : cost(ends.known_lapse);
 }
 
-/// The ends that are best for given F(z) at each level, by the EM algorithm: an answer is that
-/// of the upper end with probability F, else of the lower one. A start for Newton: close will
-/// do.
+/// The ends that are best for given F(z) at each level, by the EM algorithm: an answer belongs
+/// to the upper end with probability F, and to the lower end otherwise. It serves as a start of
+/// Newton's method, so an approximation is enough.
 BestLapse best_ends(const PsychometricLevels& levels, bool free_lapse,
                     const double* lower_tail) noexcept {
   constexpr int kNumSteps = 12;
@@ -264,7 +269,8 @@ BestLapse best_lapse(const PsychometricLevels& levels, PsychometricMethod method
 
 double step_limit_cost(const PsychometricLevels& levels, PsychometricMethod method,
                        bool free_pse, bool free_lapse) {
-  // Cost with `num_below` levels below the threshold and the level after them at it, if any.
+  // The cost if `num_below` levels lie below the threshold. With `level_at` the next level lies
+  // at the threshold.
   const auto cost_with = [&](std::size_t num_below, bool level_at) {
     if (!pool_as_errors(levels.ends, free_lapse)) {
       return step_between_ends(levels, method, num_below, level_at, free_pse, free_lapse);
@@ -291,8 +297,8 @@ double step_limit_cost(const PsychometricLevels& levels, PsychometricMethod meth
     const bool level_at = first_at != levels.abscissa.end() && *first_at == 0.0;
     return cost_with(static_cast<std::size_t>(first_at - levels.abscissa.begin()), level_at);
   }
-  // Where the free value at a threshold would leave [lapse, 1 - lapse], the best curve has that
-  // level below or above instead, which is among the others.
+  // If the free value at a threshold would leave [lapse, 1 - lapse], the best curve has that
+  // level below or above the threshold. Such curves are among the others.
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t num_below = 0; num_below <= levels.size(); ++num_below) {
     best = std::min(best, cost_with(num_below, false));
@@ -314,7 +320,8 @@ double flat_limit_cost(const PsychometricLevels& levels, PsychometricMethod meth
   double lapse = free_lapse ? std::min(zero.mean(), 0.5) : 0.0;
   double f = free_pse ? rest.mean() : 0.5;
   if (free_pse && lapse > std::min(f, 1.0 - f)) {
-    // The lapse may not pass f or 1 - f: at best they are equal, all levels in one pool.
+    // The lapse rate may not exceed f or 1 - f. At best they are equal, which puts all levels
+    // into one pool.
     const double pooled = zero.yes + (f < 0.5 ? rest.yes : rest.total - rest.yes);
     lapse = std::min(pooled / (zero.total + rest.total), 0.5);
     f = f < 0.5 ? lapse : 1.0 - lapse;

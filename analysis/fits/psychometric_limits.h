@@ -4,21 +4,21 @@
 
 namespace jnd::analysis {
 
-/// Infimum of the cost over curves of infinite slope: the lower of their ends below a
-/// threshold, the upper above it, anything between at it. The threshold is the reference (F =
-/// 0.5 there), or, with the pse free, any level. Infinite where no such curve gives the
-/// answers.
+/// The infimum of the cost over curves of infinite slope. Such a curve is at its lower end
+/// below a threshold, at its upper end above it, and anywhere between at the threshold. With a
+/// free pse the threshold may be any level. Otherwise it is the reference, where F = 0.5. The
+/// infimum is infinite if no such curve can give the answers.
 [[nodiscard]] double step_limit_cost(const PsychometricLevels& levels,
                                      PsychometricMethod method, bool free_pse, bool free_lapse);
 
-/// Infimum of the cost as the slope goes to 0: F = 0.5, or with the pse free any constant; at
-/// intensity 0 f stays at its lower end.
+/// The infimum of the cost as the slope goes to 0. F is then 0.5 or, with a free pse, any
+/// constant. At intensity 0, f stays at its lower end.
 [[nodiscard]] double flat_limit_cost(const PsychometricLevels& levels,
                                      PsychometricMethod method, bool free_pse, bool free_lapse);
 
-/// The lapse, from 0 to its limit, that is best for given F(z) at each level, and its cost. The
-/// cost is convex in the lapse. With a guess rate that is free, nearly the best of both, a
-/// little off their bounds. `lower_tail` has levels.size() entries.
+/// The lapse rate from 0 to its limit that is best for given F(z) at each level, and its cost.
+/// The cost is convex in the lapse rate. If the guess rate is free, the result is nearly the
+/// best pair of rates, a little inside their bounds. `lower_tail` has levels.size() entries.
 struct BestLapse {
   double lapse, cost, guess;
 };

@@ -12,25 +12,25 @@ namespace {
 
 using enum PsychometricMethod;
 
-/// ln(x / origin), keeping the relative accuracy of a small difference.
+/// ln(x / origin). A small difference keeps its relative accuracy.
 double log_ratio(double x, double origin) {
   const double difference = x - origin;
   if (std::fabs(difference) < 0.5 * origin) return std::log1p(difference / origin);
   return std::log(x) - std::log(origin);
 }
 
-/// Contribution of one level and its derivatives in z, lapse and a guess rate that is free.
+/// The cost of one level and its derivatives by z, the lapse rate and a free guess rate.
 struct LevelCost {
   double value, z, lapse, zz, z_lapse, lapse_lapse;
   double guess = 0.0, z_guess = 0.0, lapse_guess = 0.0, guess_guess = 0.0;
 };
 
-/// Where the curve underflows a guess rate of 0 has no finite derivative: any large one will
-/// do.
+/// Where the curve underflows, the derivative by a guess rate of 0 is infinite. Any large
+/// number can replace it.
 constexpr double kLargestShare = 1e100;
 
-/// k ln f + (n-k) ln(1-f), negated. Where f falls to 0 or rises to 1, by log tails, which do
-/// not underflow.
+/// Minus (k ln f + (n-k) ln(1-f)). Where f falls to 0 or rises to 1 the function uses log
+/// tails, which do not underflow.
 LevelCost minus_log_likelihood(const PsychometricLevels& levels, double yes, double no,
                                double z, double lapse, double guess) noexcept {
   const PsychometricEnds& ends = levels.ends;
@@ -50,7 +50,7 @@ LevelCost minus_log_likelihood(const PsychometricLevels& levels, double yes, dou
     g_z = to_one ? tails.mills_upper : rise * tails.mills_upper * tails.upper / g;
     f_lapse = by_lapse / f;
     g_lapse = by_lapse / g;
-    // The upper end alone moves f in proportion to f.
+    // A lapse at the upper end alone scales f.
     if (from_zero && !ends.symmetric) f_lapse = -1.0 / rise;
   } else {
     const SigmoidTails tails = sigmoid_tails(levels.sigmoid, z);
@@ -65,7 +65,7 @@ LevelCost minus_log_likelihood(const PsychometricLevels& levels, double yes, dou
     f_lapse = ends.by_lapse(tails.lower, tails.upper) / f;
     g_lapse = ends.by_lapse(tails.lower, tails.upper) / g;
   }
-  // A zero count contributes nothing, even where its logarithm is infinite.
+  // A count of 0 contributes nothing, even if its logarithm is infinite.
   const double shrinking = ends.lapse_share() / rise;
   LevelCost cost{};
   if (yes > 0.0) {
@@ -85,7 +85,7 @@ LevelCost minus_log_likelihood(const PsychometricLevels& levels, double yes, dou
     cost.lapse_lapse += no * g_lapse * g_lapse;
   }
   if (!ends.free_guess) return cost;
-  // Like the lapse rate's, with df / dguess = 1 - F.
+  // These derivatives are like those by the lapse rate, with df / dguess = 1 - F.
   const double f_guess = std::min(upper / f, kLargestShare);
   const double g_guess = to_one ? 1.0 / rise : upper / g;
   if (yes > 0.0) {
@@ -119,7 +119,7 @@ LevelCost squared_residual(const PsychometricLevels& levels, double proportion, 
           .lapse_lapse = 2.0 * f_lapse * f_lapse};
 }
 
-/// Cost of the level at intensity 0, where f is at its lower end whatever the slope.
+/// The cost of the level at intensity 0, where f is at its lower end for every slope.
 LevelCost cost_at_zero(const PsychometricLevels& levels, PsychometricMethod method,
                        double lapse, double guess) noexcept {
   LevelCost cost{};
@@ -218,7 +218,8 @@ PsychometricLevels pooled(const std::vector<AnswerCount>& data, const Psychometr
   }
   counts.resize(num_levels);
   levels.origin = how.reference;
-  // A level in the middle, so that nothing cancels however far off the reference is.
+  // The origin is a level in the middle, so that nothing cancels however far away the reference
+  // is.
   if (how.free_pse && num_levels > 0) levels.origin = counts[num_levels / 2].intensity;
   double largest = 0.0;
   for (const Count& count : counts) {

@@ -13,19 +13,20 @@ namespace jnd::analysis {
 namespace {
 
 constexpr int kMaxSteps = 500;
-constexpr double kRateScale = 0.1;  ///< A step of a rate as large as one of ln slope.
+/// A step of this size in a rate counts as much as a step of 1 in ln slope.
+constexpr double kRateScale = 0.1;
 constexpr double kLargestRadius = 1e3;
-/// Newton's last step is at most this, so that the error left is about its square.
+/// Newton's last step is at most this large, so the remaining error is about its square.
 constexpr double kSmallStep = 1e-8;
 
-/// So many parameters may move: with `kSize` 3 the guess rate is known.
+/// The number of parameters that may move. With `kSize` 3 the guess rate is known.
 template <int kSize>
 using Steps = Eigen::Matrix<double, kSize, 1>;
 template <int kSize>
 using Curvatures = Eigen::Matrix<double, kSize, kSize>;
 
-/// The cost about one curve in steps of like size: of ln slope, z, and rates / 0.1. Parameters
-/// that do not move have no gradient and curvature 1.
+/// The cost near one curve, in steps of similar size: of ln slope, of z, and of rates divided
+/// by 0.1. Parameters that do not move have gradient 0 and curvature 1.
 template <int kSize>
 struct ScaledCost {
   Steps<kSize> scale, gradient;
@@ -52,9 +53,10 @@ ScaledCost<kSize> scaled(const PsychometricCurve& curve, const Steps<kSize>& gra
   return here;
 }
 
-/// Newton's step where the Hessian is positive definite and the step within the radius;
-/// otherwise, in the Hessian's own axes, by the magnitude of each curvature, damped until it is
-/// within: downhill along every axis.
+/// Newton's step if the Hessian is positive definite and the step is within the radius.
+/// Otherwise the step is taken in the Hessian's own axes, divided by the magnitude of each
+/// curvature, and damped until it is within the radius. It then leads downhill along every
+/// axis.
 template <int kSize>
 Steps<kSize> trusted_step(const ScaledCost<kSize>& here, double radius) noexcept {
   const Eigen::LLT<Curvatures<kSize>> cholesky(here.hessian);
@@ -68,7 +70,8 @@ Steps<kSize> trusted_step(const ScaledCost<kSize>& here, double radius) noexcept
   const auto damped = [&](double damping) -> Steps<kSize> {
     return -along.cwiseQuotient((curvature.array() + damping).matrix());
   };
-  double low = 0.0, high = along.norm() / radius;  // Within the radius at `high`.
+  // With the damping `high` the step is within the radius.
+  double low = 0.0, high = along.norm() / radius;
   if (!(damped(low).norm() <= radius)) {
     for (int halving = 0; halving < 20; ++halving) {
       const double middle =
@@ -80,7 +83,8 @@ Steps<kSize> trusted_step(const ScaledCost<kSize>& here, double radius) noexcept
   return eigen.eigenvectors() * damped(low);
 }
 
-/// Slope > 0: at most five times more or less in one step.
+/// The fraction of a step that keeps the slope > 0. One step changes it by a factor of at most
+/// five.
 double feasible_fraction(double step_of_slope) noexcept {
   if (step_of_slope > 4.0) return 4.0 / step_of_slope;
   if (step_of_slope < -0.8) return -0.8 / step_of_slope;
@@ -102,20 +106,20 @@ PsychometricOptimum minimised(const PsychometricLevels& levels, PsychometricMeth
     const Curvatures<kSize> hessian = best.cost.hessian.template topLeftCorner<kSize, kSize>();
     FreeParameters moving = free;
     for (std::size_t rate = 2; rate < kSize; ++rate) {
-      // On a bound that the cost presses against, a rate stays.
+      // A rate stays on its bound if the cost presses against it.
       const double by_rate = gradient(static_cast<int>(rate));
       if (at[rate] <= 0.0 && by_rate >= 0.0) moving[rate] = false;
       if (at[rate] >= largest[rate] && by_rate <= 0.0) moving[rate] = false;
     }
     ScaledCost<kSize> here = scaled<kSize>(curve, gradient, hessian, moving);
     Steps<kSize> step = trusted_step<kSize>(here, radius);
-    std::array<double, 4> onto = {};  // What the rates that meet a bound go by.
+    std::array<double, 4> onto = {};  // How far the rates that meet a bound move.
     std::array<bool, 4> onto_bound = {};
     for (std::size_t rate = kSize - 1; rate >= 2; --rate) {
       const int place = static_cast<int>(rate);
       const double wanted = at[rate] + step(place) * kRateScale;
       if (!moving[rate] || (wanted >= 0.0 && wanted <= largest[rate])) continue;
-      // Go onto the bound, and with the others to where they are best there.
+      // Move this rate onto its bound, and the others to where they are best then.
       onto_bound[rate] = true;
       onto[rate] = std::clamp(wanted, 0.0, largest[rate]) - at[rate];
       gradient += hessian.col(place) * onto[rate];
@@ -143,7 +147,7 @@ PsychometricOptimum minimised(const PsychometricLevels& levels, PsychometricMeth
     const double gain = best.cost.value - cost.value;
     const double expected = -(change.dot(best.cost.gradient.template head<kSize>()) +
                               0.5 * change.dot(hessian * change));
-    // Rounding of the cost must not stop the last, small steps; the root is for that of small
+    // Rounding of the cost must not stop the last small steps. The root accounts for small
     // residuals, which are differences of numbers near 1.
     const double here_cost = std::fabs(best.cost.value);
     const double rounding = 1e-14 * here_cost + 1e-15 * std::sqrt(here_cost) + 1e-30;
@@ -166,7 +170,7 @@ PsychometricOptimum minimised(const PsychometricLevels& levels, PsychometricMeth
       radius = 0.25 * step.norm();
     }
     if (radius < 1e-12) {
-      // Rounding hides what is left to gain: that is as close as the cost can tell.
+      // Rounding hides what is left to gain, so the cost cannot tell a better curve.
       best.converged = std::fabs(expected) <= 10.0 * rounding;
       return best;
     }
@@ -174,9 +178,9 @@ PsychometricOptimum minimised(const PsychometricLevels& levels, PsychometricMeth
   return best;
 }
 
-/// Without lapses and guesses minus the log-likelihood is convex in slope and offset, and
-/// Newton's method needs nothing of the above near its minimum: its gradient is 0 nowhere else.
-/// Absent where the steps do not get smaller at once.
+/// The minimum of minus the log-likelihood without lapses and guesses, which is convex in slope
+/// and offset. Its gradient is 0 only at the minimum, so plain Newton steps suffice near it.
+/// The result is absent if the steps do not shrink at once.
 std::optional<PsychometricCurve> convex_minimum(const PsychometricLevels& levels, bool free_pse,
                                                 const PsychometricCurve& start) noexcept {
   constexpr int kMostSteps = 20;

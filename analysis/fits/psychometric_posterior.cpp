@@ -15,21 +15,21 @@ namespace jnd::analysis {
 namespace {
 
 using core::kInfinity;
-constexpr double kTail = 0.025;  ///< On either side of an interval.
+constexpr double kTail = 0.025;  ///< The probability on either side of an interval.
 
 using Axis = PosteriorAxis;
 using Axes = PosteriorGrid::Axes;
 using Marginals = std::array<std::vector<double>, 4>;
 constexpr std::size_t kNumAxes = 4;
 
-/// Where the priors are not 0.
+/// The ranges where the priors are not 0.
 Axes prior_axes(const PsychometricLevels& levels, const FreeParameters& free) {
   const double range =
       free[1] ? levels.abscissa.back() - levels.abscissa.front()
               : std::max(std::fabs(levels.abscissa.front()), std::fabs(levels.abscissa.back()));
   const double gap = levels.smallest_gap(free[1]);
   Axes axes;
-  // Two rates leave fewer values for each parameter.
+  // If both rates are free, each parameter gets fewer values.
   const bool both = free[2] && free[3];
   axes[0] = {std::log(gap / 4.0), std::log(4.0 * range),
              both                 ? 51U
@@ -62,14 +62,16 @@ double log_likelihood_of(const PsychometricLevels& levels, const std::vector<dou
          term(levels.zero_trials - levels.zero_yes, 1.0 - low);
 }
 
-/// Posterior over the grid, up to a factor: slope, place, lapse, guess, the last fastest.
-/// ln density of a rate's prior; where the rate is known it has none to speak of.
+/// The logarithm of a rate's prior density, up to a constant. It is the same at every point of
+/// the grid if the rate is known.
 double log_prior_of(const Axis& axis, double rate, const BetaPrior& prior) {
   const double attentive = (prior.b - 1.0) * std::log1p(-rate);
   const bool has_more = axis.size > 1 && prior.a > 1.0;
   return has_more ? attentive + (prior.a - 1.0) * std::log(rate) : attentive;
 }
 
+/// The posterior over the grid, up to a factor, in the order slope, place, lapse, guess. The
+/// last one varies fastest.
 std::vector<double> density_over(const PsychometricLevels& levels, const Axes& axes,
                                  const BetaPrior& rates) {
   std::vector<double> density;
@@ -101,7 +103,8 @@ std::vector<double> density_over(const PsychometricLevels& levels, const Axes& a
   return density;
 }
 
-/// Calls `visit(at, density)` for every point of the grid, `at` being its places on the axes.
+/// Calls `visit(at, density)` for every point of the grid. `at` holds the point's indices on
+/// the axes.
 template <typename Visit>
 void over_grid(const Axes& axes, const std::vector<double>& density, const Visit& visit) {
   std::size_t place = 0;
@@ -116,7 +119,7 @@ void over_grid(const Axes& axes, const std::vector<double>& density, const Visit
   }
 }
 
-/// Weight of a point of the grid, over all axes but those that are named.
+/// The weight of a point of the grid over all axes except those that are named.
 double weight_but(const Axes& axes, const std::array<std::size_t, kNumAxes>& at,
                   std::size_t but, std::size_t but_too = kNumAxes) {
   double weight = 1.0;
@@ -126,7 +129,7 @@ double weight_but(const Axes& axes, const std::array<std::size_t, kNumAxes>& at,
   return weight;
 }
 
-/// Integrated over all but one parameter, for each.
+/// The marginal of each parameter: the posterior integrated over all others.
 Marginals marginals_of(const Axes& axes, const std::vector<double>& density) {
   Marginals marginals;
   for (std::size_t axis = 0; axis < kNumAxes; ++axis) {
@@ -140,8 +143,9 @@ Marginals marginals_of(const Axes& axes, const std::vector<double>& density) {
   return marginals;
 }
 
-/// Over the intensity itself w is spread / pse: its distribution is that of ln spread, shifted
-/// by ln pse, over all places. A pse that is not > 0 counts as w without bound.
+/// The distribution of the Weber fraction over the intensity itself, w = spread / pse. It is
+/// the distribution of ln spread, shifted by ln pse, over all places. A pse that is not > 0
+/// counts as an infinite w.
 class LinearFraction {
  public:
   LinearFraction(const PsychometricLevels& levels, const Axes& axes,
@@ -217,15 +221,16 @@ std::string words_of_priors(const PsychometricLevels& levels, const FreeParamete
   return words;
 }
 
-/// Mass that a wider prior would add below and above the medians, over all that it has now.
+/// The mass that a wider prior would add below and above the medians, divided by the present
+/// mass.
 struct MassBeyond {
   double fraction_low = 0.0, fraction_high = 0.0, pse_low = 0.0, pse_high = 0.0;
 };
 
-/// At each end of each prior: what would lie beyond it, within as far as the interval's end
-/// lies from the median, and on which sides of the medians it would lie, as the answers have it
-/// at that end. A lapse rate of 0, or one that leaves no curve, is no end of the prior's
-/// making.
+/// For each end of each prior it estimates the mass that would lie beyond it, up to the
+/// distance from the median to the end of the interval. It also finds on which side of each
+/// median that mass would lie. A lapse rate of 0, or one that leaves no curve, is a natural end
+/// and not one of the prior.
 MassBeyond beyond_the_prior(const PsychometricLevels& levels, const Axes& prior,
                             const Axes& axes, const std::vector<double>& density,
                             const Marginals& marginals,
@@ -266,7 +271,7 @@ MassBeyond beyond_the_prior(const PsychometricLevels& levels, const Axes& prior,
   return all;
 }
 
-/// Opens the ends that the prior has made: where more would lie beyond it than in the
+/// Opens the ends that the prior has caused: those beyond which more mass would lie than in the
 /// interval's own tail.
 void open_ends(PsychometricPosterior& posterior, const MassBeyond& beyond) {
   const auto opened = [](Interval& ends, double low, double high) {

@@ -12,41 +12,45 @@
 
 namespace jnd::analysis {
 
-/// The posterior over a grid that has narrowed to where it is, for any number that a curve has.
+/// The posterior on a grid that has been narrowed to where it is not negligible. It yields the
+/// distribution of any number that a curve has.
 struct PosteriorGrid {
   using Axes =
-      std::array<PosteriorAxis, 4>;  ///< ln(1 / slope), place of the pse, lapse, guess.
-  std::string reason;                ///< Why there is none; "" if there is.
-  std::string priors;                ///< In words.
-  Axes prior, axes;             ///< Where the priors are not 0, and where the posterior is.
-  std::vector<double> density;  ///< Up to a factor, the last axis fastest.
+      /// The axes are ln(1 / slope), the place of the pse, lapse rate and guess rate.
+      std::array<PosteriorAxis, 4>;
+  std::string reason;  ///< Why there is no posterior; "" if there is one.
+  std::string priors;  ///< The priors in words.
+  /// The range where the priors are not 0, and the range where the posterior is not negligible.
+  Axes prior, axes;
+  std::vector<double> density;  ///< The density up to a factor; the last axis varies fastest.
   std::array<std::vector<double>, 4> marginals;
 
-  /// Median, and the ends of the central 95 %, of a number of the curve: the grid's points by
-  /// their mass. NaN where no point has the number.
+  /// The median and the ends of the central 95 % of a number of the curve, from the masses of
+  /// the grid's points. They are NaN if no point has the number.
   [[nodiscard]] std::array<double, 3> quantiles(
       const std::function<double(const PsychometricCurve&)>& value_of) const;
 };
 
-/// With the priors that `posterior_on_grid` says; a free guess rate has the lapse rate's,
-/// `rates`.
+/// Computes the posterior with the priors of `posterior_on_grid`. A free guess rate has the
+/// same prior as the lapse rate, `rates`.
 [[nodiscard]] PosteriorGrid posterior_grid(const PsychometricLevels& levels,
                                            const FreeParameters& free,
                                            const BetaPrior& rates = kUsualRatePrior);
 
-/// Bayesian estimate on a grid that narrows to where the posterior is. Priors, in words in the
-/// result: ln of the curve's spread uniform from a quarter of the smallest step between levels
-/// to four times their range; a free pse uniform from half a range below the levels to half a
-/// range above, on the family's abscissa; a free lapse rate `rates`, below 0.5. They know
-/// the stimuli and no result. A value exists even where maximum likelihood has none; it then
-/// rests on the prior, which `note` says. An end of an interval is open where a wider prior, of
-/// any parameter, would put more beyond it than the interval's own tail of 2.5 %
-/// (`mass_beyond`). Throws nothing; `degenerate` without two levels.
+/// The Bayesian estimate on a grid that narrows to where the posterior is. The priors, which
+/// the result describes in words, are: ln of the curve's spread is uniform from a quarter of
+/// the smallest step between levels to four times their range. A free pse is uniform from half
+/// a range below the levels to half a range above them, on the family's abscissa. A free lapse
+/// rate has the prior `rates` below 0.5. The priors depend on the stimuli but not on the
+/// answers. An estimate exists even if maximum likelihood has none. It then rests on the prior,
+/// and `note` says so. An end of an interval is open if a wider prior of any parameter would
+/// put more mass beyond it than the interval's own tail of 2.5 % (`mass_beyond`). Throws
+/// nothing. The status is `degenerate` if there are fewer than two levels.
 [[nodiscard]] PsychometricPosterior posterior_on_grid(const PsychometricLevels& levels,
                                                       const FreeParameters& free,
                                                       const BetaPrior& rates = kUsualRatePrior);
 
-/// The medians with the prior of the rates at `kOtherPriorWeights`.
+/// The medians with the rates' prior at each of `kOtherPriorWeights`.
 [[nodiscard]] std::vector<PosteriorPriorEffect> posterior_prior_effects(
     const PsychometricLevels& levels, const FreeParameters& free, const BetaPrior& rates);
 

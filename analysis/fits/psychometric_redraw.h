@@ -9,8 +9,8 @@
 
 namespace jnd::analysis {
 
-/// Draws from a binomial distribution by inverting its cumulative distribution, tabulated where
-/// it is not negligible.
+/// Draws from a binomial distribution by inverting its cumulative distribution, which is
+/// tabulated where it is not negligible.
 class BinomialTable {
  public:
   /// `num_trials` >= 0, `probability` in [0, 1].
@@ -22,34 +22,35 @@ class BinomialTable {
   std::vector<double> cumulative_;
 };
 
-/// Draws the answers at each level anew, each level with as many trials as it has.
+/// Redraws the answers at each level. The numbers of trials stay the same.
 class AnswerRedraw {
  public:
-  /// From a curve, as the parametric bootstrap and the goodness of fit do.
+  /// Redraws from a curve, as the parametric bootstrap and the goodness of fit do.
   AnswerRedraw(const PsychometricLevels& levels, const PsychometricCurve& curve);
-  /// From the answers themselves, with replacement: the nonparametric bootstrap, stratified by
-  /// level.
+  /// Redraws from the answers themselves, with replacement. This is the nonparametric
+  /// bootstrap, stratified by level.
   explicit AnswerRedraw(const PsychometricLevels& levels);
 
-  /// Replaces the answers of `levels`, which are those of the constructor.
+  /// Replaces the answers of `levels`, which must be the levels of the constructor.
   void draw(core::RandomStream& random, PsychometricLevels& levels) const noexcept;
 
  private:
-  std::vector<BinomialTable> tables_;  ///< One a level, then that of intensity 0.
+  std::vector<BinomialTable> tables_;  ///< One table for each level, then one for intensity 0.
 };
 
-/// Gives every set of answers that can be drawn a number of its own: few answers are often
-/// drawn alike, and what was found of them is then known.
+/// Gives each possible set of answers a unique number. Few answers are often redrawn alike, and
+/// their result is then known already.
 class AnswerNumbering {
  public:
   explicit AnswerNumbering(const std::vector<double>& num_trials);
 
-  /// Absent where there are more sets than numbers: those are never drawn twice.
+  /// The number is absent if there are more sets than numbers. Such sets are hardly ever drawn
+  /// twice.
   [[nodiscard]] std::optional<std::uint64_t> of(
       const std::vector<double>& num_yes) const noexcept;
 
  private:
-  std::vector<std::uint64_t> places_;  ///< What a yes at each level counts.
+  std::vector<std::uint64_t> places_;  ///< How much a yes at each level adds to the number.
   bool has_numbers_ = true;
 };
 

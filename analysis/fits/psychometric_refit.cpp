@@ -6,12 +6,12 @@
 namespace jnd::analysis {
 namespace {
 
-/// So far off its bound a rate is held, so that no answer is impossible.
+/// Rates are held this far off their bounds, so that no answer is impossible.
 constexpr double kLeastRate = 0.01;
 constexpr std::size_t kMostStarts = 3;
-/// So far above a minimum that was found, in units of the log-likelihood, a start of the grid
-/// is not worth a descent. Of 21,000 redraws of 21 fits one had a lower minimum that only such
-/// a start led to, by 0.24.
+/// A start of the grid is not worth a descent if it lies this far above a known minimum, in
+/// units of the log-likelihood. Among 21,000 redraws of 21 fits, one had a lower minimum (by
+/// 0.24) that only such a start led to.
 constexpr double kWorthADescent = 20.0;
 
 }  // namespace
@@ -31,7 +31,7 @@ PsychometricRefit::PsychometricRefit(const PsychometricSearch& search,
 
 PsychometricSearchResult PsychometricRefit::find(const PsychometricLevels& redrawn) const {
   if (!grid_) return search_.find(redrawn, minimised_by_newton, &fitted_);
-  PsychometricCurve near = between_;  // From a bound no descent may lead away.
+  PsychometricCurve near = between_;  // A descent that starts on a bound may not leave it.
   near.slope = fitted_.slope;
   near.offset = fitted_.offset;
   const PsychometricSearchResult first = search_.find_from(redrawn, {near});

@@ -8,14 +8,14 @@
 
 namespace jnd::analysis {
 
-/// Fits answers drawn anew on the levels of a fit, as bootstraps do: some ten microseconds
-/// each, also with lapses and guesses. Where there can be several minima Newton's method starts
-/// from the fitted curve, and from those of the lowest of a wide grid, between the fitted ends,
-/// that are not far less likely than the minimum it leads to; from all of them where it leads
-/// to none.
+/// Fits redrawn answers on the levels of a fit, as bootstraps do. It takes some ten
+/// microseconds each, also with lapses and guesses. If there can be several minima, Newton's
+/// method starts from the fitted curve and from the lowest curves of a wide grid between the
+/// fitted ends. It skips those that are far less likely than the minimum found from the fitted
+/// curve. If that start leads to no minimum it uses all of them.
 class PsychometricRefit {
  public:
-  /// Keeps a reference to `search`; `levels` is read for its intensities and ends.
+  /// Keeps a reference to `search`. Only the intensities and ends of `levels` are read.
   PsychometricRefit(const PsychometricSearch& search, const PsychometricLevels& levels,
                     const PsychometricCurve& fitted);
 
@@ -23,17 +23,19 @@ class PsychometricRefit {
 
  private:
   const PsychometricSearch& search_;
-  PsychometricCurve fitted_, between_;  ///< The latter a little off the bounds of the rates.
+  /// `between_` is the fitted curve with its rates a little off their bounds.
+  PsychometricCurve fitted_, between_;
   std::optional<PsychometricGrid> grid_;
   std::vector<double> logs_;
 };
 
-/// Weber fractions as of `fit_psychometric` by least squares, the pse at the reference, of
-/// answers that are drawn anew over and over: the grid that the search starts from is kept as
-/// long as the levels stay the same.
+/// Weber fractions by least squares, with the pse at the reference, of answers that are redrawn
+/// many times. It keeps the grid from which the search starts as long as the levels stay the
+/// same.
 class LeastSquaresFractions {
  public:
-  /// Absent where there is none. Throws `core::Error` as `fit_psychometric`.
+  /// The fraction is absent if there is no optimum. Throws `core::Error` as `fit_psychometric`
+  /// does.
   [[nodiscard]] std::optional<double> of(const std::vector<AnswerCount>& rows,
                                          double reference);
 

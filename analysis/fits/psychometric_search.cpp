@@ -15,11 +15,11 @@ namespace {
 using enum PsychometricMethod;
 constexpr std::string_view kRidge = "not identified: many curves fit equally well";
 
-/// What rounding may make of a cost. The root is for small residuals, which are differences of
-/// numbers near 1.
+/// The error that rounding may cause in a cost. The root accounts for small residuals, which
+/// are differences of numbers near 1.
 double rounding(double cost) noexcept { return 1e-13 * cost + 1e-15 * std::sqrt(cost) + 1e-26; }
 
-/// Newton's first step from slope 0: close to the optimum unless the answers are nearly
+/// Newton's first step from slope 0. It is close to the optimum unless the answers are nearly
 /// separated.
 PsychometricCurve concave_start(const PsychometricLevels& levels, bool free_pse) noexcept {
   double yes = 0.0, trials = 0.0, moment = 0.0;
@@ -40,7 +40,8 @@ PsychometricCurve concave_start(const PsychometricLevels& levels, bool free_pse)
   return {slope, z - slope * mean, 0.0};
 }
 
-/// Whether the Hessian tells the moving parameters apart: by its scaled smallest eigenvalue.
+/// Whether the moving parameters cannot be told apart, judged by the smallest eigenvalue of the
+/// scaled Hessian.
 template <int kSize>
 bool is_ridge(const PsychometricOptimum& optimum, const FreeParameters& free) {
   using Square = Eigen::Matrix<double, kSize, kSize>;
@@ -102,7 +103,7 @@ PsychometricOptimum PsychometricSearch::lowest_minimum(
   const double lowest = scouts.front().reached.cost.value;
   const auto consider = [&](const PsychometricCurve& start) {
     const PsychometricOptimum found = descent(levels, method_, free_, start);
-    // Of descents that end equally low, one that came to rest.
+    // Among descents that end equally low, one that converged is preferred.
     const double lead = best.cost.value - found.cost.value;
     const double equal = rounding(found.cost.value);
     if (lead > equal || (lead >= -equal && found.converged && !best.converged)) best = found;

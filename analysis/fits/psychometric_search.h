@@ -17,28 +17,28 @@ struct PsychometricSearchResult {
   PsychometricOptimum optimum;
 };
 
-/// Finds the global optimum over one set of levels, for as many sets of answers as wanted: the
-/// grid that least squares, lapses and guesses start from is computed once.
+/// Finds the global optimum for any number of sets of answers over one set of levels. The grid
+/// from which least squares, lapses and guesses start is computed once.
 ///
-/// Maximum likelihood without lapses and guesses is concave, and whether its optimum exists is
-/// decided exactly from the counts. Otherwise the best stationary point is compared with the
-/// infimum at infinite slope and at slope 0, both known in closed form; a difference below
+/// Maximum likelihood without lapses and guesses is concave, and the counts decide exactly
+/// whether its optimum exists. Otherwise the best stationary point is compared with the infimum
+/// at infinite slope and at slope 0, which are both known in closed form. A difference below
 /// 1e-13 of the cost counts as none.
 class PsychometricSearch {
  public:
-  /// `levels` is read for its intensities, trials and ends only.
+  /// Only the intensities, trials and ends of `levels` are read.
   PsychometricSearch(const PsychometricLevels& levels, PsychometricMethod method, bool free_pse,
                      bool free_lapse);
 
-  /// `levels` as in the constructor, with answers of its own. From several starts Newton's
-  /// method first sees how low each leads; `descent` then goes from the most promising.
-  /// `near` is one more curve to start from.
+  /// `levels` are those of the constructor, with other answers. If there are several starts,
+  /// Newton's method first finds how low each one leads, and `descent` then runs from the most
+  /// promising ones. `near` is one more curve to start from.
   [[nodiscard]] PsychometricSearchResult find(const PsychometricLevels& levels,
                                               PsychometricDescent descent,
                                               const PsychometricCurve* near = nullptr) const;
 
-  /// By Newton's method from these curves alone, one or more: for answers drawn anew, whose
-  /// optimum is near one of them.
+  /// Runs Newton's method from these curves only, of which there is at least one. It is meant
+  /// for redrawn answers, whose optimum is near one of them.
   [[nodiscard]] PsychometricSearchResult find_from(
       const PsychometricLevels& levels, const std::vector<PsychometricCurve>& starts) const;
 
@@ -60,7 +60,7 @@ class PsychometricSearch {
   PsychometricMethod method_;
   bool free_pse_, free_lapse_;
   FreeParameters free_;
-  std::optional<PsychometricGrid> grid_;  ///< Absent where one start will do.
+  std::optional<PsychometricGrid> grid_;  ///< The grid is absent if one start suffices.
 };
 
 }  // namespace jnd::analysis

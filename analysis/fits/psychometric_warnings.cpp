@@ -14,7 +14,7 @@ namespace {
 
 using enum PsychometricMethod;
 
-/// Whether such a p value is one in a hundred, or less.
+/// Whether the p value exists and is below `kScatterBelow`, one in a hundred.
 bool is_far_off(const std::optional<double>& p_value) {
   return p_value && *p_value < kScatterBelow;
 }
@@ -25,7 +25,8 @@ std::string rounded(double value) {
   return text;
 }
 
-/// The option that frees the lapse rate, where the answers are near a curve with one; else "".
+/// Advice to free the lapse rate if the answers are close to a curve with a free one; ""
+/// otherwise.
 std::string advice_of_lapses(const PsychometricFit& fit, const PsychometricLevels& levels,
                              const PsychometricOptions& options, bool free_pse) {
   if (options.free_lapse || !fit.deviance) return "";
@@ -45,7 +46,7 @@ std::string advice_of_lapses(const PsychometricFit& fit, const PsychometricLevel
          "): " + (with_lapses.ends.symmetric ? "--free lapse" : "--lapse free");
 }
 
-/// What to do about answers that lie far from the curve.
+/// Advice on answers that lie far from the curve.
 std::string advice_of_scatter(const PsychometricFit& fit, const PsychometricLevels& levels,
                               const PsychometricOptions& options, bool free_pse) {
   if (!options.advice) return "";
@@ -56,14 +57,14 @@ std::string advice_of_scatter(const PsychometricFit& fit, const PsychometricLeve
          "the answers scatter";
 }
 
-/// A curve with lapses that the answers bear.
+/// A curve with lapses that is compatible with the answers.
 struct WithLapses {
   double lapse_rate = 0.0, weber_fraction = 0.0;
 };
 
-/// The most likely lapse rate where the answers are for one (2.71: one-sided, 5 %), else three
-/// in a hundred where they are not against it (1.92: 95 %). Answers are independent in all of
-/// these curves.
+/// The curve with the most likely lapse rate if the answers speak for one (2.71: one-sided,
+/// 5 %). Otherwise the curve with a lapse rate of 3 % if the answers do not speak against it
+/// (1.92: 95 %). Answers are assumed to be independent.
 std::optional<WithLapses> with_lapses(const PsychometricFit& fit,
                                       const PsychometricLevels& levels, bool free_pse) {
   constexpr double kForLapses = 2.71, kNotAgainst = 1.92, kSomeLapses = 0.03;
@@ -87,13 +88,13 @@ std::optional<WithLapses> with_lapses(const PsychometricFit& fit,
   return std::nullopt;
 }
 
-/// Where no lapses are in the model, how much the Weber fraction hangs on that.
+/// If the model has no lapses, warns how strongly the Weber fraction depends on that.
 void add_doubt_of_lapses(PsychometricFit& fit, const PsychometricLevels& levels,
                          const PsychometricOptions& options, bool free_pse) {
   constexpr double kMuch = 0.2;
   if (!options.advice || options.method != kMaximumLikelihood || !fit.weber_fraction) return;
   if (options.free_lapse) {
-    constexpr double kManyLapses = 0.2;  // Of the answers, at random.
+    constexpr double kManyLapses = 0.2;  // The share of answers that are random.
     if (fit.lapse_rate.value_or(0.0) * (fit.symmetric_lapse ? 2.0 : 1.0) > kManyLapses) {
       fit.warnings.emplace_back(
           "more than one answer in five looks like a lapse: the answers hardly rise, and the "
@@ -133,7 +134,8 @@ void add_doubts(PsychometricFit& fit, const std::vector<AnswerCount>& data,
   }
 }
 
-/// What scatters between rows moves the curve as well, and no wider interval mends that.
+/// Warns about scatter between rows. It moves the curve itself, and a wider interval does not
+/// mend that.
 void add_scatter_of_rows(PsychometricFit& fit, const std::vector<AnswerCount>& data,
                          const PsychometricOptions& options) {
   if (!options.advice) return;
@@ -209,7 +211,7 @@ void add_psychometric_warnings(PsychometricFit& fit, const std::vector<AnswerCou
   }
   add_doubts(fit, data, levels);
   add_doubt_of_lapses(fit, levels, options, free_pse);
-  // Least squares does not seek the lowest deviance, and a simulated p goes before.
+  // Least squares does not minimise the deviance, and a simulated p value takes precedence.
   const bool other =
       fit.method == PsychometricMethod::kLeastSquares || fit.goodness.p_value.has_value();
   if (!other && binomial && is_far_off(fit.misfit_p_value)) {

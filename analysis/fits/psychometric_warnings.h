@@ -4,24 +4,25 @@
 
 namespace jnd::analysis {
 
-/// Adds what is known to make the intervals of a fit with a curve too narrow, and what its
-/// value rests on where that is less than it seems. With `advice` also the options that mend
-/// it, but for answers far from the curve that fall, which neither lapses nor scatter explain.
+/// Adds warnings about what makes the intervals of a fit too narrow, and about values that rest
+/// on less than they seem to. With `advice` they also name the options that help. They name
+/// none if answers lie far from the curve because they fall, since neither lapses nor scatter
+/// explain that.
 void add_psychometric_warnings(PsychometricFit& fit, const std::vector<AnswerCount>& data,
                                const PsychometricLevels& levels,
                                const PsychometricOptions& options, bool falls);
 
-/// Whether no level has so many answers.
+/// Whether every level has fewer than `num_trials` answers.
 [[nodiscard]] bool have_fewer_answers(const PsychometricLevels& levels, double num_trials);
 
-/// Below it bootstrap intervals are too narrow, and with a free pse those of the likelihood
-/// ratio, too.
+/// Below this number of answers at a level, bootstrap intervals are too narrow. With a free
+/// pse, likelihood-ratio intervals are too narrow as well.
 inline constexpr double kFewAnswers = 15.0;
-/// Below it a calibration widens those of the likelihood ratio.
+/// Below this number of answers at a level, a calibration widens likelihood-ratio intervals.
 inline constexpr double kCalibratedBelow = 30.0;
 
-/// Every answer is a yes, or every one a no: a curve through a pse that is assumed has a slope
-/// nevertheless, which says nothing of the person.
+/// Whether every answer is a yes, or every answer is a no. A curve through an assumed pse then
+/// still has a slope, but the slope says nothing about the person.
 [[nodiscard]] bool all_alike(const std::vector<AnswerCount>& data);
 inline constexpr char kAllAlike[] =
     "every answer is the same: the Weber fraction rests on the assumed pse alone";

@@ -11,16 +11,16 @@
 namespace jnd::analysis {
 namespace {
 
-/// Answers to one size of difference, to either side.
+/// The answers to one size of difference, in either direction.
 struct Pairs {
   double num_different = 0.0, num_trials = 0.0;
 };
-/// By |ln(x / reference)|.
+/// The answers by |ln(x / reference)|.
 using Differences = std::map<double, Pairs>;
 
 Differences differences_of(const std::vector<AnswerCount>& data, double reference) {
   core::require(reference > 0.0, "reference", "an intensity > 0", reference);
-  // Quotients that are each other's inverse but for rounding are one difference.
+  // Quotients that are each other's inverse, apart from rounding, are one difference.
   constexpr double kRounding = 1e-9;
   Differences differences;
   for (const AnswerCount& row : data) {
@@ -39,7 +39,7 @@ Differences differences_of(const std::vector<AnswerCount>& data, double referenc
   return differences;
 }
 
-/// Minus the log-likelihood in (ln s, ln (k / s)).
+/// Minus the log-likelihood as a function of (ln s, ln (k / s)).
 bool cost_at(const Differences& differences, std::span<const double> x, double& cost,
              std::span<double> gradient) {
   constexpr double kLargestLog = 300.0;
@@ -53,7 +53,7 @@ bool cost_at(const Differences& differences, std::span<const double> x, double& 
     const NormalTails over = normal_tails(-criterion + d);
     const NormalTails under = normal_tails(-criterion - d);
     const double p = over.lower + under.lower;
-    const double q = over.upper - under.lower;  // Phi(k - d) - Phi(-k - d), the smaller first.
+    const double q = over.upper - under.lower;  // q is Phi(k - d) - Phi(-k - d).
     const double yes = pairs.num_different;
     const double no = pairs.num_trials - yes;
     if ((yes > 0.0 && !(p > 0.0)) || (no > 0.0 && !(q > 0.0))) return false;
@@ -73,7 +73,8 @@ double largest_binomial_log(const Pairs& pairs) {
          (n > k ? (n - k) * std::log(1.0 - k / n) : 0.0);
 }
 
-/// No "different" below some size, none but those above it: any rate at the size itself.
+/// Whether nobody said "different" below some size and everybody did above it. At that size any
+/// rate may occur.
 bool is_separated(const Differences& differences) {
   auto at = differences.begin();
   while (at != differences.end() && at->second.num_different == 0.0) ++at;
@@ -154,7 +155,7 @@ SameDifferentFit fit_same_different(const std::vector<AnswerCount>& data, double
   const Interval spread_log = likelihood_ratio_interval(cost, optimum, from, 0, kFarthestLog);
   if (spread_log.low) fit.weber_fraction_ci95.low = std::expm1(std::exp(*spread_log.low));
   if (spread_log.high) fit.weber_fraction_ci95.high = std::expm1(std::exp(*spread_log.high));
-  // The criterion itself: ln k = ln s + ln (k / s) in place of the latter.
+  // This cost has ln k = ln s + ln (k / s) in place of ln (k / s).
   const SmoothCost by_criterion = [&](std::span<const double> x, double& value,
                                       std::span<double> gradient) {
     const std::vector<double> of_ratio = {x[0], x[1] - x[0]};

@@ -22,7 +22,7 @@ struct LeastSquares {
   bool at_edge = false;
 };
 
-/// The least value over a range: the best of a grid, then golden sections beside it.
+/// The least value over a range: the best point of a grid, refined by golden sections.
 LeastSquares least_over(const std::function<double(double)>& squares, double low, double high,
                         int num_steps) {
   const double width = (high - low) / num_steps;
@@ -56,9 +56,9 @@ LeastSquares least_over(const std::function<double(double)>& squares, double low
   return best;
 }
 
-/// Rows that can be fitted, and the squares that a law leaves of them. The shift is held by
-/// `u`: of a threshold the logarithm of how far below the smallest intensity it lies, so that
-/// it comes near without reaching it.
+/// The rows that can be fitted, and the sum of squares that a law leaves. `u` describes the
+/// shift. For a threshold it is the logarithm of its distance below the smallest intensity, so
+/// that the threshold comes near the intensity without reaching it.
 class Law {
  public:
   Law(std::vector<Magnitude> rows, PowerMethod method, PowerShift shift)
@@ -78,7 +78,7 @@ class Law {
     double k = 0.0, offset = 0.0, squares = kInfinite;
   };
 
-  /// With factor and offset as they are best, unless they are given; factors <= 0 are none.
+  /// The law with the best factor and offset, unless they are given. Factors <= 0 are rejected.
   [[nodiscard]] Linear linear(double a, double u, std::optional<double> k = {},
                               std::optional<double> offset = {}) const {
     const double threshold = shift_ == PowerShift::kThreshold ? threshold_at(u) : 0.0;
@@ -156,7 +156,7 @@ class Law {
   double smallest_ = kInfinite, largest_ = 0.0;
 };
 
-/// The least squares of a law some of whose parameters are held.
+/// The least sum of squares of a law with some parameters held.
 class Search {
  public:
   Search(const Law& law, PowerShift shift) : law_(law), shift_(shift) {}
@@ -166,7 +166,7 @@ class Search {
     return least_over([&](double a) { return law_.linear(a, u, k, offset).squares; },
                       kLowestExponent, kHighestExponent, 96);
   }
-  /// Over thresholds, each with what `squares` makes of it.
+  /// The least value of `squares` over all thresholds.
   [[nodiscard]] LeastSquares over_thresholds(
       const std::function<double(double)>& squares) const {
     return least_over(squares, law_.lowest_u(), law_.highest_u(), 48);
@@ -191,8 +191,8 @@ class Search {
   PowerShift shift_;
 };
 
-/// Where the squares first reach `most` on the way from the optimum to `limit`, by growing
-/// steps.
+/// The place where the squares first reach `most` on a walk with growing steps from the optimum
+/// to `limit`.
 std::optional<double> profile_end(const std::function<double(double)>& squares, double from,
                                   double first_step, double limit, double most) {
   const auto excess = [&](double at) {
@@ -228,7 +228,7 @@ void fill_intervals(ShiftedPowerFit& fit, const Law& law, const Search& search,
   const auto of_exponent = [&](double a) { return search.with_exponent(a); };
   fit.a_ci95 = {profile_end(of_exponent, *fit.a, 0.01, kLowestExponent, most),
                 profile_end(of_exponent, *fit.a, 0.01, kHighestExponent, most)};
-  // Along ln k, so that it stays above 0.
+  // The walk is along ln k, so k stays above 0.
   const auto of_factor = [&](double log_k) { return search.with_factor(std::exp(log_k)); };
   const double log_k = std::log(*fit.k);
   const auto factor = [](const std::optional<double>& end) {

@@ -10,13 +10,13 @@ namespace jnd::analysis {
 namespace {
 
 constexpr double kLn2 = std::numbers::ln2;
-/// ln ln 2: below z = -700, where e^z underflows, ln F is z plus this.
+/// ln ln 2. Below z = -700, where e^z underflows, ln F is z plus this.
 constexpr double kLnLn2 = -0.36651292058166432701;
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
 /// Phi(1)
 constexpr double kAtJnd = 0.84134474606854292578;
 
-/// 2^(-e^z) = e^-t.
+/// The exponent t for which 2^(-e^z) = e^-t.
 double exponent(double z) noexcept { return kLn2 * std::exp(z); }
 
 SigmoidTails gumbel_tails(double z) noexcept {
@@ -43,7 +43,7 @@ double log_logistic(double z) noexcept {
   return z < 0.0 ? z - std::log1p(std::exp(z)) : -std::log1p(std::exp(-z));
 }
 
-/// ln F of the hyperbolic secant, and F' / F; `a` is pi z / 2.
+/// ln F of the hyperbolic secant, with `a` = pi z / 2. `secant_mills` is F' / F.
 double log_secant(double a) noexcept {
   return a < -300.0 ? a - std::log(kHalfPi) : std::log(std::atan(std::exp(a)) / kHalfPi);
 }

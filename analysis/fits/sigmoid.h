@@ -2,17 +2,18 @@
 
 namespace jnd::analysis {
 
-/// The shapes of a psychometric function: F(z) rises from 0 to 1 and F(0) = 0.5.
+/// The shapes of a psychometric function. F(z) rises from 0 to 1, and F(0) = 0.5.
 enum class Sigmoid {
-  kNormal,   ///< Phi(z)
-  kWeibull,  ///< 1 - 2^(-e^z): with z = shape ln(x / median), Weibull's distribution of x; over
-             ///< x itself Gumbel's of the smallest of many.
+  kNormal,  ///< Phi(z)
+  /// 1 - 2^(-e^z). With z = shape ln(x / median) it is Weibull's distribution of x. Over x
+  /// itself it is Gumbel's distribution of the smallest of many.
+  kWeibull,
   kLogistic,          ///< 1 / (1 + e^-z)
   kReversedGumbel,    ///< 2^(-e^-z): Gumbel's distribution of the largest of many.
   kHyperbolicSecant,  ///< 2 / pi arctan(e^(pi z / 2))
 };
 
-/// Both tails at one z, neither computed as 1 - the other where that would cancel.
+/// Both tails at one z. Neither is computed as 1 minus the other where that would cancel.
 struct SigmoidTails {
   double density;       ///< F'(z)
   double lower, upper;  ///< F(z), 1 - F(z)
@@ -21,7 +22,7 @@ struct SigmoidTails {
 
 [[nodiscard]] SigmoidTails sigmoid_tails(Sigmoid sigmoid, double z) noexcept;
 
-/// With logarithms and ratios, which stay finite where the tails themselves underflow.
+/// Tails with their logarithms and ratios, which stay finite where the tails underflow.
 struct LogSigmoidTails {
   double lower, upper;
   double log_lower, log_upper;      ///< ln F(z), ln (1 - F(z))
@@ -31,10 +32,10 @@ struct LogSigmoidTails {
 
 [[nodiscard]] LogSigmoidTails log_sigmoid_tails(Sigmoid sigmoid, double z) noexcept;
 
-/// z at F(z) = probability, which is in (0, 1).
+/// The z at which F(z) = `probability`, which is in (0, 1).
 [[nodiscard]] double sigmoid_quantile(Sigmoid sigmoid, double probability) noexcept;
 
-/// z at F(z) = Phi(1) = 84.13 %, one just noticeable difference above the median.
+/// The z at which F(z) = Phi(1) = 84.13 %, one just noticeable difference above the median.
 [[nodiscard]] double sigmoid_jnd(Sigmoid sigmoid) noexcept;
 
 /// Beyond this |z| the tails are lost in rounding beside 1.

@@ -14,7 +14,7 @@ double corrected_rate(std::int64_t num_yes, std::int64_t num_trials) {
   return (static_cast<double>(num_yes) + 0.5) / (static_cast<double>(num_trials) + 1.0);
 }
 
-/// Variance of z of a rate among so many trials.
+/// The variance of z of a rate over `num_trials` trials.
 double variance_of_z(double rate, double z, double num_trials) {
   const double density = normal_tails(z).density;
   return rate * (1.0 - rate) / (num_trials * density * density);

@@ -8,7 +8,7 @@ struct TableKnot {
   double value, slope, bend;
 };
 
-/// Hermite's interpolation of fifth degree between two knots.
+/// Hermite interpolation of fifth degree between two knots.
 std::array<double, 6> polynomial_between(const TableKnot& low, const TableKnot& high) noexcept {
   const double rise = high.value - low.value - low.slope - 0.5 * low.bend;
   const double turn = high.slope - low.slope - low.bend;
@@ -33,7 +33,7 @@ void AnswerTable::fill(std::vector<Interval>& intervals, bool is_no, double laps
     const AnswerProbabilities here = answer_probabilities(
         z, lapse_rate, guess_rate, {.of_yes = !is_no, .of_no = is_no, .by_lapse = false});
     const double by_s = is_no ? here.by_z_no : here.by_z_yes;
-    // The density's own derivative is -z times it.
+    // The derivative of the normal density is -z times the density.
     const TableKnot next{.value = is_no ? here.log_no : here.log_yes,
                          .slope = kInterval * by_s,
                          .bend = -kInterval * kInterval * by_s * (s + by_s)};
@@ -54,7 +54,8 @@ void AnswerTable::set(double lapse_rate, double guess_rate) {
   of_yes_ = is_forced ? guess_rate : 1.0;
   of_no_ = is_forced ? 1.0 - guess_rate : 1.0;
   at_most_ = is_forced ? 1.0 : 2.0;
-  // Of no lapses nobody asks, as `answer_probabilities`.
+  // Without lapses nobody needs the derivatives by the lapse rate. They are then 0, as in
+  // `answer_probabilities`.
   per_share_ = lapse_rate == 0.0 ? 0.0
                : is_forced       ? 1.0 / (1.0 - guess_rate - lapse_rate)
                                  : 1.0 / (1.0 - 2.0 * lapse_rate);

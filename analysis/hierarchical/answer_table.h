@@ -9,27 +9,29 @@
 
 namespace jnd::analysis {
 
-/// `answer_probabilities` at one lapse rate and one guess rate, read off a table instead of
-/// computed.
+/// A table that gives the results of `answer_probabilities` at one lapse rate and one guess
+/// rate.
 ///
-/// A fit of hundreds of people asks for the same function of z hundreds of thousands of times
-/// before its lapse rate moves. The logarithms of both probabilities are polynomials of fifth
-/// degree between knots 1/64 apart, which share value, first and second derivative with the
-/// function at each knot. The error of a logarithm is below 1e-10 for every lapse rate, and the
+/// A fit of hundreds of people needs the same function of z hundreds of thousands of times
+/// before its lapse rate moves. The logarithms of both probabilities are stored as polynomials
+/// of fifth degree between knots 1/64 apart. They have the function's value, first and second
+/// derivative at each knot. The error of a logarithm is below 1e-10 for every lapse rate. The
 /// derivative by z is that of the polynomial, so a search sees one smooth function and its own
 /// slope. The derivatives by the lapse rate follow from the probability itself.
 ///
-/// Outside of |z| < 10 the function is computed.
+/// Outside |z| < 10 the function is computed directly.
 class AnswerTable {
  public:
-  /// Computes nothing if the table is of these rates already.
+  /// Fills the table. It does nothing if the table already has these rates.
   void set(double lapse_rate, double guess_rate);
 
-  /// As `answer_probabilities`; those by the lapse rate may be 0 where they are not wanted.
+  /// Does what `answer_probabilities` does. The derivatives by the lapse rate may be 0 if they
+  /// are not wanted.
   [[nodiscard]] AnswerProbabilities at(double z, AnswersWanted wanted) const noexcept;
 
-  /// Of one kind of answers: ln of its probability, the derivative by z of a yes and by -z of a
-  /// no, > 0, and that by the lapse rate. Without `kDerivatives` both are 0.
+  /// The values for one kind of answer: ln of its probability, its derivative by z for a yes or
+  /// by -z for a no, > 0, and its derivative by the lapse rate. Without `kDerivatives` both
+  /// derivatives are 0.
   struct Side {
     double log = 0.0, by_z = 0.0, by_lapse = 0.0;
   };
@@ -38,7 +40,7 @@ class AnswerTable {
     const double s = is_no ? -z : z;
     if (!(std::fabs(s) < kEnd)) return computed(is_no, z);
     const double place = (s + kEnd) * kKnotsPerUnit;
-    // Just below the upper end the sum may be rounded up onto it.
+    // Just below the upper end, rounding may move the sum onto the end.
     const int number = std::min(static_cast<int>(place), kNumIntervals - 1);
     const double t = place - number;
     const Interval* const intervals =
@@ -60,13 +62,15 @@ class AnswerTable {
  private:
   static constexpr double kEnd = 10.0, kKnotsPerUnit = 64.0;
   static constexpr int kNumIntervals = static_cast<int>(2.0 * kEnd * kKnotsPerUnit);
-  /// By the place within the interval, 0 to 1, the constant first. A line of the cache.
+  /// A polynomial in the place within the interval, 0 to 1, with the constant first. It fills
+  /// one line of the cache.
   struct alignas(64) Interval {
     std::array<double, 6> log;
-    double inverse = 0.0;  ///< Of the probability at the interval's lower end.
+    double inverse = 0.0;  ///< One over the probability at the interval's lower end.
   };
 
-  /// e^x of |x| <= 1 / 6, as far as a logarithm changes within an interval: to 2e-11.
+  /// e^x for |x| <= 1 / 6, accurate to 2e-11. A logarithm changes by no more within an
+  /// interval.
   static double small_exp(double x) noexcept {
     constexpr double k2 = 1.0 / 2.0, k3 = 1.0 / 6.0, k4 = 1.0 / 24.0, k5 = 1.0 / 120.0,
                      k6 = 1.0 / 720.0, k7 = 1.0 / 5040.0;
@@ -77,10 +81,12 @@ class AnswerTable {
                    double guess_rate);
 
   double lapse_rate_ = -1.0, guess_rate_ = -1.0;
-  /// f = guess + share Phi, g = lapse + share (1 - Phi), without a guess rate f has the lapse
-  /// rate too: then the derivatives by it are (of / f - at most) / share.
+  /// f = guess + share Phi, and g = lapse + share (1 - Phi). Without a guess rate the lapse
+  /// rate is also in f. The derivatives of the logarithms by the lapse rate are then (of / f -
+  /// at most) / share.
   double of_yes_ = 0.0, of_no_ = 0.0, at_most_ = 0.0, per_share_ = 0.0;
-  /// By z of a yes and by -z of a no, which without a guess rate is the same function.
+  /// Indexed by z for a yes and by -z for a no. Without a guess rate both are the same
+  /// function.
   std::vector<Interval> yes_intervals_, no_intervals_;
   bool has_no_ = false;
 };

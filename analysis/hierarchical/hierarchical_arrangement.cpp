@@ -20,7 +20,7 @@ std::size_t place_of(std::vector<Name>& names, const Name& name) {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// About as many right answers as were more than guesses: good enough to start from.
+/// Removes about as many right answers as guesses explain. The result is only used as a start.
 std::vector<AnswerCount> without_guesses(std::vector<AnswerCount> rows, double guess_rate) {
   for (AnswerCount& row : rows) {
     const auto n = static_cast<double>(row.num_trials), yes = static_cast<double>(row.num_yes);
@@ -29,7 +29,7 @@ std::vector<AnswerCount> without_guesses(std::vector<AnswerCount> rows, double g
   return rows;
 }
 
-/// Or one person would count as several.
+/// Two entries in a condition would count one person as two.
 void require_first(const HierarchicalPerson& person, const HierarchicalCell& cell,
                    const ParticipantAnswers& answers) {
   if (std::ranges::find(person, cell.condition, &HierarchicalCell::condition) == person.end()) {
@@ -40,7 +40,8 @@ void require_first(const HierarchicalPerson& person, const HierarchicalCell& cel
                     (answers.condition.empty() ? "" : " in " + answers.condition) + " twice");
 }
 
-/// Somebody has answers in several conditions, so that what is their own there may go together.
+/// Whether a person has answers in several conditions, so that the person's deviations there
+/// may be correlated.
 bool anybody_in_several(const HierarchicalArrangement& all) {
   return std::ranges::any_of(all.people, [](const HierarchicalPerson& person) {
     return std::ranges::any_of(person, [&](const HierarchicalCell& cell) {
@@ -49,7 +50,8 @@ bool anybody_in_several(const HierarchicalArrangement& all) {
   });
 }
 
-/// Random effects of one condition alone first, by condition: see `HierarchicalLikelihood`.
+/// Numbers the random effects so that those of a single condition come first, by condition; see
+/// `HierarchicalLikelihood`.
 void number_own_effects_first(HierarchicalStructure& structure) {
   const std::vector<int> conditions = structure.conditions_of_effects();
   std::vector<int> order(conditions.size());
@@ -103,7 +105,7 @@ HierarchicalArrangement arranged(const std::vector<ParticipantAnswers>& answers)
     all.people[person].push_back(std::move(cell));
     all.pooled[condition].insert(all.pooled[condition].end(), one.rows.begin(), one.rows.end());
   }
-  // One order alone is none.
+  // A condition with a single order has no effect of the order.
   for (HierarchicalPerson& person : all.people) {
     for (HierarchicalCell& cell : person) {
       if (all.has_orders_in[static_cast<std::size_t>(cell.condition)]) continue;
@@ -113,8 +115,8 @@ HierarchicalArrangement arranged(const std::vector<ParticipantAnswers>& answers)
   return all;
 }
 
-/// Of other people in each condition, one random effect of a kind is enough: nothing could tell
-/// how several go together.
+/// If each condition has different people, one random effect of each kind is enough, because
+/// the data cannot tell how effects of several conditions are correlated.
 HierarchicalStructure structure_of(const HierarchicalArrangement& all,
                                    const HierarchicalOptions& options) {
   const std::vector<bool>& has_orders_in = all.has_orders_in;
@@ -141,8 +143,9 @@ HierarchicalStructure structure_of(const HierarchicalArrangement& all,
     }
     parameter += 1;
   }
-  // With either interval, what is a person's own is the bias for one of them: one of each kind
-  // a person where it is shared, one a condition where it is personal.
+  // If either interval may hold the test, people differ in their bias for an interval. The loop
+  // treats conditions without and with such orders as two kinds. A shared pse gives each person
+  // one effect for each kind, and a personal pse one effect for each condition.
   for (const bool has_orders : {false, true}) {
     bool any = false;
     for (int condition = 0; condition < num_conditions; ++condition) {

@@ -9,7 +9,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// What the options assume.
+/// Whether the options assume something about lapses and about the pse.
 struct Assumptions {
   bool lapses = false, pse = false;
 
@@ -29,7 +29,7 @@ std::string rounded(double value) {
   return text;
 }
 
-/// "the lapse rate is 0 and everybody's pse is the reference"
+/// For example "the lapse rate is 0 and everybody's pse is the reference".
 std::string assumption_words(const Assumptions& assumed, const HierarchicalOptions& options) {
   std::string words;
   if (assumed.lapses) {
@@ -43,7 +43,7 @@ std::string assumption_words(const Assumptions& assumed, const HierarchicalOptio
   return words;
 }
 
-/// "a pse of each person's own and a free lapse rate, here 0.03"
+/// For example "a pse of each person's own and a free lapse rate, here 0.03".
 std::string freed_words(const Assumptions& freed, const HierarchicalFit& without) {
   std::string words = freed.pse ? "a pse of each person's own" : "";
   if (freed.lapses) {

@@ -9,17 +9,18 @@
 namespace jnd::analysis {
 namespace {
 
-/// The search of a step stops somewhere between two levels, all of which are then where the
-/// curve is flat, so that no answer tells the slope; often rounding alone is its error.
+/// Whether the search ended at a step. It stops somewhere between two levels; then every level
+/// lies where the curve is flat, and no answer determines the slope. Often its error is
+/// rounding alone.
 bool is_step(const HierarchicalCondition& condition) {
-  constexpr double kFlat = 5.0;      // There F is 3e-7 from its end.
-  constexpr double kNoError = 1e-6;  // Of 1e12 answers.
+  constexpr double kFlat = 5.0;      // At this z, F is 3e-7 from its end.
+  constexpr double kNoError = 1e-6;  // This is the error of 1e12 answers.
   if (condition.least_level_z > kFlat) return true;
   return !(condition.slope_standard_error.value_or(1.0) > kNoError &&
            condition.place_standard_error.value_or(1.0) > kNoError);
 }
 
-/// Why a condition's answers bear no value; "" if they do.
+/// Why a condition's answers do not support a value; "" if they do.
 std::string why_not_told(const HierarchicalCondition& condition) {
   if (condition.num_participants < 2) {
     return "one participant says nothing of how people differ";
@@ -31,7 +32,7 @@ std::string why_not_told(const HierarchicalCondition& condition) {
   return "";
 }
 
-/// What the condition's value would be with other models is no value either.
+/// Removes the condition's values under other models as well.
 void leave_out_elsewhere(HierarchicalFit& fit, std::size_t condition) {
   const auto leave_out = [&](std::vector<std::optional<double>>& fractions) {
     if (condition < fractions.size()) fractions[condition].reset();

@@ -6,7 +6,7 @@
 
 namespace jnd::analysis {
 
-/// A spread between people that is less is none.
+/// A smaller spread between people counts as none.
 inline constexpr double kNoSpread = 1e-6;
 
 /// Adds a sentence to the fit's note.
@@ -15,17 +15,18 @@ void add_note(HierarchicalFit& fit, const std::string& sentence);
 /// Notes spreads between people, and a correlation, that ended at their bounds.
 void note_spreads_at_bounds(HierarchicalFit& fit, bool has_own_places);
 
-/// Notes differences without an interval, as everybody's answers are alike.
+/// Notes differences that have no interval because everybody's answers are alike.
 void note_alike_people(HierarchicalFit& fit);
 
-/// Takes back what the answers of a condition do not bear, values and differences with it:
-/// where one person alone has answers, who says nothing of how people differ; and where
-/// everybody's answers are one step but for lapses, which any curve steep enough suits. The fit
-/// is `degenerate` where no condition is left.
+/// Removes the values and differences of conditions whose answers do not support them. This
+/// concerns conditions in which only one person has answers, because one person does not show
+/// how people differ. It also concerns conditions in which everybody's answers, apart from
+/// lapses, are one step, because any steep enough curve fits a step. The status becomes
+/// `degenerate` if no condition is left.
 void leave_out_what_is_not_told(HierarchicalFit& fit);
 
-/// Cautions at every value where the answers lie farther from everybody's curves than chance
-/// has them. `p_value`: as `misfit_p_value`.
+/// Adds a caution to every value if the answers lie farther from people's curves than chance
+/// explains. `p_value` is the result of `misfit_p_value`.
 void caution_of_misfit(HierarchicalFit& fit, std::optional<double> p_value);
 
 }  // namespace jnd::analysis

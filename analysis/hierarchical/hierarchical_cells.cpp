@@ -6,7 +6,7 @@
 
 namespace jnd::analysis {
 
-// What a person's answers in one condition add to the likelihood.
+// This file computes what a person's answers in one condition add to the likelihood.
 
 AnswerProbabilities HierarchicalLikelihood::answer_at(double z, const Population& population,
                                                       AnswersWanted wanted) const noexcept {
@@ -41,7 +41,7 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalPerson& person,
   return value;
 }
 
-/// The answers of one kind at a time, each with one look at the table.
+/// Handles one kind of answers at a time, with one look-up in the table for each level.
 template <bool kHasScores>
 double HierarchicalLikelihood::tabled_log_likelihood(const HierarchicalCell& cell,
                                                      const CellNumbers& numbers,
@@ -102,7 +102,7 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalCell& cell,
         predictor(structure_.link, slope, numbers.place + numbers.by_interval * order,
                   cell.log_ratio[level]);
     const double yes = cell.num_yes[level], no = cell.num_no[level];
-    // A count of 0 asks for nothing.
+    // A count of 0 needs no probability.
     const AnswerProbabilities answer =
         answer_at(at.z, population,
                   {.of_yes = yes > 0.0,
@@ -125,7 +125,7 @@ double HierarchicalLikelihood::log_likelihood(const HierarchicalCell& cell,
       by_lapse += of_yes.by_lapse + of_no.by_lapse;
       by_scatter += of_yes.by_scatter + of_no.by_scatter;
     } else {
-      // A zero count contributes nothing, even where its logarithm is infinite.
+      // A count of 0 contributes nothing, even if its logarithm is infinite.
       if (yes > 0.0) value += yes * answer.log_yes;
       if (no > 0.0) value += no * answer.log_no;
       if (!has_scores) continue;
@@ -150,7 +150,8 @@ HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivativ
   const Curvature prior = Curvature::Identity(at.size(), at.size());
   JointDerivatives joint{-at, prior, prior};
   for (const HierarchicalCell& cell : person) {
-    // By a, p and q first; what the random effects are to those is the same at every level.
+    // The derivatives are taken by a, p and q first. The way from these to the random effects
+    // is the same at every level.
     const CellNumbers own = numbers_in(cell.condition, numbers);
     const double slope = slope_of(structure_.link, own.slope);
     ByNumbers gradient = ByNumbers::Zero();
@@ -180,7 +181,8 @@ HierarchicalLikelihood::JointDerivatives HierarchicalLikelihood::joint_derivativ
       expected += in_expected * outer;
       observed += in_observed * outer;
       if (structure_.link == HierarchicalLink::kLinear) continue;
-      const double by_both = by_z * slope;  // z = e^a (u - p - q o) bends in a, and with p, q.
+      // z = e^a (u - p - q o) has second derivatives by a, and by a together with p or q.
+      const double by_both = by_z * slope;
       observed(0, 0) -= by_z * here.z;
       observed(0, 1) += by_both;
       observed(1, 0) += by_both;

@@ -31,7 +31,7 @@ std::optional<EffectEstimate> hierarchical_contrast(
       continue;
     }
     if (!one.weber_fraction || !(*one.weber_fraction > 0.0)) return std::nullopt;
-    // a = -ln ln(1 + w), so d ln w / da = -(1 + w) ln(1 + w) / w.
+    // With a = -ln ln(1 + w), d ln w / da = -(1 + w) ln(1 + w) / w.
     const double w = *one.weber_fraction;
     effect += weight->second * std::log(w);
     by_number(at) = -weight->second * (1.0 + w) * std::log1p(w) / w;

@@ -21,7 +21,7 @@ std::vector<ParticipantAnswers> read_participant_answers(const CsvTable& table,
     CsvReader reader(table);
     references = reader.numbers("reference");
     for (std::size_t row = 0; row < references.size(); ++row) {
-      // A cell that is no number has been reported.
+      // Cells that are not numbers have been reported before.
       if (references[row] <= 0.0) reader.report(row, "reference", "a number > 0");
     }
     reader.throw_problems();
@@ -34,7 +34,8 @@ std::vector<ParticipantAnswers> read_participant_answers(const CsvTable& table,
   if (has_condition) columns.emplace_back("condition");
   std::vector<ParticipantAnswers> all;
   for (const DataGroup<AnswerCount>& group : read_answer_counts(table, columns)) {
-    // By the number, for 1 and 1.0 are one reference. Several of them the fit refuses.
+    // Rows are grouped by the number, because 1 and 1.0 are the same reference. The fit rejects
+    // several references.
     std::map<double, std::vector<AnswerCount>> by_reference;
     for (std::size_t row = 0; row < group.rows.size(); ++row) {
       by_reference[reference_of_line.at(group.lines[row])].push_back(group.rows[row]);

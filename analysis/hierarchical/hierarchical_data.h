@@ -7,11 +7,12 @@
 
 namespace jnd::analysis {
 
-/// Reads the columns participant, intensity, num_yes, num_trials and, where there are,
-/// condition and reference, which goes before `reference`. Participants and conditions are
-/// words, the reference is a number however it is written: an entry has the rows that agree in
-/// all three. Throws `core::Error` with every problem, each "FILE:LINE: column: expected this,
-/// found that", or where a row has no reference from either.
+/// Reads the columns participant, intensity, num_yes and num_trials and, if they exist,
+/// condition and reference. The column reference takes precedence over the argument
+/// `reference`. Participants and conditions are compared as words, and references as numbers.
+/// An entry holds the rows that agree in all three. Throws `core::Error` with every problem in
+/// the form "FILE:LINE: column: expected this, found that", and if a row has no reference from
+/// either source.
 [[nodiscard]] std::vector<ParticipantAnswers> read_participant_answers(
     const CsvTable& table, std::optional<double> reference);
 

@@ -18,16 +18,17 @@
 namespace jnd::analysis {
 namespace {
 
-/// A lapse rate below this is none: what a search leaves of 0.
+/// A smaller lapse rate counts as none, because a search leaves about as much of 0.
 constexpr double kNoLapses = 1e-8;
 
-/// Own lapses count as one more: their nodes are others, and so are as many times more.
+/// The usual number of nodes in each dimension. Lapse rates of people's own add a dimension but
+/// have their own nodes, so they do not count.
 int usual_num_nodes(const HierarchicalStructure& structure) {
   constexpr int kNodes[] = {15, 9, 5, 3, 3, 3};
   return kNodes[structure.num_random_effects - (structure.has_own_lapses ? 0 : 1)];
 }
 
-/// Half the 95 % interval of a number with this variance.
+/// Half the width of the 95 % interval of a number with this variance.
 double reach_of(double variance, int num_participants) {
   const double n = num_participants;
   const double t = student_t_quantile(0.975, n - 1.0);
@@ -39,7 +40,7 @@ double pse_of(HierarchicalLink link, double reference, double slope_number, doub
          std::exp(link == HierarchicalLink::kLinear ? -place / slope_number : place);
 }
 
-/// The pse's interval: on ln pse, for a linear one by the delta method.
+/// The pse's interval, computed for ln pse. For a linear link it uses the delta method.
 Interval pse_interval(const HierarchicalStructure& structure, const HierarchicalOptimum& found,
                       int condition, double pse, int num_participants) {
   const int place_at = structure.place_at(condition);
@@ -55,7 +56,7 @@ Interval pse_interval(const HierarchicalStructure& structure, const Hierarchical
   return {pse * std::exp(-reach), pse * std::exp(reach)};
 }
 
-/// Least |z| of the median person over the levels of a condition.
+/// The least |z| of the median person over the levels of a condition.
 double least_level_z(const HierarchicalArrangement& all, const HierarchicalStructure& structure,
                      const Eigen::VectorXd& parameters, int condition) {
   const double number = parameters(condition);
@@ -113,14 +114,14 @@ void fill_conditions(HierarchicalFit& fit, const HierarchicalArrangement& all,
     }
     one.slope_sd = std::sqrt(slope_variance);
     for (double* spread : {&one.slope_sd, &one.place_sd}) {
-      if (*spread <= kNoSpread) *spread = 0.0;  // As the note then says.
+      if (*spread <= kNoSpread) *spread = 0.0;  // The note reports this spread as none.
     }
     fit.conditions.push_back(std::move(one));
   }
 }
 
-/// Of the difference of two slope numbers, the sandwich's; 0 where people's scores are alike
-/// but for rounding.
+/// The variance of the difference of two slope numbers, by the sandwich estimator. It is 0 if
+/// people's scores are equal except for rounding.
 double difference_variance(const HierarchicalOptimum& found, Eigen::Index second) {
   constexpr double kRounding = 1e-12;
   const double by_model = found.covariance(second, second) + found.covariance(0, 0) -
@@ -152,7 +153,7 @@ void fill_differences(HierarchicalFit& fit, const HierarchicalOptimum& found,
   }
 }
 
-/// Of the slopes in two conditions.
+/// Fills in the correlation of the slopes in two conditions.
 void fill_correlation(HierarchicalFit& fit, const HierarchicalStructure& structure,
                       const HierarchicalOptimum& found) {
   const bool correlated = structure.num_conditions == 2 && structure.loadings.size() >= 3 &&
@@ -178,8 +179,8 @@ void fill_lapse_rate(HierarchicalFit& fit, const HierarchicalStructure& structur
            "turned the answers round");
 }
 
-/// The union of the intervals at both ends of what is left of the lapse rate with that at the
-/// most likely one: the more lapses, the steeper the curve.
+/// Widens each interval to the union of three: that at the most likely lapse rate, and those at
+/// both ends of the lapse rate's interval. More lapses mean a steeper curve.
 void widen_intervals(HierarchicalFit& fit, LapseProfile& profile, HierarchicalLink link) {
   const Interval& left = fit.lapse_rate_with_prior_ci95;
   for (std::size_t condition = 0; condition < fit.conditions.size(); ++condition) {
@@ -191,7 +192,7 @@ void widen_intervals(HierarchicalFit& fit, LapseProfile& profile, HierarchicalLi
           lapse_rate ? profile.variance_at(*lapse_rate, static_cast<int>(condition))
                      : std::nullopt;
       if (!variance) {
-        // As many lapses as leave no curve: as steep as can be.
+        // With this many lapses there is no curve, so the slope has no upper bound.
         one.weber_fraction_ci95.low.reset();
         return;
       }
@@ -212,7 +213,7 @@ void widen_intervals(HierarchicalFit& fit, LapseProfile& profile, HierarchicalLi
   }
 }
 
-/// What answers and prior leave open of the lapse rate, and what that does to the rest.
+/// Computes the profile of the lapse rate, and its effect on the other values.
 void fill_lapse_profile(HierarchicalFit& fit, LapseProfile& profile, HierarchicalLink link) {
   if (fit.own_lapses) {
     fit.lapse_rate_with_prior_ci95 = profile.interval(true);
@@ -229,7 +230,7 @@ void fill_lapse_profile(HierarchicalFit& fit, LapseProfile& profile, Hierarchica
   widen_intervals(fit, profile, link);
 }
 
-/// What the options of `jnd fit hierarchical` beyond the plain model ask for.
+/// Adds what options of `jnd fit hierarchical` ask for beyond the plain model.
 void fill_robust(HierarchicalFit& fit, const HierarchicalArrangement& all, NestedOptima& nested,
                  const HierarchicalLikelihood& likelihood,
                  const HierarchicalStructure& structure, const Eigen::VectorXd& start,
@@ -244,7 +245,8 @@ void fill_robust(HierarchicalFit& fit, const HierarchicalArrangement& all, Neste
   }
 }
 
-/// Cautions of levels that are too hard. `profile`: none where there are no lapses to fit.
+/// Adds cautions about levels that are too hard. `profile` is null if the fit has no free lapse
+/// rate.
 void fill_ease(HierarchicalFit& fit, const HierarchicalArrangement& all,
                const HierarchicalStructure& structure, const HierarchicalOptimum& found,
                LapseProfile* profile) {
@@ -265,7 +267,7 @@ void fill_ease(HierarchicalFit& fit, const HierarchicalArrangement& all,
   }
 }
 
-/// Why a condition's answers have no curve, whatever its pse; "" if nothing forbids one.
+/// Why a condition's answers have no curve at any pse; "" if nothing rules one out.
 std::string why_no_curve(const HierarchicalArrangement& all) {
   for (std::size_t condition = 0; condition < all.conditions.size(); ++condition) {
     const auto& rows = all.pooled[condition];
@@ -280,7 +282,7 @@ std::string why_no_curve(const HierarchicalArrangement& all) {
   return "";
 }
 
-/// `lapse_rates`: of people's own; empty where they have none.
+/// `lapse_rates` holds people's own lapse rates. It is empty if they have none.
 void fill_people(HierarchicalFit& fit, const HierarchicalArrangement& all,
                  const std::vector<Eigen::VectorXd>& modes,
                  const std::vector<double>& lapse_rates, HierarchicalLink link) {

@@ -12,29 +12,39 @@ namespace jnd::analysis {
 /// What one participant answered in one condition.
 struct ParticipantAnswers {
   std::string participant;
-  std::string condition;   ///< "" where there is one.
-  double reference = 0.0;  ///< > 0, unit of the intensities; one and the same in a condition.
+  std::string condition;  ///< The condition; "" if there is only one.
+  /// The reference, > 0, in the unit of the intensities. It must be the same throughout a
+  /// condition.
+  double reference = 0.0;
   std::vector<AnswerCount> rows;
 };
 
 enum class HierarchicalPse {
-  kReference,  ///< At the reference for everybody, as the thesis fits.
-  kCommon,     ///< Free, the same for everybody.
-  kShared,     ///< Free, and people differ: one shift of ln pse a person, in every condition.
-  kPersonal,   ///< Free, and people differ by a shift in each condition, independent of others.
+  kReference,  ///< The pse of everybody is at the reference, as in the thesis.
+  kCommon,     ///< The pse is free and the same for everybody.
+  /// The pse is free and people differ. Each person shifts ln pse by the same amount in every
+  /// condition.
+  kShared,
+  /// The pse is free and people differ. Each person has an independent shift of ln pse in each
+  /// condition.
+  kPersonal,
 };
 
 enum class HierarchicalSlopes {
-  kShared,      ///< One deviation a person, the same in every condition.
-  kCorrelated,  ///< A deviation in each of two conditions, correlated. With one, as shared.
+  kShared,  ///< Each person has one deviation of the slope, the same in every condition.
+  /// Each person has a deviation in each of two conditions, and these are correlated. With one
+  /// condition it equals kShared.
+  kCorrelated,
 };
 
 enum class HierarchicalLapses {
-  kNone,    ///< Every answer is one of discrimination.
-  kKnown,   ///< Half of so large a share of the answers is random as is told.
-  kCommon,  ///< A lapse rate, the same for everybody in everything; see `kUsualLapsePrior`.
-  /// A lapse rate of each person's own, `lapse_limit` times sin^2(v + tau b), b standard normal
-  /// between people. The prior is on the mean share of random answers.
+  kNone,  ///< There are no lapses.
+  /// The lapse rate is given. For yes-no answers it is half the share of random answers.
+  kKnown,
+  /// One free lapse rate holds for everybody in every condition; see `kUsualLapsePrior`.
+  kCommon,
+  /// Each person has a lapse rate, `lapse_limit` times sin^2(v + tau b), where b is standard
+  /// normal over people. The prior is on the mean share of random answers.
   kPersonal,
 };
 
@@ -43,23 +53,26 @@ struct HierarchicalOptions {
   HierarchicalPse pse = HierarchicalPse::kPersonal;
   HierarchicalSlopes slopes = HierarchicalSlopes::kCorrelated;
   HierarchicalLapses lapses = HierarchicalLapses::kCommon;
-  double lapse_rate = 0.0;  ///< Of kKnown: [0, 0.5), with a guess rate below 1 less that.
-  /// Share of right answers where nothing is felt, of a forced choice among m 1 / m: [0, 1);
-  /// 0 for yes and no.
+  /// The lapse rate of kKnown, in [0, 0.5). With a guess rate it must be below 1 minus that
+  /// rate.
+  double lapse_rate = 0.0;
+  /// The share of right answers if nothing is felt, in [0, 1): 1 / m for a forced choice among
+  /// m, and 0 for yes-no answers.
   double guess_rate = 0.0;
-  /// Also what the answers leave open of a lapse rate that is free, in every interval; without
-  /// it they hold for the most likely one, and a fit takes a third of the time.
+  /// Whether every interval includes the uncertainty of a free lapse rate. Without it the
+  /// intervals hold for the most likely lapse rate, and a fit takes a third of the time.
   bool lapse_profile = true;
-  /// Of the share of random answers, where the lapse rate is free.
+  /// The prior of the share of random answers if the lapse rate is free.
   BetaPrior lapse_prior = kUsualLapsePrior;
-  /// Also what values would be without the prior, with half and with twice its weight.
+  /// Whether to compute the values without the prior, and with half and twice its weight, too.
   bool prior_sensitivity = false;
-  /// Answers of one person to one level correlate by rho, the same for everybody: a beta
-  /// distribution about the curve has drawn their probability (Williams 1975).
+  /// Whether answers of one person to one level correlate by rho, the same for everybody: their
+  /// probability is drawn from a beta distribution about the curve (Williams 1975).
   bool beta_binomial = false;
-  bool correlation_interval = true;  ///< Of rho; it takes most of the time.
-  /// A dimension of how people differ; 0: 15 in one, 9 in two, 5 in three, 3 in more. 1
-  /// is Laplace.
+  /// Whether to compute the interval of rho, which takes most of the time.
+  bool correlation_interval = true;
+  /// The number of quadrature nodes in each dimension in which people differ. 0 means 15 in one
+  /// dimension, 9 in two, 5 in three and 3 in more. 1 is Laplace's approximation.
   int num_nodes = 0;
 };
 
@@ -68,148 +81,174 @@ struct HierarchicalCondition {
   std::string condition;
   int num_participants = 0;
   std::optional<double> weber_fraction;
-  /// With a profile of the lapse rate, over all that `lapse_rate_with_prior_ci95` has.
+  /// With a profile of the lapse rate this is the union over all lapse rates in
+  /// `lapse_rate_with_prior_ci95`.
   Interval weber_fraction_ci95;
-  /// At the lapse rate that the answers alone make most likely; of a profile.
+  /// The Weber fraction at the lapse rate that the answers alone make most likely. Only a
+  /// profile of the lapse rate gives it.
   std::optional<double> weber_fraction_without_prior;
-  /// Share of the answers to comparisons at least as easy as the Weber fraction itself, which
-  /// the median person gets right in 84.13 % but for lapses.
+  /// The share of the answers that belong to comparisons at least as easy as the Weber fraction
+  /// itself. Lapses aside, the median person gets that one right with 84.13 %.
   double easy_ratio = 0.0;
-  std::vector<std::string> cautions;  ///< Levels that are too hard, answers far off.
-  /// The goodness of fit of everybody's answers rejects the curves; a caution says so.
+  /// Reasons for caution: levels that are too hard, or answers far from the curves.
+  std::vector<std::string> cautions;
+  /// Whether the goodness of fit of everybody's answers rejects the curves. A caution then says
+  /// so.
   bool is_rejected_by_fit = false;
   std::optional<double> pse;
-  std::optional<Interval> pse_ci95;  ///< Absent unless the pse was free.
-  double slope_number = 0.0;         ///< a of HierarchicalLink, of the median person.
+  std::optional<Interval> pse_ci95;  ///< The interval is absent unless the pse was free.
+  /// The number a of `HierarchicalLink` for the median person.
+  double slope_number = 0.0;
   std::optional<double> slope_standard_error;
   double place_number = 0.0;
   std::optional<double> place_standard_error;
-  /// Least |z| of the median person over the levels that have answers.
+  /// The least |z| of the median person over the levels that have answers.
   double least_level_z = 0.0;
-  /// Between people, of a: with kLogSlope the sd of ln ln(1 + w).
+  /// The standard deviation of a between people. With kLogSlope it is that of ln ln(1 + w).
   double slope_sd = 0.0;
-  /// Between people, of p, or of q where there is one; 0 unless personal.
+  /// The standard deviation between people of p, or of q if there is one. It is 0 unless the
+  /// place is personal.
   double place_sd = 0.0;
 };
 
-/// The second condition's slope number minus the first's, negated with kLogSlope: then it is
-/// the difference in ln ln(1 + w), second minus first.
+/// The second condition's slope number minus the first's. With kLogSlope it is negated, so it
+/// is the difference in ln ln(1 + w), second minus first.
 struct HierarchicalDifference {
   std::string first, second;
   double estimate = 0.0;
-  std::optional<double> standard_error;  ///< Grown as the intervals are.
+  /// The standard error, enlarged for few people like the intervals.
+  std::optional<double> standard_error;
   Interval ci95;
   std::optional<double> statistic, p_value;  ///< Student's t, two-sided.
   double degrees_of_freedom = 0.0;
 };
 
-/// One participant's Weber fraction, drawn toward the group's by how little the answers say.
+/// One participant's Weber fraction. It is drawn toward the group's, and the more so the less
+/// the answers tell.
 struct HierarchicalPersonEstimate {
   std::string participant, condition;
   std::optional<double> weber_fraction;
-  std::string reason;                 ///< Why there is none; "" if there is one.
-  std::vector<std::string> cautions;  ///< Where it lies beyond the stimuli of the condition.
-  std::optional<double> lapse_rate;   ///< Of own lapse rates, this person's at the mode.
+  std::string reason;  ///< Why there is no value; "" if there is one.
+  /// Cautions if the value lies beyond the stimuli of the condition.
+  std::vector<std::string> cautions;
+  /// The person's lapse rate at the mode, if people have lapse rates of their own.
+  std::optional<double> lapse_rate;
 };
 
 /// How answers of one person to one level scatter. Log-likelihoods are without binomial
-/// coefficients; the test is that of `boundary_test`.
+/// coefficients. The test is `boundary_test`.
 struct HierarchicalScatter {
-  double correlation = 0.0;   ///< rho, [0, 1): of two answers.
-  Interval correlation_ci95;  ///< Profile likelihood, prior included; none unless asked for.
-  // Of the same model with independent answers, where it has an optimum:
+  double correlation = 0.0;  ///< The correlation rho of two answers, in [0, 1).
+  /// The profile-likelihood interval with the prior. It is open unless it was asked for.
+  Interval correlation_ci95;
+  // These belong to the same model with independent answers, if that has an optimum.
   std::optional<double> log_likelihood_without, statistic, p_value;
-  std::vector<std::optional<double>> weber_fractions_without;  ///< Of each condition.
+  /// The Weber fractions of all conditions with independent answers.
+  std::vector<std::optional<double>> weber_fractions_without;
 };
 
-/// How people's own lapse rates differ, and the same model with one lapse rate for everybody.
+/// How people's lapse rates differ, and the same model with one lapse rate for everybody.
 struct HierarchicalOwnLapses {
-  double angle_sd = 0.0;         ///< tau, between people, of the angle v + tau b [rad].
-  double mean_lapse_rate = 0.0;  ///< Over people, where `lapse_rate` is the median person's.
+  /// The standard deviation tau between people of the angle v + tau b [rad].
+  double angle_sd = 0.0;
+  /// The mean over people. `lapse_rate` is that of the median person.
+  double mean_lapse_rate = 0.0;
   std::optional<double> common_lapse_rate, log_likelihood_common, statistic, p_value;
-  std::vector<std::optional<double>> weber_fractions_common;  ///< Of each condition.
+  /// The Weber fractions of all conditions with one lapse rate.
+  std::vector<std::optional<double>> weber_fractions_common;
 };
 
-/// What the fit would be with another weight of the lapse rate's prior.
+/// The fit with another weight of the lapse rate's prior.
 struct HierarchicalPriorEffect {
-  double weight = 1.0;  ///< Power of the prior's density; 0 is none.
-  BetaPrior prior;      ///< With it.
+  double weight = 1.0;  ///< The power to which the prior's density is raised; 0 means no prior.
+  BetaPrior prior;      ///< The prior with this weight.
   std::optional<double> lapse_rate;
-  std::vector<std::optional<double>> weber_fractions;  ///< Of each condition.
+  /// The Weber fractions of all conditions.
+  std::vector<std::optional<double>> weber_fractions;
 };
 
 struct HierarchicalFit {
   FitStatus status = FitStatus::kNotRun;
-  std::string reason;         ///< Why there is no value; "" if there is one.
-  bool is_separated = false;  ///< There is none for answers nearly split without overlap.
-  std::string method;         ///< The model and its integral, in words.
+  std::string reason;  ///< Why there is no value; "" if there is one.
+  /// There is no fit because the answers are split almost without overlap.
+  bool is_separated = false;
+  std::string method;  ///< The model and its integral in words.
   int num_participants = 0;
   int num_nodes = 0;
   std::vector<HierarchicalCondition> conditions;
-  /// Absent unless it was free or known; of own ones the median person's.
+  /// The lapse rate, if it was free or known. If people have lapse rates of their own, that of
+  /// the median person.
   std::optional<double> lapse_rate;
-  // Known if the lapse rate was followed by its profile:
-  Interval lapse_rate_ci95;                        ///< Profile likelihood of the answers alone.
-  Interval lapse_rate_with_prior_ci95;             ///< The same interval with the prior;
-                                                   ///< `weber_fraction_ci95` is over it.
-  std::optional<double> lapse_rate_without_prior;  ///< Most likely by the answers alone.
-  double guess_rate = 0.0;                         ///< The guess rate that was given.
-  std::optional<double> correlation;  ///< Correlation of people's deviations in two conditions.
+  // The following are present if a profile of the lapse rate was computed.
+  Interval lapse_rate_ci95;  ///< The profile-likelihood interval from the answers alone.
+  /// The same interval with the prior. `weber_fraction_ci95` covers all lapse rates in it.
+  Interval lapse_rate_with_prior_ci95;
+  /// The lapse rate that the answers alone make most likely.
+  std::optional<double> lapse_rate_without_prior;
+  double guess_rate = 0.0;  ///< The guess rate that was given.
+  /// The correlation of people's deviations in two conditions.
+  std::optional<double> correlation;
   std::vector<HierarchicalDifference>
-      differences;  ///< Difference of each condition to the first.
+      differences;  ///< The difference of each condition from the first.
   std::vector<HierarchicalPersonEstimate> participants;
-  /// How far each person, a column, moves the slope numbers of the conditions and, where they
-  /// are free, their place numbers: the parts of the sandwich that differences rest on.
+  /// How far each person (a column) moves the slope numbers of the conditions and, if they are
+  /// free, their place numbers. These are the terms of the sandwich estimator on which
+  /// differences rest.
   Eigen::MatrixXd influence;
-  std::vector<std::string> people;             ///< Of its columns.
-  std::optional<double> log_likelihood;        ///< Without binomial coefficients.
+  /// The participants in the order of its columns.
+  std::vector<std::string> people;
+  /// The log-likelihood without binomial coefficients.
+  std::optional<double> log_likelihood;
   std::string note;                            ///< What a reader has to know; "" if nothing.
-  std::optional<HierarchicalScatter> scatter;  ///< Of beta-binomial answers.
-  std::optional<HierarchicalOwnLapses> own_lapses;     ///< Of kPersonal.
-  BetaPrior lapse_prior = kUsualLapsePrior;            ///< The prior that was used.
-  std::vector<HierarchicalPriorEffect> prior_effects;  ///< Where they were asked for.
+  std::optional<HierarchicalScatter> scatter;  ///< The scatter of beta-binomial answers.
+  /// Present with `HierarchicalLapses::kPersonal`.
+  std::optional<HierarchicalOwnLapses> own_lapses;
+  BetaPrior lapse_prior = kUsualLapsePrior;  ///< The prior that was used.
+  /// The effects of the prior's weight, if they were asked for.
+  std::vector<HierarchicalPriorEffect> prior_effects;
 };
 
-/// The Weber fraction of a slope number; none where the curve does not rise.
+/// The Weber fraction of a slope number. It is absent if the curve does not rise.
 [[nodiscard]] std::optional<double> fraction_at(HierarchicalLink link, double slope_number);
 
-/// Probit curves of everybody at once: people's slopes (and places, where personal) vary
-/// normally about the median person's, and the likelihood is integrated over that by adaptive
-/// Gauss-Hermite quadrature. The estimand is the median person's Weber fraction, which the
-/// pooled curve's is not: pooling people who differ flattens the curve. Perfectly separated or
-/// flat participants take part, for it needs no fit of their own.
+/// Fits probit curves of everybody at once. People's slopes (and places, if personal) vary
+/// normally about those of the median person. Adaptive Gauss-Hermite quadrature integrates the
+/// likelihood over this variation. The estimand is the median person's Weber fraction. The
+/// pooled curve does not give it, because pooling people who differ flattens the curve.
+/// Participants with perfectly separated or flat answers take part, because they need no fit of
+/// their own.
 ///
-/// Where rows differ in the order of the intervals, each order has a place of its own, and what
-/// people differ by is that: the bias for an interval. The pse is then one for all.
+/// If rows differ in the order of the intervals, each order has its own place, and people
+/// differ in it: it is their bias for an interval. The pse is then the same for everybody.
 ///
-/// A lapse, an answer at random, counts for much where it is in a very easy comparison; without
-/// lapses in the model a few of them make everybody's curve flatter (Wichmann and Hill 2001).
-/// So one lapse rate for everybody is fitted, with a prior, unless it is known. Answers to hard
-/// comparisons hardly tell it, and where none is found, at its bound 0, the observed
-/// information says nothing of how far a few lapses would move the slope. A condition's
-/// interval is therefore the union of Wald's, below, over the lapse rates that answers and
-/// prior leave, which are those of a 95 % profile interval.
+/// A lapse is an answer at random. It weighs heavily in a very easy comparison. If the model
+/// has no lapses, a few of them make everybody's curve flatter (Wichmann and Hill 2001). The
+/// fit therefore has one lapse rate for everybody, with a prior, unless the rate is known.
+/// Answers to hard comparisons hardly determine the rate. If it is found at its bound 0, the
+/// observed information does not show how far a few lapses would move the slope. A condition's
+/// interval is therefore the union of Wald's intervals over the lapse rates in the 95 % profile
+/// interval of answers and prior.
 ///
-/// Intervals are Wald's on the slope number with Student's t at participants - 1 and its error
-/// grown by sqrt(n / (n - 1)), because maximum likelihood has the spread of few people too
-/// small; data/reference/coverage has what they cover. A condition's error is of the observed
-/// information A. A difference's is of the sandwich A^-1 (sum of s s^T) A^-1 over people's
-/// scores s (Huber 1967; Liang and Zeger 1986), which with many answers is that of the paired t
-/// test. By A alone a difference's interval is too wide: most of its error is the chance of the
-/// answers, which is known and yet gets the t of a spread of n people, and a spread of
-/// differences that is estimated cannot be below 0. Where the scores are all alike there is no
-/// interval.
+/// Wald's intervals are computed for the slope number, with Student's t at participants - 1.
+/// Their error is enlarged by sqrt(n / (n - 1)), because maximum likelihood underestimates the
+/// spread of few people. data/reference/coverage reports their coverage. The error of a
+/// condition comes from the observed information A. The error of a difference comes from the
+/// sandwich A^-1 (sum of s s^T) A^-1 over people's scores s (Huber 1967; Liang and Zeger 1986).
+/// With many answers it equals that of the paired t test. A alone would make a difference's
+/// interval too wide, for two reasons. Most of its error is the sampling error of the answers,
+/// which is known and yet would get the t of a spread of n people. And an estimated spread of
+/// differences cannot be below 0. If all scores are equal there is no interval.
 ///
-/// With own lapse rates the lapse rate that is followed is the median person's, and the profile
-/// of the answers alone is left out. With beta-binomial answers nothing is said of answers that
-/// lie far from people's curves, for rho is there for that.
+/// If people have lapse rates of their own, the profile follows the median person's rate, and
+/// the profile of the answers alone is left out. With beta-binomial answers the fit does not
+/// report answers that lie far from people's curves, because rho covers them.
 ///
-/// `degenerate` where a condition's pooled answers are, or with fewer than two participants, or
-/// where beta-binomial answers are all single ones.
-/// Throws `core::Error` for references or counts as `fit_psychometric`, references that differ
-/// within a condition, two entries of a participant in one, rates out of range, and for more
-/// conditions than the model takes: two with correlated slopes, else eight, or four with
-/// personal pses.
+/// The status is `degenerate` if the pooled answers of a condition are, if there are fewer than
+/// two participants, or if beta-binomial answers are all single ones. Throws `core::Error` for
+/// references or counts as `fit_psychometric` does, for references that differ within a
+/// condition, for two entries of a participant in a condition, and for rates out of range. It
+/// also throws for more conditions than the model takes: two with correlated slopes, four with
+/// personal pses, and otherwise eight.
 [[nodiscard]] HierarchicalFit fit_hierarchical(const std::vector<ParticipantAnswers>& answers,
                                                const HierarchicalOptions& options);
 

@@ -9,7 +9,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// ln sum exp of some terms, and each one's share of the sum in its place.
+/// ln sum exp of the terms. Each term is replaced by its share of the sum.
 double log_sum(std::vector<double>& terms) {
   const double largest = *std::ranges::max_element(terms);
   double sum = 0.0;
@@ -29,8 +29,8 @@ double HierarchicalLikelihood::own_sum(const HierarchicalCell& cell,
   const Eigen::Index num_shared = shared.effects.size() - first_shared_;
   nodes.own_shares.resize(num_nodes);
   nodes.own.resize(num_nodes);
-  // A node's own effects are where the shared ones leave them, and the node through the root's
-  // inverse; the numbers of the condition are linear in them.
+  // The effects of a condition at a node are a middle, which follows from the shared effects,
+  // plus the inverse root times the node. The condition's numbers are linear in them.
   Curvature inverse = Curvature::Identity(own.num, own.num);
   RandomEffects middle = RandomEffects::Zero(own.num);
   const CellLoadings loadings = loadings_in(cell.condition, population);
@@ -69,7 +69,8 @@ double HierarchicalLikelihood::own_sum(const HierarchicalCell& cell,
   const double sum = log_sum(nodes.own_shares);
   if (!has_scores) return sum;
 
-  // The mean over the nodes of each score, and of its products with the own effects.
+  // The mean over the nodes of each score, and of its products with the condition's own
+  // effects.
   CellScore mean;
   std::array<std::array<double, kMostRandomEffects>, kCellNumbers> with_effects = {};
   for (std::size_t m = 0; m < num_nodes; ++m) {
@@ -118,7 +119,7 @@ HierarchicalLikelihood::Integral HierarchicalLikelihood::integral_of(
     nodes.by_scatter.assign(num_nodes, 0.0);
   }
   for (std::size_t k = 0; k < num_nodes; ++k) {
-    // From the last effects to the first, as a triangle is solved.
+    // The effects are solved from the last to the first, as in a triangular system.
     const RandomEffects& node = shared_grid_.node[k];
     SharedNode shared{mode.at, RandomEffects::Zero(num_effects)};
     double log_term = 0.0;

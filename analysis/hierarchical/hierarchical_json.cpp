@@ -14,7 +14,7 @@ Json json_numbers(const std::vector<std::optional<double>>& values) {
   return all;
 }
 
-/// What is told only where it was asked for.
+/// Adds the results that are present only if they were asked for.
 void add_robust(Json& json, const HierarchicalFit& fit) {
   if (fit.scatter) {
     const HierarchicalScatter& one = *fit.scatter;

@@ -6,7 +6,7 @@
 
 namespace jnd::analysis {
 
-/// Every number is finite; what does not exist is null, an open end of an interval too.
+/// Every number is finite. Absent values and open ends of intervals are null.
 [[nodiscard]] nlohmann::ordered_json to_json(const HierarchicalFit& fit);
 
 }  // namespace jnd::analysis

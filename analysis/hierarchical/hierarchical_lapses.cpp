@@ -64,8 +64,8 @@ Eigen::VectorXd LapseProfile::expected_at(double lapse_rate) const {
     }
   }
   Eigen::VectorXd expected = nearest->second.parameters;
-  // Of many people along the line through both, unless it would lead far, or a spread away
-  // from 0.
+  // With many people the estimate follows the line through the two nearest points, unless that
+  // leads far away. Spreads that are 0 stay 0.
   if (likelihood_.reads_a_table() && next != nullptr &&
       distance(next) < 4.0 * std::fabs(next->first - nearest->first)) {
     const double share = (lapse_rate - nearest->first) / (nearest->first - next->first);
@@ -99,7 +99,8 @@ double LapseProfile::height(double lapse_rate, bool has_prior) {
 
 double LapseProfile::without_prior() {
   if (without_prior_) return *without_prior_;
-  // The highest of some, then where the likelihood no longer rises beside it.
+  // Takes the highest of some points, and then finds where the likelihood no longer rises
+  // beside it.
   constexpr double kHardlyAny = 1e-6, kLevel = 1e-4, kNear = 1e-8;
   for (const double lapse_rate : {0.0, kHardlyAny, 0.01, 0.025, 0.05, 0.1, 0.2}) {
     const Point& point = at(lapse_rate);
@@ -111,7 +112,7 @@ double LapseProfile::without_prior() {
   const bool rises = best->first > 0.0 && best->second.rise > 0.0;
   const bool has_next = std::next(best) != points_.end() && std::next(best)->second.exists;
   if (rises ? has_next : best->first > kHardlyAny) {
-    // Regula falsi, an end that stays counted half (Illinois).
+    // The regula falsi of Illinois: the value at an end that stays is halved.
     double low = rises ? best->first : std::prev(best)->first;
     double high = rises ? std::next(best)->first : best->first;
     double rise_low = at(low).rise, rise_high = at(high).rise;
@@ -165,7 +166,7 @@ std::optional<double> LapseProfile::end(double from, bool has_prior, double dire
     const double newton = next + excess / rise;
     const double farthest =
         outside ? *outside : std::min(most_lapses, from + 3.0 * (next - from));
-    // Newton's method squares the error: the next point needs no fit of its own.
+    // Newton's method squares the error, so the next point needs no fit.
     if (std::fabs(excess) < kOneStepAway && point.exists && next > 0.0) {
       return std::clamp(newton, 0.0, most_lapses);
     }

@@ -6,48 +6,50 @@
 
 namespace jnd::analysis {
 
-/// The log-likelihood over the lapse rate, of own ones the median person's, everything else
-/// most likely at each: what answers and prior know of it, and how far it moves the rest. With
-/// own lapses the prior moves their spread as well, so that nothing of it is known without.
+/// The profile of the log-likelihood over the lapse rate, with everything else most likely at
+/// each rate. It shows what answers and prior tell about the lapse rate, and how far the rate
+/// moves the other parameters. If people have lapse rates of their own, it is over the median
+/// person's rate. The prior then also moves their spread, so there is no profile without it.
 class LapseProfile {
  public:
-  /// Everything else at one lapse rate.
+  /// The optimum of everything else at one lapse rate.
   struct Point {
-    bool exists = false;          ///< There is a curve with so many lapses.
-    Eigen::VectorXd parameters;   ///< All parameters, the lapse rate's among them.
-    double log_likelihood = 0.0;  ///< Log-likelihood of the answers, without the prior.
-    double rise = 0.0;            ///< Derivative of the above by the lapse rate; 0 at rate 0.
+    bool exists = false;          ///< Whether there is a curve at this lapse rate.
+    Eigen::VectorXd parameters;   ///< All parameters, including the lapse rate's.
+    double log_likelihood = 0.0;  ///< The log-likelihood of the answers, without the prior.
+    double rise = 0.0;            ///< Its derivative by the lapse rate; 0 at a rate of 0.
   };
 
-  /// `found`: the optimum with the prior; `start`: where it was sought from, people differing.
-  /// The references have to outlive the profile.
+  /// `found` is the optimum with the prior. `start` is where its search started, with people
+  /// who differ. The references must outlive the profile.
   LapseProfile(const HierarchicalLikelihood& likelihood, const HierarchicalStructure& structure,
                Eigen::VectorXd start, const HierarchicalOptimum& found);
 
-  /// `lapse_rate` in [0, `lapse_limit`).
+  /// `lapse_rate` is in [0, `lapse_limit`).
   const Point& at(double lapse_rate);
 
-  /// Variance of a parameter but the lapse rate's, were that known. Absent where there is no
-  /// curve.
+  /// The variance of a parameter other than the lapse rate's, if the lapse rate were known. It
+  /// is absent if there is no curve.
   [[nodiscard]] std::optional<double> variance_at(double lapse_rate, int parameter);
 
-  /// The most likely lapse rate by answers and prior.
+  /// The lapse rate that answers and prior make most likely.
   [[nodiscard]] double with_prior() const noexcept { return with_prior_; }
 
-  /// The most likely one by the answers alone. Not with own lapses.
+  /// The lapse rate that the answers alone make most likely. It must not be called if people
+  /// have lapse rates of their own.
   [[nodiscard]] double without_prior();
 
-  /// Where the log-likelihood, the prior's among it or not, has fallen from its largest by half
-  /// the 95 % quantile of chi-squared with one degree of freedom. The low end is 0 where it has
-  /// not by there; the high end is open where it has not before nine in ten answers are random,
-  /// or there is no curve.
+  /// The interval in which the log-likelihood, with or without the log prior, is less than half
+  /// the 95 % quantile of chi-squared (one degree of freedom) below its maximum. The low end is
+  /// 0 if it has not fallen that far there. The high end is open if it has not fallen that far
+  /// before nine in ten answers are random, or before there is no curve.
   [[nodiscard]] Interval interval(bool has_prior);
 
  private:
-  /// Of the profile at one of its points.
+  /// The profile's value at one of its points.
   [[nodiscard]] double height(double lapse_rate, bool has_prior);
   [[nodiscard]] std::optional<double> end(double from, bool has_prior, double direction);
-  /// About what the parameters are there, by the points that are known.
+  /// An estimate of the parameters at a lapse rate, from the points that are known.
   [[nodiscard]] Eigen::VectorXd expected_at(double lapse_rate) const;
 
   const HierarchicalLikelihood& likelihood_;

@@ -9,7 +9,7 @@ namespace jnd::analysis {
 
 Predictor predictor(HierarchicalLink link, double slope, double place, double u) noexcept {
   if (link == HierarchicalLink::kLinear) return {slope * u + place, u, 1.0};
-  const double z = slope * (u - place);  // `slope` is e^a.
+  const double z = slope * (u - place);  // Here `slope` is e^a.
   return {z, z, -slope};
 }
 
@@ -28,7 +28,8 @@ AnswerProbabilities answer_probabilities(double z, double lapse_rate, double gue
     const double share = 1.0 - 2.0 * lapse_rate;
     const double yes = lapse_rate + share * tails.lower, no = lapse_rate + share * tails.upper;
     const double by_z = share * tails.density, by_lapse = tails.upper - tails.lower;
-    // Most levels far from the reference have answers of one kind, and logarithms are dear.
+    // Most levels far from the reference have answers of one kind only, and logarithms take
+    // time.
     AnswerProbabilities found{};
     if (wanted.of_yes) {
       found.log_yes = std::log(yes);
@@ -45,7 +46,7 @@ AnswerProbabilities answer_probabilities(double z, double lapse_rate, double gue
   const double share = 1.0 - guess_rate - lapse_rate;
   const double right = guess_rate + share * tails.lower;
   const double by_z = share * tails.density, by_lapse = -tails.lower;
-  if (lapse_rate == 0.0) {  // A wrong answer may be as improbable as can be.
+  if (lapse_rate == 0.0) {  // Without lapses a wrong answer may be arbitrarily improbable.
     const LogNormalTails logs = log_normal_tails(z);
     return {std::log(right), std::log(share) + logs.log_upper, by_z / right, logs.mills_upper};
   }
@@ -57,7 +58,7 @@ AnswerProbabilities answer_probabilities(double z, double lapse_rate, double gue
 ScatteredSide scattered_side(double count, double log_p, double by_z, double by_lapse,
                              double phi) {
   if (!(count > 0.0)) return {};
-  // The first factor may be as improbable as can be, so its logarithm is the caller's.
+  // The first factor may be arbitrarily small, so the caller passes its logarithm.
   const double p = std::exp(log_p);
   const LogProduct others = log_product(p + phi, phi, count - 1.0);
   const double by_p = 1.0 + p * others.by_first;

@@ -13,13 +13,13 @@
 namespace jnd::analysis {
 namespace {
 
-/// A table is some 1,300 probabilities itself; below this a study of a dozen people is
-/// computed.
+/// A table costs some 1,300 probabilities. Below this number, as in a study of a dozen people,
+/// they are computed directly.
 constexpr double kManyProbabilities = 12'000.0;
 
 using Totals = std::vector<std::pair<double, double>>;
 
-/// How many answers each level of each person has, and how many levels have as many.
+/// For each person, the numbers of answers that levels have, and how many levels have each.
 std::vector<Totals> totals_of(const std::vector<HierarchicalPerson>& people) {
   std::vector<Totals> totals;
   for (const HierarchicalPerson& person : people) {
@@ -44,7 +44,7 @@ double most_answers(const std::vector<HierarchicalPerson>& people) {
   return most;
 }
 
-/// One node of no dimension where there is none.
+/// If there is no dimension the grid has one node with no coordinates.
 GaussHermiteGrid grid_of(int num_nodes, int num_dimensions) {
   if (num_dimensions > 0) return gauss_hermite_grid(num_nodes, num_dimensions);
   return {{RandomEffects(0)}, {1.0}};
@@ -68,7 +68,8 @@ HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& stru
       last_(people.size() * lapse_nodes_.deviation.size(),
             RandomEffects::Zero(structure.num_random_effects)) {
   const std::vector<int> conditions = structure.conditions_of_effects();
-  // Numbered as they have to be, or all in one sum.
+  // The effects must be numbered with the shared ones last. Otherwise all of them are in one
+  // sum.
   const auto shared = std::ranges::find(conditions, HierarchicalStructure::kSeveral);
   const bool is_ordered = std::is_sorted(conditions.begin(), shared) &&
                           std::all_of(shared, conditions.end(), [](int condition) {
@@ -96,7 +97,7 @@ HierarchicalLikelihood::HierarchicalLikelihood(const HierarchicalStructure& stru
         {number, one.random_effect, one.parameter});
   }
   shared_grid_ = grid_of(num_nodes, structure.num_random_effects - first_shared_);
-  // Own lapse rates are another one at each node.
+  // With people's own lapse rates the rate differs at each node, so a table does not pay.
   has_table_ = !structure.has_own_lapses && num_probabilities() >= kManyProbabilities;
 }
 
@@ -148,7 +149,8 @@ HierarchicalLikelihood::Mode HierarchicalLikelihood::mode_of(const HierarchicalP
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const JointDerivatives joint = joint_derivatives(person, population, mode.at);
     mode.information = joint.expected;
-    // Newton's step where the density is log-concave, else Fisher's, which always rises.
+    // Newton's step if the density is log-concave, and otherwise Fisher's step, which always
+    // leads uphill.
     const Eigen::LLT<Curvature> newton(joint.observed);
     RandomEffects step = newton.info() == Eigen::Success
                              ? RandomEffects(newton.solve(joint.gradient))

@@ -9,7 +9,7 @@
 
 namespace jnd::analysis {
 
-// What is a person's own at the mode, and people's own lapse rates.
+// This file finds people's numbers at the mode, and handles people's own lapse rates.
 
 HierarchicalLikelihood::Population HierarchicalLikelihood::population_at(
     const Population& population, const Eigen::VectorXd& parameters, double deviation) const {
@@ -23,7 +23,8 @@ HierarchicalLikelihood::Population HierarchicalLikelihood::population_at(
 HierarchicalLikelihood::Integral HierarchicalLikelihood::own_lapses_integral(
     std::size_t person, const Population& population, const Eigen::VectorXd& parameters,
     bool has_scores, Nodes& nodes) const {
-  constexpr double kFarBelow = 40.0;  // Of a logarithm: it would be lost in rounding.
+  // A term this far below the largest logarithm is lost in rounding.
+  constexpr double kFarBelow = 40.0;
   const std::size_t num = lapse_nodes_.deviation.size();
   std::vector<Mode> modes(num);
   std::vector<double> heights(num);
@@ -68,7 +69,7 @@ HierarchicalLikelihood::Integral HierarchicalLikelihood::own_lapses_integral(
   return all;
 }
 
-/// The best node, then between its neighbours by the golden section.
+/// Takes the best node, and then searches between its neighbours by the golden section.
 HierarchicalLikelihood::OwnMode HierarchicalLikelihood::own_mode_of(
     std::size_t person, const Population& population, const Eigen::VectorXd& parameters) const {
   const std::size_t num = lapse_nodes_.deviation.size();
@@ -172,7 +173,8 @@ std::optional<double> HierarchicalLikelihood::misfit_p_value(
   for (std::size_t person = 0; person < people_.size(); ++person) {
     const OwnMode own = own_mode_of(person, population, parameters);
     const Curvature left =
-        own.mode.information.inverse();  // Of the prior's 1, what the answers left.
+        // How much of the prior's variance of 1 the answers have left.
+        own.mode.information.inverse();
     num_followed += static_cast<double>(left.rows()) - left.trace();
     num_followed += own.num_followed;
     add_fitted(people_[person], population.at(own.mode.at), own.lapse_rate, answers);

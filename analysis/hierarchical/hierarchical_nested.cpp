@@ -23,7 +23,7 @@ Eigen::VectorXd with_one_less(const Eigen::VectorXd& all, Eigen::Index at) {
 }  // namespace
 
 BoundaryTest boundary_test(double log_with, double log_without) {
-  constexpr double kNoGain = 1e-7;  // What searches leave of none.
+  constexpr double kNoGain = 1e-7;  // A search may leave this much of a gain of 0.
   const double statistic = 2.0 * (log_with - log_without);
   if (!(statistic > kNoGain)) return {};
   return {statistic, 0.5 * chi_squared_above(statistic, 1.0)};
@@ -67,8 +67,8 @@ HierarchicalOptimum NestedOptima::sought(bool has_scatter, bool has_own_lapses) 
   HierarchicalOptimum best;
   const auto search = [&](const Eigen::VectorXd& from) {
     HierarchicalOptimum other = most_likely(likelihood, from);
-    // Where most people have no lapses the likelihood is nearly level in v about 0, and
-    // Newton's method creeps; from 0 itself, all else being found, it does not leave it.
+    // If most people have no lapses the likelihood is nearly flat in v near 0, and Newton's
+    // method creeps. The search is repeated from v = 0, which it does not leave.
     if (has_own_lapses && other.status == FitStatus::kNotConverged &&
         std::fabs(other.parameters(model.angle_at())) < kNearlyNoLapses) {
       Eigen::VectorXd at = other.parameters;
@@ -99,8 +99,9 @@ HierarchicalOptimum NestedOptima::sought(bool has_scatter, bool has_own_lapses) 
   if (!has_own_lapses) {
     best = better_optimum(likelihood, model, start);
   } else {
-    // A common rate has a person who lapses for one with a flat curve, and people for more
-    // apart in their slopes than they are: the second search starts without both.
+    // With a common lapse rate a person who lapses seems to have a flat curve, and people's
+    // slopes seem to differ more than they do. The second search therefore starts from an angle
+    // v of 0 and from the spreads of `start`.
     const HierarchicalOptimum& common = of(has_scatter, false);
     search_from(common, model.lapse_spread_at(), kSpread, false);
     search_from(common, model.lapse_spread_at(), kSpread, true);

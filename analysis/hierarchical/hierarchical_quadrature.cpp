@@ -38,7 +38,8 @@ GaussHermiteGrid gauss_hermite_grid(int num_nodes, int num_dimensions) {
 
 LapseNodes lapse_nodes(double most_answers, double lapse_limit) {
   constexpr double kReach = 6.0, kLargestStep = 0.3, kSmallestStep = 0.05, kSpread = 0.4;
-  // Of the angle: with n answers of probability 1 but for lapses the information is 4 n limit.
+  // The standard error of the angle. For n answers that are certain apart from lapses, the
+  // information is 4 n limit.
   const double angle_error = 1.0 / std::sqrt(4.0 * lapse_limit * std::max(1.0, most_answers));
   const double step = std::clamp(1.6 * angle_error / kSpread, kSmallestStep, kLargestStep);
   const int num_beside = static_cast<int>(std::ceil(kReach / step));

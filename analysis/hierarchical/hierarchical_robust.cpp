@@ -11,10 +11,11 @@
 namespace jnd::analysis {
 namespace {
 
-/// A correlation, or a lapse rate, below this is none: what a search leaves of 0.
+/// A smaller correlation or lapse rate counts as none, because a search leaves about as much of
+/// 0.
 constexpr double kNoneAtAll = 1e-8;
 
-/// The median person's fraction in each condition.
+/// The median person's Weber fraction in each condition.
 std::vector<std::optional<double>> fractions_of(const HierarchicalStructure& structure,
                                                 const HierarchicalOptimum& found) {
   std::vector<std::optional<double>> fractions;

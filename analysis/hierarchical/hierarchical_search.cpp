@@ -12,12 +12,14 @@
 namespace jnd::analysis {
 namespace {
 
-/// Beyond this a number of the median person has run away: ln slope, say, to a step.
+/// A number of the median person beyond this has diverged. For example, ln slope then tends to
+/// a step.
 constexpr double kRunAway = 25.0;
 constexpr char kNotAtRest[] = "the search for the optimum did not come to rest";
 
-/// Of a value or of one for each person, by each parameter in turn: central differences of
-/// fourth order (Abramowitz and Stegun 25.3.6), handed to `take` with the parameter's place.
+/// Differentiates a value, or one value for each person, by each parameter in turn, and passes
+/// the derivative with the parameter's index to `take`. It uses central differences of fourth
+/// order (Abramowitz and Stegun 25.3.6).
 template <typename Function, typename Take>
 void differentiate(const Function& function, const Eigen::VectorXd& at, const Take& take) {
   constexpr double kStep = 1e-4;
@@ -32,8 +34,8 @@ void differentiate(const Function& function, const Eigen::VectorXd& at, const Ta
   }
 }
 
-/// Fisher's where there are several nodes; it is the exact integral's, and one node is too far
-/// from that: then by differences.
+/// Fisher's gradient if there are several nodes. It is that of the exact integral, from which a
+/// single node differs too much, so a single node uses differences.
 Eigen::VectorXd gradient_of(const HierarchicalLikelihood& likelihood,
                             const Eigen::VectorXd& at) {
   Eigen::VectorXd gradient(at.size());
@@ -46,7 +48,7 @@ Eigen::VectorXd gradient_of(const HierarchicalLikelihood& likelihood,
   return gradient;
 }
 
-/// A column a person, as `gradient_of`, without the prior.
+/// The scores, with one column for each person, computed like `gradient_of` without the prior.
 Eigen::MatrixXd scores_of(const HierarchicalLikelihood& likelihood, const Eigen::VectorXd& at) {
   Eigen::MatrixXd scores;
   if (!likelihood.is_laplace()) {
@@ -61,7 +63,7 @@ Eigen::MatrixXd scores_of(const HierarchicalLikelihood& likelihood, const Eigen:
   return scores;
 }
 
-/// `held`: a parameter that stays as it is; -1 for none.
+/// `held` is a parameter that keeps its value; -1 for none.
 Eigen::VectorXd roughly_most_likely(const HierarchicalLikelihood& likelihood,
                                     const Eigen::VectorXd& start, Eigen::Index held = -1) {
   const SmoothCost cost = [&](std::span<const double> x, double& value,
@@ -83,7 +85,7 @@ Eigen::VectorXd roughly_most_likely(const HierarchicalLikelihood& likelihood,
                                            static_cast<Eigen::Index>(found.size()));
 }
 
-/// Without a parameter's row, and column; all of it where none is held (-1).
+/// Removes a parameter's row. It removes nothing if none is held (-1).
 Eigen::VectorXd without(const Eigen::VectorXd& all, Eigen::Index held) {
   if (held < 0) return all;
   Eigen::VectorXd others(all.size() - 1);
@@ -91,7 +93,7 @@ Eigen::VectorXd without(const Eigen::VectorXd& all, Eigen::Index held) {
   return others;
 }
 
-/// Back again, with 0 for the held one.
+/// Inserts the held parameter again, with the value 0.
 Eigen::VectorXd with_zero(const Eigen::VectorXd& others, Eigen::Index held) {
   if (held < 0) return others;
   Eigen::VectorXd all = Eigen::VectorXd::Zero(others.size() + 1);
@@ -100,8 +102,8 @@ Eigen::VectorXd with_zero(const Eigen::VectorXd& others, Eigen::Index held) {
   return all;
 }
 
-/// Minus the second derivatives by all parameters but one that is held, or by all (-1). `here`:
-/// the value at `at`.
+/// Minus the second derivatives by all parameters except the held one, or by all (-1). `here`
+/// is the value at `at`.
 Eigen::MatrixXd information_at(const HierarchicalLikelihood& likelihood,
                                const Eigen::VectorXd& at, double here, Eigen::Index held = -1) {
   constexpr double kStep = 1e-3;
@@ -142,12 +144,12 @@ Eigen::MatrixXd information_at(const HierarchicalLikelihood& likelihood,
 
 struct Inverse {
   Eigen::MatrixXd matrix;
-  bool rising = false;  ///< Along some direction the likelihood curves upwards.
+  bool rising = false;  ///< Whether the likelihood curves upwards in some direction.
 };
 
-/// Inverse over the directions that the likelihood knows; those it does not, such as a
-/// correlation with something that does not vary, get nothing. Where it curves upwards, by the
-/// magnitude, so that a step by it rises.
+/// The inverse over the directions that the likelihood determines. Other directions, such as a
+/// correlation with something that does not vary, get 0. If the likelihood curves upwards, the
+/// magnitude of the curvature is used, so that a step leads uphill.
 Inverse inverse_of(const Eigen::MatrixXd& information) {
   constexpr double kFlat = 1e-7;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
@@ -164,8 +166,8 @@ Inverse inverse_of(const Eigen::MatrixXd& information) {
   return inverse;
 }
 
-/// What a step and the change of the rise over it tell of an inverse of the information
-/// (Broyden, Fletcher, Goldfarb and Shanno). A step that is next to rounding tells nothing.
+/// Updates an inverse of the information from a step and the change of the gradient over it
+/// (Broyden, Fletcher, Goldfarb and Shanno). A step near rounding is ignored.
 void learn(Eigen::MatrixXd& inverse, const Eigen::VectorXd& step, const Eigen::VectorXd& fall) {
   constexpr double kSmallStep = 1e-6;
   const double product = step.dot(fall);
@@ -176,10 +178,10 @@ void learn(Eigen::MatrixXd& inverse, const Eigen::VectorXd& step, const Eigen::V
              (crossed + crossed.transpose()) / product;
 }
 
-/// Newton's method from a start near by, one parameter held or none (-1). `inverse`: of the
-/// information there by what moves, or empty. Of many people it learns of each step. It is
-/// computed anew where the steps do not get smaller; of few people and without one held, as
-/// long as they are large. Without covariance.
+/// Newton's method from a nearby start, with one parameter or none (-1) held. `inverse` is that
+/// of the information there over the moving parameters, or empty. With many people it is
+/// updated from each step. It is computed anew if the steps do not shrink and, with few people
+/// and no held parameter, as long as they are large. The result has no covariance.
 HierarchicalOptimum climbed(const HierarchicalLikelihood& likelihood,
                             const Eigen::VectorXd& start, Eigen::Index held,
                             Eigen::MatrixXd& inverse) {
@@ -236,8 +238,8 @@ HierarchicalOptimum climbed(const HierarchicalLikelihood& likelihood,
   return found;
 }
 
-/// A search from far away: Ceres first, of many people by the coarser rule, which leads to
-/// where the likelihood's own optimum is near.
+/// A search from far away. Ceres climbs first. With many people it uses the coarser rule, whose
+/// optimum is near that of the likelihood itself.
 HierarchicalOptimum climbed_from_afar(const HierarchicalLikelihood& likelihood,
                                       const Eigen::VectorXd& start) {
   Eigen::MatrixXd inverse;
@@ -250,13 +252,14 @@ HierarchicalOptimum climbed_from_afar(const HierarchicalLikelihood& likelihood,
   return climbed(likelihood, roughly_most_likely(likelihood, start), -1, inverse);
 }
 
-/// Covariance and influence of one that was found; it is none where the likelihood rises along
-/// some direction.
+/// Adds covariance and influence to an optimum. The optimum is rejected if the likelihood rises
+/// in some direction.
 HierarchicalOptimum with_covariance(const HierarchicalLikelihood& likelihood,
                                     HierarchicalOptimum found) {
   if (found.status != FitStatus::kOk) return found;
   Eigen::MatrixXd scores;
-  // Before the differences move away from where the search has been last.
+  // Scores are computed here because differences would move away from where the search was
+  // last.
   if (!likelihood.is_laplace()) scores = scores_of(likelihood, found.parameters);
   Inverse inverse =
       inverse_of(information_at(likelihood, found.parameters, found.log_likelihood));
@@ -307,7 +310,8 @@ std::optional<Eigen::VectorXd> most_likely_near(const HierarchicalLikelihood& li
 HierarchicalOptimum better_optimum(const HierarchicalLikelihood& likelihood,
                                    const HierarchicalStructure& structure,
                                    const Eigen::VectorXd& start) {
-  constexpr double kNoLapses = 1e-6, kSomeLapsesAngle = 0.2;  // 2 in a hundred.
+  // This angle gives about 2 lapses in a hundred.
+  constexpr double kNoLapses = 1e-6, kSomeLapsesAngle = 0.2;
   HierarchicalOptimum first = most_likely(likelihood, start);
   if (!structure.has_lapses) return first;
   const bool found_some =
@@ -327,8 +331,9 @@ HeldSearch::HeldSearch(const HierarchicalLikelihood& likelihood, std::vector<int
                        Eigen::VectorXd start, int held)
     : likelihood_(likelihood), even_(std::move(even)), start_(std::move(start)), held_(held) {}
 
-/// Newton's method alone where that comes to rest. It cannot leave a spread of 0 where that is
-/// no maximum any more, as there are more lapses: then from people who differ.
+/// Newton's method alone, if it comes to rest. With more lapses a spread of 0 may no longer be
+/// a maximum, but Newton's method cannot leave it. The search then starts from people who
+/// differ.
 std::optional<Eigen::VectorXd> HeldSearch::from(Eigen::VectorXd near) {
   std::optional<Eigen::VectorXd> found = most_likely_near(likelihood_, near, held_, inverse_);
   if (found && is_maximum(*found)) return found;
@@ -339,7 +344,7 @@ std::optional<Eigen::VectorXd> HeldSearch::from(Eigen::VectorXd near) {
   return found && is_maximum(*found) ? found : std::nullopt;
 }
 
-/// Where an even parameter is 0 the likelihood is level in it.
+/// The likelihood is flat at 0 in a parameter in which it is even.
 bool HeldSearch::is_maximum(const Eigen::VectorXd& at) const {
   constexpr double kNone = 1e-5, kStep = 1e-3;
   return std::ranges::none_of(even_, [&](const int parameter) {

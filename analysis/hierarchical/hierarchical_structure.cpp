@@ -6,7 +6,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// Beside which a share of random answers counts in a prior that forbids there being none.
+/// The least share of random answers at which the prior is evaluated, because a prior may
+/// exclude a share of 0.
 constexpr double kLeastShare = 1e-12;
 
 double squared_sine_of(double angle) noexcept {
@@ -14,7 +15,7 @@ double squared_sine_of(double angle) noexcept {
   return sine * sine;
 }
 
-/// Share of random answers on average over people.
+/// The mean share of random answers over people.
 double mean_share(double share, double spread) noexcept {
   const double away = -0.5 * std::expm1(-2.0 * spread * spread);
   return share + (1.0 - 2.0 * share) * away;

@@ -11,7 +11,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// By everybody's rows of each condition; of several chances the largest.
+/// The chance suspected from everybody's rows in each condition. If there are several, the
+/// largest.
 std::optional<double> chance_in_any(const std::vector<ParticipantAnswers>& answers) {
   std::map<std::string, std::vector<AnswerCount>> by_condition;
   for (const ParticipantAnswers& one : answers) {
@@ -26,7 +27,8 @@ std::optional<double> chance_in_any(const std::vector<ParticipantAnswers>& answe
   return chance;
 }
 
-/// "P03 (p < 0.001)" of everybody whose answers fall, "P03 in d (p < 0.001)" with conditions.
+/// The names of everybody whose answers fall, such as "P03 (p < 0.001)" or, with conditions,
+/// "P03 in d (p < 0.001)".
 std::vector<std::string> whose_answers_fall(const std::vector<ParticipantAnswers>& answers) {
   std::vector<std::string> names;
   for (const ParticipantAnswers& one : answers) {
@@ -46,9 +48,9 @@ std::string list_of(const std::vector<std::string>& names) {
   return list;
 }
 
-/// Everybody's rows together, so that many small differences count; "" where they do not
-/// scatter. Those whose own rows do are named, each by a level that allows for how many there
-/// are.
+/// A warning about scatter of everybody's rows together, so that many small differences count;
+/// "" if they do not scatter. It names people whose own rows scatter, at a level that is
+/// adjusted for the number of people.
 std::string scatter_words(const std::vector<ParticipantAnswers>& answers) {
   RowScatter all;
   for (const ParticipantAnswers& one : answers) all += row_scatter(one.rows);

@@ -6,7 +6,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// What is a person's own beside the slope.
+/// The name of what differs between people beside the slope.
 std::string own_place(const std::vector<bool>& has_orders_in, const std::string& pse) {
   const auto num_with_orders = std::count(has_orders_in.begin(), has_orders_in.end(), true);
   if (num_with_orders == 0) return pse;

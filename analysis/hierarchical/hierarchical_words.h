@@ -7,8 +7,8 @@
 
 namespace jnd::analysis {
 
-/// Model and integral in a phrase, for `HierarchicalFit::method`. `has_orders_in`: of each
-/// condition whether either interval held the test.
+/// The model and the integral in a phrase, for `HierarchicalFit::method`. `has_orders_in` says
+/// for each condition whether either interval held the test.
 [[nodiscard]] std::string method_words(const HierarchicalOptions& options,
                                        const std::vector<bool>& has_orders_in, int num_nodes);
 

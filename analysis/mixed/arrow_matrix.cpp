@@ -6,7 +6,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Cholesky's lower factor of a small matrix, in its place; false where there is none.
+/// Replaces a small matrix by its lower Cholesky factor. Returns false if it has none.
 bool factorise_small(double* a, int size) {
   for (int j = 0; j < size; ++j) {
     for (int i = j; i < size; ++i) {
@@ -23,7 +23,7 @@ bool factorise_small(double* a, int size) {
   return true;
 }
 
-/// L x = b in place.
+/// Solves L x = b in place.
 void solve_lower_small(const double* l, int size, double* x) {
   for (int i = 0; i < size; ++i) {
     for (int k = 0; k < i; ++k) x[i] -= l[i + k * size] * x[k];
@@ -31,7 +31,7 @@ void solve_lower_small(const double* l, int size, double* x) {
   }
 }
 
-/// L' x = b in place.
+/// Solves L' x = b in place.
 void solve_upper_small(const double* l, int size, double* x) {
   for (int i = size - 1; i >= 0; --i) {
     for (int k = i + 1; k < size; ++k) x[i] -= l[k + i * size] * x[k];
@@ -117,7 +117,7 @@ bool ArrowMatrix::factorise() {
     for (Eigen::Index j = 0; j < solved.cols(); ++j) {
       solve_lower_small(d, block_size_, solved.col(j).data());
     }
-    // The corner loses B' D^-1 B.
+    // B' D^-1 B is subtracted from the corner.
     for (std::size_t j = 0; j < columns.size(); ++j) {
       for (std::size_t i = j; i < columns.size(); ++i) {
         corner_(columns[i], columns[j]) -= solved.col(static_cast<Eigen::Index>(i))
@@ -138,7 +138,8 @@ bool ArrowMatrix::factorise() {
 }
 
 void ArrowMatrix::solve(Eigen::VectorXd& vector) const {
-  // The corner first: C_S y = c - sum B' D^-1 a, then each block D x = a - B y.
+  // The corner is solved first: C_S y = c - sum B' D^-1 a. Then each block is solved: D x = a -
+  // B y.
   for (std::size_t block = 0; block < touched_.size(); ++block) {
     const auto head =
         vector.segment(static_cast<Eigen::Index>(block) * block_size_, block_size_);

@@ -20,7 +20,7 @@ bool is_standard(const std::string& function) {
   return function == "scale" || function == "center";
 }
 
-/// Mean and, for `scale`, standard deviation over the rows.
+/// The mean over the rows, and for `scale` the standard deviation.
 std::pair<double, double> standard_of(const std::string& function,
                                       const std::vector<double>& values,
                                       const std::vector<std::uint32_t>& place) {
@@ -32,7 +32,7 @@ std::pair<double, double> standard_of(const std::string& function,
   return {mean, std::sqrt(squares / static_cast<double>(place.size() - 1))};
 }
 
-/// Levels in their order, and the place of each cell in it.
+/// Puts the levels into order, and stores the index of each cell's level.
 void code_levels(CodedVariable& coded, const TrialVariable& column) {
   coded.is_factor = true;
   std::vector<std::size_t> order(column.cells.size());
@@ -45,7 +45,8 @@ void code_levels(CodedVariable& coded, const TrialVariable& column) {
   coded.value_of_cell.resize(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool is_new = i == 0 || !by_number ||
-                        column.numbers[order[i]] != column.numbers[order[i - 1]];  // 1 and 1.0.
+                        // 1 and 1.0 are the same level.
+                        column.numbers[order[i]] != column.numbers[order[i - 1]];
     if (is_new) coded.levels.push_back(column.cells[order[i]]);
     coded.value_of_cell[order[i]] = static_cast<double>(coded.levels.size() - 1);
   }
@@ -106,7 +107,7 @@ CodedVariable coded_variable(const FormulaVariable& variable, const TrialTable& 
   return coded;
 }
 
-/// Entries of one column of contrasts by level, and what it adds to the variable's name.
+/// One column of contrasts by level, and what it adds to the variable's name.
 struct LevelColumn {
   std::string suffix;
   std::vector<double> by_level;

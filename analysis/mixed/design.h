@@ -12,50 +12,53 @@ namespace jnd::analysis {
 
 /// How the levels of a factor become columns.
 enum class Contrasts {
-  kTreatment,  ///< Each level but the first against the first.
-  kSum,        ///< Each level but the last against the mean of all; the last has -1 throughout.
+  kTreatment,  ///< Each level except the first is compared with the first.
+  /// Each level except the last is compared with the mean of all. The last has -1 in every
+  /// column.
+  kSum,
 };
 
-/// A variable of a formula over the rows of a table: numbers, or the levels of a factor, in
-/// numeric order where all are numbers and else in that of their bytes.
+/// A variable of a formula over the rows of a table: numbers, or the levels of a factor. Levels
+/// are in numeric order if all are numbers, and otherwise in the order of their bytes.
 struct CodedVariable {
   std::string name, column;
   std::vector<std::string> functions;
   bool is_factor = false;
-  std::vector<std::string> levels;  ///< Of a factor.
-  /// Of each different cell of the column: the number, or the place of the level.
+  std::vector<std::string> levels;  ///< The levels of a factor.
+  /// For each different cell of the column, the number or the index of the level.
   std::vector<double> value_of_cell;
-  /// What each `scale` or `center` takes off and divides by, the innermost first: mean over the
-  /// rows, and the standard deviation with n - 1.
+  /// For each `scale` or `center`, the innermost first, what it subtracts and divides by: the
+  /// mean over the rows, and the standard deviation with n - 1.
   std::vector<std::pair<double, double>> standards;
 
-  /// The number that the functions make of this one.
+  /// The result of the functions for this number.
   [[nodiscard]] double transformed(double number) const;
 };
 
-/// The columns that a formula makes of a table, as R's `model.matrix` does (Chambers and
-/// Hastie 1992): in a term a factor has contrasts where the term without it is in the formula
-/// too, else a column for each level.
+/// The columns that a formula makes of a table, as R's `model.matrix` does (Chambers and Hastie
+/// 1992). A factor in a term has contrasts if the formula also has the term without this
+/// factor. Otherwise it has a column for each level.
 class Design {
  public:
-  /// Throws `FormulaError` for numbers that a function has none for, text where numbers are
-  /// needed and a factor of one level; `core::Error` if there are no rows.
+  /// Throws `FormulaError` if a function is undefined for a number, if a cell is text where
+  /// numbers are needed, or if a factor has only one level. Throws `core::Error` if there are
+  /// no rows.
   Design(const Formula& formula, const TrialTable& table, Contrasts contrasts);
 
-  /// `(Intercept)` first, then as R names them: `u`, `conditionB`, `u:conditionB`.
+  /// `(Intercept)` comes first. The other names are as in R: `u`, `conditionB`, `u:conditionB`.
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
   [[nodiscard]] const std::vector<CodedVariable>& variables() const noexcept {
     return variables_;
   }
-  /// A row for each of the table, a column for each name.
+  /// One row for each row of the table, and one column for each name.
   [[nodiscard]] Eigen::MatrixXd matrix(const TrialTable& table) const;
 
-  /// The row that these values have: of each variable its number, with functions applied, or
-  /// the place of its level.
+  /// The design's row for these values: for each variable its number after the functions, or
+  /// the index of its level.
   [[nodiscard]] Eigen::VectorXd row(const std::vector<double>& values) const;
 
  private:
-  /// What a variable contributes to a column: itself, or an entry of its contrasts by level.
+  /// What a variable contributes to a column: itself, or the entries of a contrast by level.
   struct Factor {
     std::size_t variable = 0;
     std::vector<double> by_level;  ///< Empty for a number.

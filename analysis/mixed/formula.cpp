@@ -7,21 +7,21 @@
 namespace jnd::analysis {
 namespace {
 
-/// A set of variables by their places; 0 is the intercept.
+/// A set of variables, with one bit for each index. 0 is the intercept.
 using TermBits = std::uint64_t;
 constexpr std::size_t kMostVariables = 60;
-/// Each becomes a column of the design. A product of thirty columns would be a thousand
-/// million.
+/// Each term becomes a column of the design. Without this limit a product of thirty columns
+/// would give a thousand million terms.
 constexpr std::size_t kMostTerms = 500;
-/// Parentheses and functions within one another.
+/// The deepest nesting of parentheses and functions.
 constexpr int kDeepest = 100;
 
-/// A part of a formula: its terms, and whether it says 0, which takes the intercept away.
+/// A part of a formula: its terms, and whether it contains 0, which removes the intercept.
 struct TermList {
   std::vector<TermBits> terms;
   bool says_zero = false;
 
-  /// One more than there may be is enough to tell that there are too many.
+  /// One term above the limit is enough to detect that there are too many.
   void add(TermBits term) {
     if (!is_too_long() && std::ranges::find(terms, term) == terms.end()) terms.push_back(term);
   }
@@ -43,7 +43,7 @@ bool begins_name(char letter) {
 }
 bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
 
-/// Reads one text from its beginning to its end.
+/// Reads one text from beginning to end.
 class FormulaReader {
  public:
   explicit FormulaReader(const std::string& text) : text_(text) {}
@@ -96,7 +96,7 @@ class FormulaReader {
   [[noreturn]] void fail_at_sign(const std::string& expected) {
     std::string found = "the end";
     if (!is_over()) {
-      std::size_t end = at_ + 1;  // A letter of several bytes is shown whole.
+      std::size_t end = at_ + 1;  // A character of several bytes is shown whole.
       while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xC0U) == 0x80U) {
         ++end;
       }
@@ -205,7 +205,7 @@ class FormulaReader {
     return result;
   }
 
-  /// Of what is in a parenthesis or a function.
+  /// Reads what is inside a parenthesis or a function.
   template <typename Read>
   auto deeper(const Read& read) {
     if (++depth_ > kDeepest) {
@@ -269,7 +269,7 @@ class FormulaReader {
           "expected one of the functions " + std::string(kFormulaFunctions) + ", found " + word,
           text_, result.at);
     }
-    ++at_;  // The parenthesis.
+    ++at_;  // Skips the parenthesis.
     FormulaVariable inside = deeper([this] { return variable(); });
     expect(')', ") behind what " + word + " is of, which is one column");
     inside.name = word + "(" + inside.name + ")";
@@ -307,7 +307,7 @@ class FormulaReader {
 
   // --- Random terms
 
-  /// Whether the first parenthesis holds a bar, and not only effects.
+  /// Whether the first parenthesis contains a bar, so that it holds a random term.
   [[nodiscard]] bool random_is_in_parentheses() const {
     if (at_ >= text_.size() || text_[at_] != '(') return false;
     int depth = 0;
@@ -347,7 +347,8 @@ class FormulaReader {
   std::vector<FormulaVariable> variables_;
 };
 
-/// Without what a terminal obeys: controls, and those of U+0080 to U+009F.
+/// Replaces characters that a terminal interprets: control characters, and those from U+0080 to
+/// U+009F.
 std::string without_controls(std::string text, char instead) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
@@ -358,7 +359,7 @@ std::string without_controls(std::string text, char instead) {
   return text;
 }
 
-/// The caret stands below the letter, not the byte.
+/// The caret stands below the character, not the byte.
 std::string caret_picture(const std::string& formula, std::size_t at) {
   const std::string line = without_controls(formula, ' ');
   const auto before = std::string_view(line).substr(0, std::min(at, line.size()));

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kMostPoints = 24;
 
-/// Answers at each stimulus; neighbours together where there are many.
+/// The answers at each stimulus. If there are many stimuli, neighbours are pooled.
 std::vector<CurvePoint> points_of(const std::map<double, CurvePoint>& by_stimulus) {
   double num_trials = 0.0;
   for (const auto& [stimulus, point] : by_stimulus) num_trials += point.num_trials;
@@ -28,7 +28,7 @@ std::vector<CurvePoint> points_of(const std::map<double, CurvePoint>& by_stimulu
   return points;
 }
 
-/// The cell of each row, by its place in the lines.
+/// For each row, the index of its cell in the lines.
 std::vector<std::size_t> cells_of_rows(const StimulusLines& lines, const Design& design,
                                        const TrialTable& table) {
   std::map<std::vector<double>, std::size_t> places;

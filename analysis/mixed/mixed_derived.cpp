@@ -13,10 +13,10 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNormal95 = 1.959963984540054;
 constexpr std::array<const char*, 3> kQuantities = {"PSE", "JND", "Weber fraction"};
 
-/// Differences of these places in the cells: the first less the second.
+/// The indices of two cells. The difference is the first minus the second.
 using CellPair = std::pair<std::size_t, std::size_t>;
 
-/// Every two cells that differ in one factor alone, the later less the earlier.
+/// Every two cells that differ in one factor only: the later one minus the earlier one.
 std::vector<CellPair> compared_cells(const std::vector<MixedCell>& cells) {
   std::vector<CellPair> pairs;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -31,7 +31,7 @@ std::vector<CellPair> compared_cells(const std::vector<MixedCell>& cells) {
   return pairs;
 }
 
-/// Whether f(2 s) - f(s) = f(s) - f(0), in every column.
+/// Whether f(2 s) - f(s) = f(s) - f(0) in every column.
 bool is_straight(const Eigen::VectorXd& first, const Eigen::VectorXd& second,
                  const Eigen::VectorXd& third) {
   const Eigen::VectorXd bend = third - 2.0 * second + first;
@@ -39,7 +39,8 @@ bool is_straight(const Eigen::VectorXd& first, const Eigen::VectorXd& second,
   return bend.norm() <= 1e-9 * size;
 }
 
-/// Reads numbers of the table for one row of the design.
+/// Computes rows of the design for given levels and stimuli, with other covariates at their
+/// means.
 class CellRows {
  public:
   CellRows(const Design& design, const TrialTable& table, const std::string& stimulus)
@@ -76,7 +77,8 @@ class CellRows {
   std::vector<double> values_;
 };
 
-/// The three quantities of one cell with their gradients by beta; NaN for what there is not.
+/// The three quantities of one cell, with their gradients by beta. Values that do not exist are
+/// NaN.
 struct CellQuantities {
   std::array<double, 3> value = {kNone, kNone, kNone};
   std::array<Eigen::VectorXd, 3> gradient;
@@ -107,7 +109,7 @@ CellQuantities quantities_of(const MixedCell& cell, const StimulusLines& lines, 
   return found;
 }
 
-/// The share-th quantile of sorted values, between neighbours where it falls there.
+/// The quantile of sorted values at `share`, interpolated between neighbours.
 double sorted_quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -249,7 +251,7 @@ std::vector<DerivedQuantity> derived_quantities(const StimulusLines& lines, Mixe
     all[i].bootstrap_ci95 = {sorted_quantile(drawn[i], 0.025),
                              sorted_quantile(drawn[i], 0.975)};
   }
-  // A Weber fraction that no cell has is not told.
+  // A Weber fraction that no cell has is not reported.
   std::erase_if(all, [&](const DerivedQuantity& one) {
     return !lines.has_weber_fraction && one.name.starts_with(kQuantities[2]);
   });

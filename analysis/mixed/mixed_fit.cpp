@@ -14,14 +14,16 @@
 namespace jnd::analysis {
 namespace {
 
-/// Below this share of its own length a column is a sum of those before it.
+/// A column is a linear combination of the ones before it if less than this share of its length
+/// is left.
 constexpr double kDependent = 1e-9;
-/// Standard deviation of an effect, in units of eta over the rows, that is taken for none.
+/// A smaller standard deviation of an effect, in units of eta over the rows, counts as none.
 constexpr double kNoSpread = 1e-4;
 constexpr double kStartLoading = 0.5;
 
-/// S so that the columns of x S have mean square 1 and no mean product, x S being x with each
-/// column made free of those before it. `dependent` is a column that is a sum of them, or -1.
+/// The matrix S for which the columns of x S are uncorrelated and have mean square 1. x S is x
+/// with each column made orthogonal to those before it. `dependent` is a column that is a
+/// linear combination of those before it, or -1.
 Eigen::MatrixXd standardising(const Eigen::MatrixXd& x, Eigen::Index& dependent) {
   const Eigen::Index num = x.cols();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(x);
@@ -35,7 +37,7 @@ Eigen::MatrixXd standardising(const Eigen::MatrixXd& x, Eigen::Index& dependent)
                                                 Eigen::MatrixXd::Identity(num, num));
 }
 
-/// Each column by itself made of mean square 1.
+/// Scales each column to mean square 1.
 Eigen::MatrixXd scaling(const Eigen::MatrixXd& x) {
   Eigen::VectorXd scale(x.cols());
   for (Eigen::Index j = 0; j < x.cols(); ++j) {
@@ -91,7 +93,7 @@ MixedRefit::MixedRefit(const MixedData& data, const MixedOptions& options) : opt
   fit_.status = optimum.status;
   fit_.reason = optimum.reason;
   if (optimum.unbounded >= 0) {
-    // The direction in terms of the effects that were asked for.
+    // Expresses the unbounded direction in the requested effects.
     Eigen::Index most = 0;
     (fixed_scale_.col(optimum.unbounded).array().abs() *
      data.x.colwise().norm().transpose().array())
@@ -108,7 +110,7 @@ MixedRefit::MixedRefit(const MixedData& data, const MixedOptions& options) : opt
   tell_effects(data, parameters_, covariance_);
 }
 
-/// The likelihood is even in a loading, so that a search would not leave 0.
+/// The likelihood is even in a loading, so a search would not leave 0.
 void MixedRefit::spread_at_least(double loading, Eigen::VectorXd& parameters) const {
   for (const TermPlace& place : places_) {
     Eigen::Index at = place.first_theta;
@@ -132,7 +134,7 @@ void MixedRefit::build_model(const MixedData& data) {
                       data.names[static_cast<std::size_t>(dependent)] +
                       ", which is one in these rows; leave a term out");
   }
-  // Terms of the same groups side by side, the grouping with the most columns first.
+  // Terms with the same groups stand together. The grouping with the most columns comes first.
   std::vector<std::size_t> order(data.terms.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto num_columns = [&data](const std::string& group) {
@@ -174,7 +176,7 @@ void MixedRefit::build_model(const MixedData& data) {
     if (of_term >= 0) place.scale = scaling(term.z);
     theta += term.z.cols() * (term.z.cols() + 1) / 2;
   }
-  // Equal rows are added up before rounding can make them differ.
+  // Equal rows are pooled before rounding can make them differ.
   model_ = collapsed(model_);
   model_.x = (model_.x * fixed_scale_).eval();
   std::vector<Eigen::Index> begin(model_.groupings.size(), 0);
@@ -266,7 +268,7 @@ Eigen::VectorXd MixedRefit::redrawn(std::uint64_t seed, std::int64_t index) cons
   double log_likelihood = 0.0;
   const bool is_there = climb(likelihood, parameters, inverse, log_likelihood);
   const Eigen::VectorXd fixed = parameters.head(model_.num_fixed());
-  constexpr double kFarOff = 100.0;  // Separated: nothing bounds it.
+  constexpr double kFarOff = 100.0;  // The answers are separated, so nothing bounds the effect.
   if (!is_there || !(fixed.cwiseAbs().maxCoeff() < kFarOff)) return {};
   return fixed_scale_ * fixed;
 }

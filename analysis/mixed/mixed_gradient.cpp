@@ -2,10 +2,10 @@
 
 #include "analysis/mixed/mixed_likelihood.h"
 
-// With H = I + M' W M and the observed information H_o = I + M' O M at the modes, M' s = u~
-// gives du~ = H_o^-1 (dM' s - M' O d_eta), d_eta being the change of eta with the modes held.
-// Everything that moves with the modes is added up as `change` and `modes` first, and goes
-// through that once.
+// H = I + M' W M is the expected information, and H_o = I + M' O M the observed information at
+// the modes. Then M' s = u~ gives du~ = H_o^-1 (dM' s - M' O d_eta), where d_eta is the change
+// of eta with the modes held. Everything that moves with the modes is first added up in
+// `change` and `modes`, so that this equation is solved only once.
 
 namespace jnd::analysis {
 
@@ -41,7 +41,8 @@ bool MixedLikelihood::add_gradient(Eigen::VectorXd& gradient) {
   return gradient.allFinite();
 }
 
-/// Of f(u~) - 1/2 ln |H|, in which f is level in the modes: the derivative by H is -H^-1 / 2.
+/// Adds the derivatives of f(u~) - 1/2 ln |H|. f is stationary in the modes, and the derivative
+/// by H is -H^-1 / 2.
 void MixedLikelihood::add_laplace(GradientParts& parts) {
   const auto size = static_cast<std::size_t>(head_size_) + static_cast<std::size_t>(tail_size_);
   information_.invert();
@@ -82,15 +83,15 @@ bool MixedLikelihood::add_through_modes(GradientParts& parts) {
   for (std::size_t row = 0; row < num_rows; ++row) {
     add_transposed(row, parts.change[static_cast<Eigen::Index>(row)], parts.modes);
   }
-  // At a mode the observed information is positive definite; where rounding denies it, the
-  // expected one is near.
+  // At a mode the observed information is positive definite. If rounding makes it seem
+  // otherwise, the expected information is close to it.
   if (!factorise(rows_.observed) && !factorise(rows_.expected)) return false;
   information_.solve(parts.modes);
   for (std::size_t row = 0; row < num_rows; ++row) {
     const auto at = static_cast<Eigen::Index>(row);
     const double more = parts.change[at] - rows_.observed[at] * mixed_part(row, parts.modes);
     parts.pull[at] += more;
-    Eigen::Index begin = 0;  // Of the grouping among the modes.
+    Eigen::Index begin = 0;  // The index of the grouping's first effect among the modes.
     for (std::size_t k = 0; k < parts.loadings.size(); ++k) {
       const MixedGrouping& grouping = model_.groupings[k];
       const int num = grouping.num_effects();

@@ -9,16 +9,16 @@
 
 namespace jnd::analysis {
 
-/// A mixed model as the command line's contract has it: status, reason, fixed, random,
+/// A mixed model with the keys that the command line promises: status, reason, fixed, random,
 /// log_likelihood, aic, bic, num_parameters, num_rows. Numbers that do not exist are null.
 [[nodiscard]] nlohmann::ordered_json to_json(const MixedFit& fit);
 
-/// A list of name, value, standard_error, ci95 and, with redraws, bootstrap_ci95.
+/// A list of objects with name, value, standard_error, ci95 and, with redraws, bootstrap_ci95.
 [[nodiscard]] nlohmann::ordered_json to_json(const std::vector<DerivedQuantity>& derived,
                                              bool has_bootstrap);
 
-/// The keys of the plain power law where it has them; what differs between people is under
-/// `between_people`, and everybody's exponents are under `people`.
+/// Uses the keys of the plain power law where it has them. The differences between people are
+/// under `between_people`, and everybody's exponents under `people`.
 [[nodiscard]] nlohmann::ordered_json to_json(const PeoplePowerFit& fit);
 
 }  // namespace jnd::analysis

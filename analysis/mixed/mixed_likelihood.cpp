@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t kMostGridNodes = 100'000;
 
-/// The form of the information: which columns of the corner each group of the first grouping
-/// has rows in.
+/// The structure of the information: the columns of the corner in which each group of the first
+/// grouping has rows.
 ArrowMatrix information_of(const MixedModel& model) {
   const MixedGrouping& first = model.groupings.front();
   std::vector<std::set<int>> touched(first.num_groups);
@@ -142,7 +142,8 @@ void MixedLikelihood::evaluate_rows(const Eigen::VectorXd& u) {
     const double yes = model_.num_yes[row], trials = model_.num_trials[row];
     const double no = trials - yes;
     const MixedCurvePoint p = curve_point(model_.curve, fixed_part_[at] + mixed_part(row, u));
-    // (P'/P)' = P'/P (P''/P' - P'/P), and (P'/(1-P))' = P'/(1-P) (P''/P' + P'/(1-P)).
+    // The second derivatives use (P'/P)' = P'/P (P''/P' - P'/P) and (P'/(1-P))' = P'/(1-P)
+    // (P''/P' + P'/(1-P)).
     rows_.score[at] = yes * p.rise_yes - no * p.rise_no;
     rows_.observed[at] =
         -yes * p.rise_yes * (p.bend - p.rise_yes) + no * p.rise_no * (p.bend + p.rise_no);
@@ -162,11 +163,13 @@ bool MixedLikelihood::factorise(const Eigen::VectorXd& weights) {
   return information_.factorise();
 }
 
-/// Newton's method on f, with the expected information where the observed one curves upwards,
-/// and half the step where f would fall. Leaves the rows at the modes; returns f there.
+/// Newton's method on f. It uses the expected information where the observed one is not
+/// positive definite, and halves a step that would lower f. It leaves the rows evaluated at the
+/// modes, and returns f there.
 std::optional<double> MixedLikelihood::find_modes() {
   constexpr int kMostSteps = 100;
-  constexpr double kEnough = 1e-9;  // Newton's step from here leaves about its square.
+  // After a gain below this, Newton's step leaves an error of about its square.
+  constexpr double kEnough = 1e-9;
   double height = log_density(modes_);
   if (!std::isfinite(height)) {
     modes_.setZero();
@@ -189,7 +192,7 @@ std::optional<double> MixedLikelihood::find_modes() {
     while (share > 1e-10) {
       const Eigen::VectorXd moved = modes_ + share * move;
       const double there = log_density(moved);
-      // Near the top the height is lost in rounding.
+      // Near the top, rounding hides changes of the height.
       if (there >= height - (gain < kEnough ? 1e-9 * (1.0 + std::fabs(height)) : 0.0)) {
         modes_ = moved;
         height = there;

@@ -9,8 +9,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// The sigmoid of the link, and what is taken off eta first: Weibull's is 1 - 2^(-e^z), so that
-/// z = eta - ln ln 2.
+/// The sigmoid of a link, and the number that is subtracted from eta first. Weibull's sigmoid
+/// is 1 - 2^(-e^z), so z = eta - ln ln 2.
 std::pair<Sigmoid, double> sigmoid_of(MixedLink link) noexcept {
   constexpr double kLnLn2 = -0.36651292058166432701;
   if (link == MixedLink::kProbit) return {Sigmoid::kNormal, 0.0};
@@ -51,7 +51,8 @@ MixedCurvePoint curve_point(const MixedCurve& curve, double eta) noexcept {
   const bool is_low = tails.lower < tails.upper;
   const double density =
       is_low ? tails.mills_lower * tails.lower : tails.mills_upper * tails.upper;
-  // Without guesses P'/P is that of F, which stays finite where both underflow; so for lapses.
+  // Without guesses P'/P equals that of F, which stays finite where both underflow. The same
+  // holds for P'/(1-P) without lapses.
   const bool no_guesses = curve.guess_rate == 0.0, no_lapses = curve.lapse_rate == 0.0;
   return {no_guesses ? std::log(span) + tails.log_lower : std::log(yes),
           no_lapses ? std::log(span) + tails.log_upper : std::log(no),

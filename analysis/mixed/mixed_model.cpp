@@ -37,13 +37,13 @@ MixedModel collapsed(const MixedModel& model) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(
       order, {}, [&](std::size_t row) { return result.groupings.front().group[row]; });
-  // The bytes of all that tells rows apart.
+  // The key holds the bytes of everything that distinguishes rows.
   std::unordered_map<std::string, std::size_t> places;
   std::vector<std::size_t> kept;
   std::string key;
   const auto add_numbers = [&key](const double* values, Eigen::Index num) {
     for (Eigen::Index i = 0; i < num; ++i) {
-      const double value = values[i] + 0.0;  // Of -0, too.
+      const double value = values[i] + 0.0;  // Adding 0 turns -0 into 0.
       key.append(reinterpret_cast<const char*>(&value), sizeof value);
     }
   };

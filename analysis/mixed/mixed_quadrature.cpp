@@ -14,7 +14,7 @@ void MixedLikelihood::evaluate_nodes(std::size_t group, bool with_score,
     nodes.u.col(node) = grid_.node[static_cast<std::size_t>(node)];
     nodes.height[node] = 0.5 * nodes.u.col(node).squaredNorm();
   }
-  // Centred at the mode and scaled by the information there.
+  // The nodes are centred at the mode and scaled by the information there.
   information_.factor(group).transpose().triangularView<Eigen::Upper>().solveInPlace(nodes.u);
   const std::size_t from = group_begin_[group], to = group_begin_[group + 1];
   nodes.u.colwise() +=
@@ -53,9 +53,9 @@ double MixedLikelihood::quadrature_sum() const {
   return sum;
 }
 
-/// With the share p_k of node u_k, its score s_k and its rise g_k = M' s_k - u_k, the
-/// derivative by L of the information L L' is -sum p_k (u_k - u~) (L^-1 g_k)', less 1 / L_ii on
-/// the diagonal; that by the information itself follows as in Murray (2016).
+/// Node u_k has the share p_k, the score s_k and the gradient g_k = M' s_k - u_k. The
+/// information is L L'. The derivative by L is -sum p_k (u_k - u~) (L^-1 g_k)', minus 1 / L_ii
+/// on the diagonal. The derivative by the information follows from it as in Murray (2016).
 void MixedLikelihood::add_quadrature(GradientParts& parts) const {
   const MixedGrouping& grouping = model_.groupings.front();
   const auto num_nodes = static_cast<Eigen::Index>(grid_.node.size());

@@ -8,9 +8,10 @@ namespace jnd::analysis {
 namespace {
 
 constexpr int kMostClimbs = 300;
-constexpr double kLongestStep = 2.0;  ///< Of one parameter, all being of the order of 1.
-/// Standard error of a fixed effect in units of its column's mean square, beyond which answers
-/// leave it open on one side.
+/// The longest step of one parameter. All parameters are of the order of 1.
+constexpr double kLongestStep = 2.0;
+/// A fixed effect with a larger standard error, in units of its column's root mean square, is
+/// unbounded on one side.
 constexpr double kUnboundedError = 100.0;
 
 /// Minus the second derivatives, by central differences of the gradient.
@@ -43,7 +44,7 @@ Eigen::MatrixXd inverse_of(const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
   return solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
 }
 
-/// The fixed effect that the flattest direction is of, if it is flat.
+/// The fixed effect that dominates a flat direction; -1 if no direction is flat.
 int unbounded_effect(const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>& solver,
                      int num_fixed) {
   const Eigen::VectorXd& values = solver.eigenvalues();
@@ -82,7 +83,7 @@ bool climb(MixedLikelihood& likelihood, Eigen::VectorXd& parameters, Eigen::Matr
       moved = parameters + share * move;
       there = likelihood.value(moved, gradient_there);
       if (there && *there >= *height + 1e-4 * share * slope) break;
-      // The top, where a rise is less than rounding.
+      // Near the top a rise is smaller than rounding.
       if (there && share == 1.0 && slope < 1e-8 && *there > *height - 1e-9) break;
       there.reset();
     }
@@ -180,7 +181,7 @@ Eigen::VectorXd fixed_start(const MixedModel& model) {
       score[at] = yes * p.rise_yes - (trials - yes) * p.rise_no;
       weight[at] = trials * p.rise_yes * p.rise_no;
     }
-    // A little more than the information, so that separated answers leave a start, too.
+    // Slightly more than the information, so that separated answers also give a start.
     Eigen::MatrixXd information = model.x.transpose() * weight.asDiagonal() * model.x;
     information.diagonal().array() += 1e-3;
     Eigen::VectorXd move = information.ldlt().solve(model.x.transpose() * score);

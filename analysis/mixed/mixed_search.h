@@ -8,31 +8,34 @@
 
 namespace jnd::analysis {
 
-/// The largest likelihood of a mixed model, over fixed effects and theta together.
+/// The largest likelihood of a mixed model over fixed effects and theta together.
 struct MixedOptimum {
   FitStatus status = FitStatus::kNotRun;
-  std::string reason;  ///< "" where it is there.
+  std::string reason;  ///< Why there is no optimum; "" if there is one.
   Eigen::VectorXd parameters;
   double log_likelihood = 0.0;
-  /// Inverse of the observed information; directions in which the likelihood is level, as the
-  /// correlation of an effect that does not differ, have none.
+  /// The inverse of the observed information. Directions in which the likelihood is flat have
+  /// 0, such as the correlation of an effect that does not differ between groups.
   Eigen::MatrixXd covariance;
-  /// Parameter that has no most likely value, as for separated answers; -1 for none.
+  /// The parameter that has no most likely value because answers are separated; -1 if every one
+  /// has.
   int unbounded = -1;
 };
 
-/// Where BFGS (Nocedal and Wright 2006, ch. 6) comes to rest going uphill from `start`, with
-/// `inverse` as the first guess of the inverse of the information, which it renews. False where
-/// the numbers left their range or it took too long. `parameters` are of the order of 1.
+/// Climbs from `parameters` by BFGS (Nocedal and Wright 2006, ch. 6) to where it comes to rest.
+/// `inverse` is the first approximation of the inverse information, and is updated. Returns
+/// false if numbers left their range or it took too long. `parameters` are of the order of 1.
 [[nodiscard]] bool climb(MixedLikelihood& likelihood, Eigen::VectorXd& parameters,
                          Eigen::MatrixXd& inverse, double& log_likelihood);
 
-/// Climbs, then takes Newton's steps with the information itself, as differences of gradients.
-/// A level or hollow place, as a spread of 0 may be, is left along its steepest curve.
+/// Climbs, and then takes Newton steps with an information from differences of gradients. A
+/// spread of 0 may be a saddle or a minimum of the likelihood. The search leaves such a place
+/// in the direction of the strongest upward curvature.
 [[nodiscard]] MixedOptimum most_likely(MixedLikelihood& likelihood,
                                        const Eigen::VectorXd& start, int num_fixed);
 
-/// Fixed effects of the model without random effects, by Fisher's scoring: a start.
+/// The fixed effects of the model without random effects, by Fisher scoring. They serve as a
+/// start.
 [[nodiscard]] Eigen::VectorXd fixed_start(const MixedModel& model);
 
 }  // namespace jnd::analysis

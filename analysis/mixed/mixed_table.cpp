@@ -9,7 +9,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Groups by the cells of one column or several, numbered by their first rows.
+/// Numbers the groups by the cells of one or several columns, in the order of their first rows.
 void number_groups(const RandomTerm& term, const TrialTable& table, MixedTerm& to) {
   std::vector<const TrialVariable*> columns;
   for (const std::string& name : term.group_columns) columns.push_back(table.find(name));
@@ -23,7 +23,7 @@ void number_groups(const RandomTerm& term, const TrialTable& table, MixedTerm& t
   to.num_groups = numbers.size();
 }
 
-/// Each term of the effects by itself, as `||` asks for.
+/// Splits the effects into one formula for each term, as `||` requires.
 std::vector<Formula> uncorrelated(const Formula& effects) {
   std::vector<Formula> parts;
   Formula alone = effects;
@@ -37,7 +37,7 @@ std::vector<Formula> uncorrelated(const Formula& effects) {
   return parts;
 }
 
-/// The design of a formula of which only the variables of its terms matter.
+/// The design of a formula with only those variables that its terms use.
 Design design_of(const Formula& formula, const TrialTable& table, Contrasts contrasts) {
   Formula needed = formula;
   needed.variables.clear();
@@ -160,7 +160,7 @@ MixedData mixed_data(const MixedFormulas& formulas, const Design& fixed,
 
 namespace {
 
-/// Whether some group has rows with different cells of the column.
+/// Whether some group has rows with different cells in the column.
 bool varies_within(const TrialVariable& variable,
                    const std::vector<const TrialVariable*>& groups) {
   std::map<std::vector<std::uint32_t>, std::uint32_t> first;

@@ -21,26 +21,26 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 constexpr std::size_t kFewestPeople = 3;
-/// Spread between people in units of the residual, below which it is at its bound of 0: where a
-/// search comes to rest beside it.
+/// A smaller spread between people, in units of the residual, counts as 0, because a search
+/// comes to rest beside that bound.
 constexpr double kNoLineSpread = 1e-3;
-/// What rounding leaves of no residual: its square where y is of the order of 1, as logarithms
-/// are, and the share of all squares about the pooled line.
+/// The rounding error that is left if there is no residual: its square if y is of the order of
+/// 1, as logarithms are, and its share of all squares about the pooled line.
 constexpr double kNoSquare = 1e-18, kNoShare = 1e-13;
 
-/// What the likelihood needs of one person: sums over the rows z = (1, u).
+/// The sums over one person's rows z = (1, u) that the likelihood needs.
 struct PersonSums {
   Matrix2d zz = Matrix2d::Zero();
   Vector2d zy = Vector2d::Zero();
   double yy = 0.0;
 };
 
-/// The rows over u = (x - centre) / scale, as residuals of the line through all of them, so
-/// that parameters are of the order of 1 and few digits cancel.
+/// The rows over u = (x - centre) / scale, as residuals from the line through all of them.
+/// Parameters are then of the order of 1, and few digits cancel.
 struct PeopleSums {
   std::vector<PersonSums> people;
   double centre = 0.0, scale = 1.0;
-  Line pooled;  ///< Over u.
+  Line pooled;  ///< The line over u.
   double num_rows = 0.0;
 };
 
@@ -48,7 +48,7 @@ bool has_slope(const PersonSums& person) {
   return person.zz.determinant() > 1e-12 * person.zz(0, 0) * person.zz(0, 0);
 }
 
-/// Least squares of one person's rows, over u.
+/// The least-squares line of one person's rows over u.
 Vector2d own_line(const PersonSums& person) { return person.zz.inverse() * person.zy; }
 
 PeopleSums sums_over(const std::vector<PersonPoint>& rows, std::size_t num_people,
@@ -80,21 +80,22 @@ PeopleSums sums_over(const std::vector<PersonPoint>& rows, std::size_t num_peopl
 
 enum class Likelihood { kRestricted, kFull };
 
-/// What of the fixed effects is not estimated: a sum of theirs, and its value above that of the
+/// A linear combination of the fixed effects that is held, and its value above that of the
 /// pooled line.
 struct Held {
   Vector2d weights;
   double value = 0.0;
 };
 
-/// Minus twice the logarithm of the likelihood at a relative factor L of the covariance of
-/// (u0, u1) = residual variance times L L', fixed effects and residual variance at their best.
+/// Minus twice the log-likelihood at a relative factor L, where the covariance of (u0, u1) is
+/// the residual variance times L L'. Fixed effects and residual variance are at their optimum.
 class LinesDeviance {
  public:
   LinesDeviance(const PeopleSums& sums, Likelihood kind, std::optional<Held> held = {})
       : sums_(sums), kind_(kind), held_(std::move(held)), parts_(sums.people.size()) {}
 
-  /// L is lower triangular with `theta` column by column. False out of the range of numbers.
+  /// `theta` holds the lower triangle of L, column by column. Returns false outside the range
+  /// of numbers.
   bool evaluate(std::span<const double> theta) {
     factor_ << theta[0], 0.0, theta[1], theta[2];
     precision_.setZero();
@@ -103,7 +104,8 @@ class LinesDeviance {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const PersonSums& person = sums_.people[i];
       const Matrix2d d =
-          Matrix2d::Identity() + factor_.transpose() * person.zz * factor_;  // >= identity
+          // This is at least the identity.
+          Matrix2d::Identity() + factor_.transpose() * person.zz * factor_;
       log_determinants += std::log(d.determinant());
       const Matrix2d m = factor_ * d.inverse() * factor_.transpose();
       parts_[i].precision = person.zz - person.zz * m * person.zz;
@@ -121,8 +123,8 @@ class LinesDeviance {
     return squares_ > 0.0 && std::isfinite(value_);
   }
 
-  /// Of what was evaluated last. With P_i = Z_i' V_i^-1 Z_i, and g_i = Z_i' V_i^-1 times the
-  /// residuals, it is 2 sum (P_i - P_i P^-1 P_i - g_i g_i' / variance) L.
+  /// The gradient at the last evaluation. With P_i = Z_i' V_i^-1 Z_i and g_i = Z_i' V_i^-1
+  /// times the residuals, it is 2 sum (P_i - P_i P^-1 P_i - g_i g_i' / variance) L.
   [[nodiscard]] std::array<double, 3> gradient() const {
     Matrix2d sum = Matrix2d::Zero();
     const Matrix2d inverse = precision_.inverse();
@@ -142,7 +144,7 @@ class LinesDeviance {
   [[nodiscard]] Matrix2d people_covariance() const {
     return variance() * factor_ * factor_.transpose();
   }
-  /// u0 and u1 of one person, at their best given the rest.
+  /// The most likely u0 and u1 of one person, given the other parameters.
   [[nodiscard]] Vector2d deviation(std::size_t person) const {
     return factor_ * (factor_.transpose() * residual_score(parts_[person]));
   }
@@ -173,7 +175,8 @@ class LinesDeviance {
   double squares_ = 0.0, freedom_ = 1.0, value_ = 0.0;
 };
 
-/// The factor that people's own lines suggest, their scatter about themselves taken off.
+/// The factor L that people's own lines suggest, after subtracting what their residuals
+/// explain.
 std::array<double, 3> factor_of_own_lines(const PeopleSums& sums) {
   double within = 0.0, freedom = 0.0, num = 0.0;
   Matrix2d noise = Matrix2d::Zero(), spread = Matrix2d::Zero();
@@ -198,8 +201,8 @@ std::array<double, 3> factor_of_own_lines(const PeopleSums& sums) {
   return {first, below, std::sqrt(second - below * below)};
 }
 
-/// The least deviance over L, which has bounds at spreads of 0 that are level: several starts.
-/// False where none came to rest.
+/// Minimises the deviance over L from several starts, because the deviance is flat at the
+/// bounds of 0. Returns false if no search came to rest.
 bool minimise(const PeopleSums& sums, LinesDeviance& deviance) {
   const SmoothCost cost = [&deviance](std::span<const double> theta, double& value,
                                       std::span<double> gradient) {
@@ -215,7 +218,8 @@ bool minimise(const PeopleSums& sums, LinesDeviance& deviance) {
        {likely, std::array<double, 3>{1.0, 0.0, 1.0},
         std::array<double, 3>{likely[0], -0.5 * likely[1], 0.2}}) {
     std::vector<double> theta = ceres_minimum(cost, {start.begin(), start.end()});
-    // The search ends by steps of the value, and a second one goes on with fresh curvatures.
+    // The search stops by changes of the value, so a second search continues with fresh
+    // curvatures.
     theta = ceres_minimum(cost, theta);
     if (!deviance.evaluate(theta)) continue;
     if (best.empty() || deviance.value() < least) {
@@ -230,7 +234,7 @@ struct Axis {
   double centre = 0.0, scale = 1.0;
 };
 
-/// Mean and standard deviation of x; a scale of 0 where all are alike.
+/// The mean and standard deviation of x. The scale is 0 if all x are equal.
 Axis axis_of(const std::vector<PersonPoint>& rows) {
   Axis axis{.centre = 0.0, .scale = 0.0};
   for (const PersonPoint& row : rows) axis.centre += row.x / static_cast<double>(rows.size());
@@ -241,7 +245,7 @@ Axis axis_of(const std::vector<PersonPoint>& rows) {
   return axis;
 }
 
-/// A line over u as one over x.
+/// Converts a line over u into a line over x.
 Line over_x(const PeopleSums& sums, const Vector2d& above_pooled) {
   const double slope = (sums.pooled.slope + above_pooled[1]) / sums.scale;
   return {sums.pooled.intercept + above_pooled[0] - slope * sums.centre, slope};
@@ -285,7 +289,8 @@ void require_rows(const std::vector<PersonPoint>& rows, std::size_t num_people) 
   }
 }
 
-/// Standard deviations and correlation of (intercept, slope) over x, of those over u.
+/// Converts the covariance over u into standard deviations and the correlation of intercept and
+/// slope over x.
 void tell_spread(PeopleLines& lines, const PeopleSums& sums, const Matrix2d& over_u,
                  double residual_sd) {
   Matrix2d covariance = over_u;
@@ -327,7 +332,7 @@ PeopleLines fit_people_lines(const std::vector<PersonPoint>& rows, std::size_t n
     return lines;
   }
   lines.status = FitStatus::kOk;
-  // Over u there is a factor of the scale between the densities of the restricted likelihood.
+  // The density of the restricted likelihood over u differs by a factor of the scale.
   lines.log_likelihood = -0.5 * (deviance.value() + 2.0 * std::log(sums.scale));
   lines.residual_sd = std::sqrt(deviance.variance());
   lines.group = over_x(sums, deviance.fixed());
@@ -353,7 +358,7 @@ Interval people_lines_profile(const std::vector<PersonPoint>& rows, std::size_t 
   const PeopleSums sums = sums_over(rows, num_people, axis.centre, axis.scale);
   LinesDeviance free(sums, Likelihood::kFull);
   if (!minimise(sums, free)) return {};
-  // Over u: the intercept is where x is 0.
+  // Over u the intercept is at the place where x is 0.
   const bool is_slope = of == LineParameter::kSlope;
   const Vector2d weights =
       is_slope ? Vector2d(0.0, 1.0 / axis.scale) : Vector2d(1.0, -axis.centre / axis.scale);

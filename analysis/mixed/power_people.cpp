@@ -13,11 +13,11 @@
 namespace jnd::analysis {
 namespace {
 
-/// Beyond, exp leaves the range of numbers.
+/// exp of a larger number leaves the range of double.
 constexpr double kLargestLogarithm = 700.0;
 constexpr double kCorrelationAtBound = 0.9999;
 
-/// The rows that have logarithms, and whose they are.
+/// The rows that have logarithms, and their participants.
 struct LogarithmicRows {
   std::vector<PersonPoint> points;
   std::vector<std::string> participants;

@@ -28,7 +28,7 @@ struct Mean {
   }
 };
 
-/// What was delivered of one presentation.
+/// What one presentation delivered.
 struct Delivery {
   std::string interval;
   double commanded = 0.0, delivered = 0.0;
@@ -36,8 +36,8 @@ struct Delivery {
 
 using Deliveries = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<Delivery>>;
 
-/// Presentations come in their order. Of a trial's test only those count that had the intensity
-/// of the last one: a production's others were on the way.
+/// Presentations come in their order. Of a trial's tests, only those with the intensity of the
+/// last one count, because the others of a production led up to it.
 DeliveredIntensities trials_of(const Deliveries& deliveries) {
   DeliveredIntensities trials;
   for (const auto& [key, presented] : deliveries) {
@@ -71,7 +71,7 @@ class BlockReplacement {
     if (found->second.reference) reference_.add(*found->second.reference);
   }
 
-  /// Whether the trial's stimulus is known.
+  /// Returns whether the trial's stimulus is known.
   bool replace(core::TrialRow& trial) const {
     if (!trial.intensity) return false;
     if (*trial.intensity == 0.0) return true;
@@ -98,8 +98,8 @@ class BlockReplacement {
     return true;
   }
 
-  /// What was delivered of the value set, over what was delivered of the standard where that
-  /// is known: many fluids' force was never measured.
+  /// Uses the delivered intensity of the value that was set, divided by that of the standard if
+  /// it is known. The force of many fluids was never measured.
   bool replace_matching(core::TrialRow& trial) const {
     if (!replace_production(trial)) return false;
     const std::optional<double> standard =
@@ -111,7 +111,7 @@ class BlockReplacement {
   }
 
   const DeliveredIntensities& delivered_;
-  std::map<double, Mean> levels_;  ///< By commanded intensity.
+  std::map<double, Mean> levels_;  ///< Indexed by commanded intensity.
   Mean reference_;
 };
 
@@ -147,7 +147,7 @@ DeliveredIntensities delivered_intensities(const MovementAnalysis& movement,
     for (const PresentationMovement& one : participant.presentations) {
       const double ratio = one.force.delivered_ratio.value_or(0.0);
       if (one.trial == 0 || !is_measured(1.0, ratio)) continue;
-      // The device's own damping over that of the stimulus at the same speed.
+      // The device's own damping divided by that of the stimulus at the same speed.
       const DevicePart device = device_of(devices, one.session);
       const double own = device.damping_n_s_per_m * ratio /
                          one.force.delivered_damping_n_s_per_m.value_or(kInfinity);
@@ -177,7 +177,7 @@ DeliveredStudy with_delivered(StudyData data, const DeliveredIntensities& delive
   return study;
 }
 
-/// Of a session whose samples were not kept nobody can tell: it counts as sent.
+/// If the samples of a session were not kept, nobody can tell, and the force counts as sent.
 static bool is_measured_by_recording(const core::StudyStore& store, std::int64_t session) {
   try {
     const core::RecordingReader reader(store.recording_file(session));
@@ -189,7 +189,7 @@ static bool is_measured_by_recording(const core::StudyStore& store, std::int64_t
 
 DeliveredStudy with_delivered(StudyData data, const core::StudyStore& store,
                               const DeviceParts& all_devices) {
-  // What sensors measured is the whole of it.
+  // The force that sensors measured includes the device's part.
   DeviceParts devices = all_devices;
   std::erase_if(
       devices, [&](const auto& entry) { return is_measured_by_recording(store, entry.first); });

@@ -13,59 +13,61 @@
 
 namespace jnd::analysis {
 
-/// What a trial's stimuli came out as, in the unit of their intensities: commanded intensity
-/// times delivered over commanded force, for every law is linear in its intensity. Mean over
-/// presentations; of a production the last one, which is the value set. Absent where nothing
-/// was measured or no force was commanded.
+/// The intensities that a trial's stimuli really had, in the unit of their intensities:
+/// commanded intensity times delivered force divided by commanded force, because every law is
+/// linear in its intensity. They are means over presentations. For a production it is the last
+/// presentation, which has the value that was set. They are absent if nothing was measured or
+/// no force was commanded.
 struct DeliveredTrial {
   std::optional<double> test, reference;
 };
 
-/// By session and number of the trial.
+/// The delivered intensities by session and number of the trial.
 using DeliveredIntensities = std::map<std::pair<std::int64_t, std::int64_t>, DeliveredTrial>;
 
-/// What a device makes of the force that it is sent, as it was measured: the hand is opposed by
-/// gain * force + damping * speed. Where sensors measured the force there is nothing to add.
+/// What a device makes of the force that it is sent, as it was measured: gain * force + damping
+/// * speed opposes the hand. If sensors measured the force, nothing needs to be added.
 struct DevicePart {
   double gain = 1.0;
   double damping_n_s_per_m = 0.0;
 };
-/// By session; sessions on devices of which nothing was measured are not in it.
+/// The parts by session. Sessions on devices that were not measured are missing.
 using DeviceParts = std::map<std::int64_t, DevicePart>;
 
-/// From the database alone: of fluids that are plain damping.
+/// Uses only the database, so it covers fluids that are plain damping.
 [[nodiscard]] DeliveredIntensities delivered_intensities(const StudyData& data,
                                                          const DeviceParts& devices = {});
-/// From the samples: of every fluid whose law is known, water among them.
+/// Uses the samples, so it covers every fluid whose law is known, including water.
 [[nodiscard]] DeliveredIntensities delivered_intensities(const MovementAnalysis& movement,
                                                          const DeviceParts& devices = {});
 
-/// What counts as delivered: the force as it was sent to the device, after every limit, or what
-/// its sensors of force measured; `kBoth`: sessions differ.
+/// What counts as delivered force: the force that was sent to the device after every limit, or
+/// the force that sensors measured. `kBoth` means that sessions differ.
 enum class ForceSource { kSent, kMeasured, kBoth };
 
-/// By what the recordings of these sessions hold.
+/// The source of the forces in the recordings of these sessions.
 [[nodiscard]] ForceSource force_source_of(const StudyData& data, const core::StudyStore& store);
-/// "sent", "measured", "both".
+/// "sent", "measured" or "both".
 [[nodiscard]] std::string_view name(ForceSource source) noexcept;
 
-/// A study whose intensities are those that were delivered.
+/// A study with delivered instead of commanded intensities.
 struct DeliveredStudy {
   StudyData data;
-  std::int64_t num_replaced = 0;  ///< Trials.
-  std::int64_t num_left_out = 0;  ///< Trials whose stimulus nobody measured.
+  std::int64_t num_replaced = 0;  ///< The number of trials whose intensity was replaced.
+  /// The number of trials left out because their stimulus was not measured.
+  std::int64_t num_left_out = 0;
   ForceSource force_source = ForceSource::kSent;
 };
 
-/// For fits on delivered intensity. A trial gets the mean of what its participant was delivered
-/// at its level, since one presentation alone is a noisy measure. Where there is a reference,
-/// that keeps its value and the test gets the delivered ratio to it: what a Weber fraction
-/// rests on. A production gets what was delivered of the value set, a
-/// matching too, with the standard as a reference. Zero intensity stays zero.
+/// Prepares fits on delivered intensity. One presentation alone is a noisy measure, so a trial
+/// gets the mean of what its participant received at its level. If there is a reference, it
+/// keeps its value, and the test gets its delivered ratio to the reference, on which a Weber
+/// fraction rests. A production gets the delivered intensity of the value that was set. So does
+/// a matching, with the standard as its reference. An intensity of zero stays zero.
 [[nodiscard]] DeliveredStudy with_delivered(StudyData data,
                                             const DeliveredIntensities& delivered);
 
-/// The same, with the recordings read only if the database does not say enough.
+/// Does the same, and reads the recordings only if the database is not sufficient.
 [[nodiscard]] DeliveredStudy with_delivered(StudyData data, const core::StudyStore& store,
                                             const DeviceParts& devices = {});
 

@@ -10,7 +10,8 @@ namespace jnd::analysis {
 namespace {
 
 constexpr double kClassWidthMPerS = 0.02;
-constexpr std::size_t kNumClasses = 100;  // Up to 2 m/s; whatever is faster joins the last one.
+// The classes reach up to 2 m/s. Faster ticks join the last one.
+constexpr std::size_t kNumClasses = 100;
 constexpr double kMinTicks = 20.0;
 
 std::optional<core::MediumAmounts> known_amounts(const std::string& medium, double intensity) {
@@ -19,7 +20,7 @@ std::optional<core::MediumAmounts> known_amounts(const std::string& medium, doub
     const core::MediumAmounts amounts = experiments::amounts_of(medium, intensity);
     if (amounts.is_drag_of_motion()) return amounts;
   } catch (const core::Error&) {
-    // A medium that is not known to this version.
+    // This version does not know the medium.
   }
   return std::nullopt;
 }
@@ -40,7 +41,7 @@ double CommandedForce::opposing_n(const core::Sample& sample, double speed_m_per
   if (!amounts_) return 0.0;
   if (is_plain_damping_) return amounts_->damping_n_s_per_m * speed_m_per_s;
   core::PointVectors position_m, velocity_m_per_s;
-  // Points that the device has not lie at zero and do not count.
+  // Points that the device does not have lie at zero and do not count.
   const std::uint8_t bits = core::measured_bits(sample);
   std::array<bool, core::kNumContactPoints> is_there{};
   for (std::size_t i = 0; i < position_m.size(); ++i) {
@@ -49,7 +50,7 @@ double CommandedForce::opposing_n(const core::Sample& sample, double speed_m_per
     velocity_m_per_s[i] = Eigen::Vector3d::Map(sample.tip_velocity_m_per_s[i].data());
   }
   core::HandMotion motion = core::hand_motion(position_m, velocity_m_per_s, is_there);
-  // As the loop has it: without a hand plane the hand meets the fluid head on.
+  // Without a hand plane the hand meets the fluid head on, as in the force loop.
   if (!core::tip_of_hand_plane(is_there)) motion.sin_angle_of_attack = 1.0;
   return amounts_->drag_n(motion);
 }

@@ -12,34 +12,41 @@
 
 namespace jnd::analysis {
 
-/// What was delivered over the ticks of a presentation, after the ramp.
+/// The force over the ticks of a presentation after the ramp.
 struct DeliveredForce {
-  std::optional<double> delivered_n;  ///< Mean delivered force against the motion.
-  std::optional<double> commanded_n;  ///< Mean of the law at the hand's speed, without limits.
-  std::optional<double> delivered_damping_n_s_per_m;  ///< Mean force over mean speed.
-  std::optional<double> delivered_ratio;              ///< Delivered over commanded.
-  bool is_measured = false;  ///< By sensors of force; else it is what was sent.
+  std::optional<double> delivered_n;  ///< The mean delivered force against the motion.
+  /// The mean of the law at the hand's speed, without limits.
+  std::optional<double> commanded_n;
+  /// The mean force divided by the mean speed.
+  std::optional<double> delivered_damping_n_s_per_m;
+  /// Delivered force divided by commanded force.
+  std::optional<double> delivered_ratio;
+  /// Whether force sensors measured it. Otherwise it is the force that was sent.
+  bool is_measured = false;
 };
 
-/// Rendered force against speed, in classes of speed of 2 cm/s that hold at least 20 ticks.
+/// Rendered force by speed, in classes of 2 cm/s with at least 20 ticks each.
 struct ForceBySpeed {
-  std::vector<double> speed_m_per_s;  ///< Mean of the ticks of each class.
-  std::vector<double> delivered_n;    ///< Mean against the motion, after every limit.
-  std::vector<double> commanded_n;  ///< By the law at these speeds; empty where it is unknown.
-  bool is_measured = false;         ///< By sensors of force.
+  std::vector<double> speed_m_per_s;  ///< The mean over the ticks of each class.
+  std::vector<double> delivered_n;    ///< The mean force against the motion, after every limit.
+  /// The mean force of the law at these speeds; empty if the law is unknown.
+  std::vector<double> commanded_n;
+  bool is_measured = false;  ///< Whether force sensors measured it.
 };
 
-/// The force that a stimulus stands for, from what the database knows of it: drag alone, fully
-/// immersed, without ramp and limits. Unknown for solids, lift, buoyancy and force maps.
+/// The force of a stimulus, as far as the database describes it: only drag, fully immersed,
+/// without ramp and limits. It is unknown for solids, lift, buoyancy and force maps.
 class CommandedForce {
  public:
   CommandedForce() = default;
-  /// `damping_n_s_per_m`: as a presentation's row says, whatever the medium is called.
+  /// `damping_n_s_per_m` comes from the presentation's row. If it is present, the name of the
+  /// medium does not matter.
   CommandedForce(const std::string& medium, double intensity,
                  std::optional<double> damping_n_s_per_m);
 
   [[nodiscard]] bool is_known() const noexcept { return amounts_.has_value(); }
-  /// Against the motion; `speed_m_per_s` of the hand that the sample is of. 0 if unknown.
+  /// The force against the motion. `speed_m_per_s` is that of the hand in the sample. It is 0
+  /// if the law is unknown.
   [[nodiscard]] double opposing_n(const core::Sample& sample, double speed_m_per_s) const;
 
  private:
@@ -47,8 +54,8 @@ class CommandedForce {
   bool is_plain_damping_ = false;
 };
 
-/// Adds up delivered and commanded force, overall and by classes of speed. A commanded force
-/// that is unknown for some ticks is unknown for all.
+/// Adds up delivered and commanded force, overall and by classes of speed. If the commanded
+/// force is unknown for some ticks, it is unknown for all.
 class ForceSums {
  public:
   void add(double speed_m_per_s, double delivered_n, double commanded_n) noexcept;

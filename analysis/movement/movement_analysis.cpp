@@ -33,7 +33,7 @@ void require_valid(const MovementOptions& options) {
 ParticipantMovement movement_of(const core::StudyStore& store, const MovementOptions& options,
                                 const std::string& participant,
                                 const SessionsOfPerson& sessions) {
-  // One damaged recording must not spoil what the others tell.
+  // A damaged recording must not affect the results of the others.
   try {
     ParticipantReading reading(store, options, participant);
     for (const core::SessionRow& session : sessions) reading.read_session(session);

@@ -65,7 +65,7 @@ void StrokeBuffer::values_at(double tick, std::array<double, kNumChannels>& valu
   const auto first = static_cast<std::int64_t>(whole);
   const double ratio = tick - whole;
   const std::size_t from = slot(first);
-  // A time that is a tick needs no neighbour, which may not be there.
+  // A time that equals a tick needs no neighbour, which may be missing.
   const std::size_t to = ratio > 0.0 ? slot(first + 1) : from;
   const auto between = [ratio](double low, double high) { return low + ratio * (high - low); };
   for (std::size_t i = 0; i < kNumHandChannels; ++i) {
@@ -80,7 +80,7 @@ void BandSums::add(const std::vector<double>& values) {
   mean_.resize(values.size());
   squares_.resize(values.size());
   ++num_strokes_;
-  // Welford (1962).
+  // The update of Welford (1962).
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double off = values[i] - mean_[i];
     mean_[i] += off / num_strokes_;
@@ -148,7 +148,7 @@ void StrokeCurveSums::add_joined(const StrokeBuffer& buffer, const HalfStroke& f
   ++num_joined_;
 }
 
-/// With a seam, time goes on at `joined_tick` once it has reached `seam_tick`.
+/// With a seam, time continues at `joined_tick` once it has reached `seam_tick`.
 bool StrokeCurveSums::add(const StrokeBuffer& buffer, double first_tick, double last_tick,
                           std::optional<std::int64_t> seam_tick, std::int64_t joined_tick) {
   constexpr std::size_t kHand = StrokeBuffer::kNumHandChannels;
@@ -168,7 +168,8 @@ bool StrokeCurveSums::add(const StrokeBuffer& buffer, double first_tick, double 
       joints[i * kNumPoints + point] = values[kHand + i];
     }
   }
-  // A tip's tick is left out if it is not finite; the end effector and joints come unchecked.
+  // A tick is left out earlier if a tip is not finite, but end effector and joints have not
+  // been checked.
   const auto is_finite = [](double value) { return std::isfinite(value); };
   if (!std::ranges::all_of(hand, is_finite) || !std::ranges::all_of(joints, is_finite)) {
     return false;

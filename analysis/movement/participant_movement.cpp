@@ -14,14 +14,14 @@ std::array<double, 2> unit(const std::array<double, 2>& vector) {
   return {vector[0] / length, vector[1] / length};
 }
 
-/// To the side of the end effector, where that is aside.
+/// The direction along x toward the end effector, or +x if that is less than 5 cm aside.
 std::array<double, 2> forward_of(const core::Sample& sample) {
   constexpr double kAsideM = 0.05;
   const double x_m = hand_tick(sample, {1.0, 0.0}).x_m;
   return {sample.end_effector_position_m[0] < x_m - kAsideM ? -1.0 : 1.0, 0.0};
 }
 
-/// Deals the samples of a session out to its presentations, which do not overlap.
+/// Distributes the samples of a session to its presentations, which do not overlap.
 class PresentationCursor {
  public:
   using Taker = std::function<void(const PlannedPresentation&, PresentationMeter::Result)>;
@@ -44,7 +44,7 @@ class PresentationCursor {
     if (draws_) trajectories_.feed(meter_->hand(), sample);
   }
 
-  /// The number of samples that were taken.
+  /// Returns the number of samples that were used.
   std::int64_t finish() {
     while (next_ < planned_.size()) close();
     return num_samples_;
@@ -63,7 +63,7 @@ class PresentationCursor {
     open_ = true;
   }
 
-  /// One of which there is no sample is all missing.
+  /// A presentation without any sample is missing entirely.
   void close() {
     if (!open_) open(nullptr);
     taker_(planned_[next_], meter_->finish());
@@ -156,7 +156,7 @@ void ParticipantReading::take(const PlannedPresentation& planned,
     trial.movement.repetition = movement.repetition;
     trial.movement.marks.add(movement.marks);
     if (!is_free) {
-      // Its curves are the conditions' alone.
+      // Only conditions have its curves.
       trial.sums.strokes.add(result.sums.strokes);
       trial.sums.height_m += result.sums.height_m;
       trial.sums.num_ticks += result.sums.num_ticks;

@@ -15,20 +15,20 @@
 
 namespace jnd::analysis {
 
-/// Goes through the recordings of one participant and adds up what it finds. Not real time.
+/// Reads the recordings of one participant and adds up the movement. Not real time.
 class ParticipantReading {
  public:
-  /// The store must outlive it.
+  /// The store must outlive the object.
   ParticipantReading(const core::StudyStore& store, MovementOptions options,
                      std::string participant);
 
   /// Throws `core::Error` for a damaged recording.
   void read_session(const core::SessionRow& session);
-  /// What was found; the object is used up.
+  /// Returns the result. The object must not be used afterwards.
   [[nodiscard]] ParticipantMovement finish();
 
  private:
-  /// Explored media come last; of a block, the whole before its levels.
+  /// Explored media come last. The whole block comes before its levels.
   using ConditionKey = std::tuple<bool, std::string, std::string, std::optional<double>>;
   struct Condition {
     int num_presentations = 0, num_marked = 0;

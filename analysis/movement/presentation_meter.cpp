@@ -9,9 +9,10 @@
 namespace jnd::analysis {
 namespace {
 
-/// Longer strokes than that are not normalised; so much is kept of a presentation at most.
+/// Longer strokes are not normalised. At most this much of a presentation is kept.
 constexpr double kLongestStrokeS = 30.0;
-/// Of a stroke whose end may be joined to its beginning: their distance to its width.
+/// The end of a stroke may be joined to its beginning if their distance is at most this share
+/// of its width.
 constexpr double kMostOpenRatio = 0.2;
 
 double open_m(const HalfStroke& there, const HalfStroke& back) noexcept {
@@ -78,7 +79,7 @@ void PresentationMeter::begin(const PresentationMovement& presentation,
 bool PresentationMeter::feed(const core::Sample& sample) {
   if (sample.tick <= last_tick_) return false;
   const HandTick hand = hand_tick(sample, parameters_.forward);
-  // A sum is finite only if every term is.
+  // A sum is finite only if every term is finite.
   if (!std::isfinite(hand.x_m + hand.y_m + hand.z_m + hand.speed_m_per_s + hand.dissipated_w)) {
     return false;
   }

@@ -12,13 +12,13 @@
 
 namespace jnd::analysis {
 
-/// What adds up over presentations of the same kind.
+/// Sums over presentations of the same kind.
 struct MovementSums {
   StrokeSums strokes;
   StrokeCurveSums curves;
   ForceSums force;
   double height_m = 0.0;
-  std::int64_t num_ticks = 0;  ///< That `height_m` was added up over.
+  std::int64_t num_ticks = 0;  ///< The number of ticks over which `height_m` was added up.
 
   void add(const MovementSums& other);
   [[nodiscard]] std::optional<double> mean_height_m() const noexcept {
@@ -27,25 +27,28 @@ struct MovementSums {
   }
 };
 
-/// The samples of one session's presentations, one presentation after the other. A stretch
-/// between gaps stands for itself: no stroke reaches across one. Not real time.
+/// Measures the presentations of one session, one after the other, from their samples. Each
+/// stretch without a gap is independent, so no stroke crosses a gap. Not real time.
 class PresentationMeter {
  public:
   struct Parameters {
     HalfStrokeFinder::Parameters strokes;
-    std::array<double, 2> forward = {1.0, 0.0};  ///< Unit vector, x and y.
-    std::int64_t ramp_ticks = 0;                 ///< Left out at the beginning, >= 0.
+    std::array<double, 2> forward = {1.0, 0.0};  ///< A unit vector, x and y.
+    /// The number of ticks left out at the beginning, >= 0.
+    std::int64_t ramp_ticks = 0;
     bool has_joints = false;
   };
 
   explicit PresentationMeter(const Parameters& parameters);
 
-  /// The identity of `presentation` is kept, its movement is to be found out.
+  /// Starts a presentation. The identity of `presentation` is kept, and its movement is
+  /// determined.
   void begin(const PresentationMovement& presentation, const CommandedForce& commanded);
-  /// In the order of their ticks, within the presentation. One that is not finite counts as
-  /// missing, one that was there already is left out. Whether it was taken.
+  /// Samples come in the order of their ticks, within the presentation. A sample that is not
+  /// finite counts as missing, and a repeated one is left out. Returns whether the sample was
+  /// used.
   bool feed(const core::Sample& sample);
-  /// What the last sample was reduced to.
+  /// The last sample after reduction.
   [[nodiscard]] const HandTick& hand() const noexcept { return hand_; }
 
   struct Result {
@@ -64,15 +67,15 @@ class PresentationMeter {
   Parameters parameters_;
   HalfStrokeFinder finder_;
   StrokeBuffer buffer_;
-  std::uint8_t held_bits_ = 0;  ///< Points that held when a presentation began.
+  std::uint8_t held_bits_ = 0;  ///< The points that held the hand when a presentation began.
 
   Result result_;
   CommandedForce commanded_;
   HandTick hand_;
   std::int64_t last_tick_ = 0;
   bool first_sample_ = true;
-  // Of the stretch under way: halves that followed one another without a flaw, the newest last;
-  // the first half of a stroke; the stroke that closes best, in case that nothing better comes.
+  // The state of the present stretch: successive halves without a flaw, with the newest last;
+  // the first half of a stroke; and the stroke that closes best, in case nothing better comes.
   struct Alone {
     HalfStroke first, second;
     double open_ratio = 0.0;
@@ -83,7 +86,8 @@ class PresentationMeter {
   bool has_continuous_ = false;
 };
 
-/// The hand of a sample: mean of the points that the device has, as `StrokeMeter` is fed.
+/// The hand of a sample, which is the mean of the device's points, as `StrokeMeter` receives
+/// it.
 [[nodiscard]] HandTick hand_tick(const core::Sample& sample,
                                  const std::array<double, 2>& forward) noexcept;
 

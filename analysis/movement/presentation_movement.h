@@ -9,12 +9,16 @@
 
 namespace jnd::analysis {
 
-/// Why a movement is not quite what it should be. Ticks are counted; all 0 is a clean one.
+/// Flaws of a movement, as numbers of ticks. All are 0 for a movement without flaws.
 struct MovementMarks {
-  std::int64_t missing_ticks = 0;       ///< Not in the recording; nothing stands in for them.
-  std::int64_t lost_contact_ticks = 0;  ///< A point that held the hand before did not.
-  std::int64_t limited_ticks = 0;       ///< The force limiter changed the force: saturation.
-  std::int64_t fault_ticks = 0;         ///< A fault was latched: no force.
+  /// Ticks that are missing from the recording. Nothing replaces them.
+  std::int64_t missing_ticks = 0;
+  /// Ticks at which a point that had held the hand did not hold it.
+  std::int64_t lost_contact_ticks = 0;
+  /// Ticks at which the force limiter changed the force (saturation).
+  std::int64_t limited_ticks = 0;
+  /// Ticks at which a fault was latched, so there was no force.
+  std::int64_t fault_ticks = 0;
 
   [[nodiscard]] bool any() const noexcept {
     return missing_ticks > 0 || lost_contact_ticks > 0 || limited_ticks > 0 || fault_ticks > 0;
@@ -27,18 +31,19 @@ struct MovementMarks {
   }
 };
 
-/// One presentation: which one it is, and how the hand moved in it, from its samples. Strokes,
-/// height and force are of the time after the ramp.
+/// One presentation: its identity, and how the hand moved, from the samples. Strokes, height
+/// and force cover the time after the ramp.
 struct PresentationMovement {
   std::int64_t session = 0, trial = 0, attempt = 0, presentation = 0;
-  std::string block;     ///< "" for a medium explored outside of trials; trial is 0 then.
-  std::string medium;    ///< "viscous", "water", "free_space" ...
-  std::string interval;  ///< "test", "reference", "free_space"; "explored" outside of trials.
+  /// The block; "" for a medium explored outside of trials, for which trial is 0.
+  std::string block;
+  std::string medium;    ///< For example "viscous", "water" or "free_space".
+  std::string interval;  ///< "test", "reference" or "free_space"; "explored" outside of trials.
   std::int64_t repetition = 0;
   double intensity = 0.0;
   std::int64_t first_tick = 0, last_tick = 0;
-  StrokeMeans strokes;  ///< Means over strokes without gap, lost contact, fault.
-  std::optional<double> mean_height_m;  ///< Mean height of the hand, workspace frame.
+  StrokeMeans strokes;  ///< Means over strokes without gap, lost contact and fault.
+  std::optional<double> mean_height_m;  ///< The mean height of the hand in the workspace frame.
   DeliveredForce force;
   MovementMarks marks;
 };

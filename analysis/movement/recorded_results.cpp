@@ -19,7 +19,7 @@ struct Quantity {
       value;
 };
 
-/// Mean over presentations of a block.
+/// The mean over the presentations of a block.
 std::optional<double> delivered_ratio(const ParticipantMovement& person,
                                       const ConditionMovement& condition) {
   double sum = 0.0;
@@ -34,7 +34,8 @@ std::optional<double> delivered_ratio(const ParticipantMovement& person,
   return sum / count;
 }
 
-/// Where any person's device measured it.
+/// The meaning of the ratio. It mentions sensors if the device of any person measured the
+/// force.
 const char* delivered_meaning(const MovementAnalysis& movement) {
   for (const ParticipantMovement& person : movement.participants) {
     for (const PresentationMovement& one : person.presentations) {

@@ -5,10 +5,10 @@
 
 namespace jnd::analysis {
 
-/// What the recordings add to `movement_results`: speed, duration, pauses and energy of
-/// strokes, height of the hand, delivered over commanded force and the share of marked
-/// presentations, over participants, by block, with the difference of blocks that follow one
-/// another; and whether tall people stroke otherwise.
+/// The results that the recordings add to `movement_results`, over participants and by block:
+/// speed, duration, pauses and energy of strokes, the height of the hand, delivered over
+/// commanded force, and the share of flawed presentations. They include the difference between
+/// successive blocks, and whether tall people make other strokes.
 [[nodiscard]] ResultsSection recorded_results(const MovementAnalysis& movement);
 
 }  // namespace jnd::analysis

@@ -57,7 +57,8 @@ std::optional<HalfStroke> HalfStrokeFinder::feed(const HandTick& hand) noexcept 
     my.to_farthest.add(std::exchange(since, {}));
     return std::nullopt;
   }
-  // Way back from the farthest point, along the line to it; compared squared, without a root.
+  // The way back from the farthest point along the line to it. Squares are compared, which
+  // avoids a root.
   const double back = (my.farthest_x_m - hand.x_m) * (my.farthest_x_m - my.from_x_m) +
                       (my.farthest_y_m - hand.y_m) * (my.farthest_y_m - my.from_y_m);
   const double hysteresis_squared = parameters_.hysteresis_m * parameters_.hysteresis_m;

@@ -14,13 +14,13 @@ namespace {
 
 using nlohmann::json;
 
-/// Beyond that a block's intensities are adjusted rather than designed.
+/// A block with more intensities has adjusted, not designed ones.
 constexpr std::size_t kMostPlannedLevels = 32;
 
 struct TrialPlan {
   core::DesignRow design;
-  std::set<double> levels;      ///< Of its block.
-  std::string standard_medium;  ///< Of the reference; "" where it is the block's own.
+  std::set<double> levels;      ///< The levels of its block.
+  std::string standard_medium;  ///< The medium of the reference; "" if it is the block's own.
 };
 
 std::map<std::int64_t, TrialPlan> plans_of(const core::StudyStore& store,
@@ -44,7 +44,7 @@ std::map<std::int64_t, TrialPlan> plans_of(const core::StudyStore& store,
 }
 
 PlannedPresentation planned(const core::PresentationRow& row, const TrialPlan& plan) {
-  // A catch trial of a yes-no task is free space, too.
+  // A catch trial of a yes-no task is also free space.
   const bool is_free = row.interval == "free_space" ||
                        (plan.design.is_catch && !plan.design.reference_intensity);
   const bool is_standard = row.interval == "reference" && !plan.standard_medium.empty();
@@ -107,7 +107,7 @@ std::vector<PlannedPresentation> presentations_of(const core::StudyStore& store,
   std::vector<PlannedPresentation> all;
   for (const core::PresentationRow& row : store.presentations(session)) {
     const auto plan = plans.find(row.trial);
-    // A solid is pressed, which nothing here is about.
+    // A solid is pressed, which is not analysed here.
     if (plan == plans.end() || experiments::is_pressed(plan->second.design.medium)) continue;
     all.push_back(planned(row, plan->second));
   }

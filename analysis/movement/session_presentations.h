@@ -9,26 +9,28 @@
 
 namespace jnd::analysis {
 
-/// What was presented when, before any sample is read.
+/// A presentation before any sample is read.
 struct PlannedPresentation {
-  PresentationMovement movement;  ///< Its identity alone.
+  PresentationMovement movement;  ///< Only its identity is filled in.
   CommandedForce commanded;
-  bool is_level = false;  ///< Its intensity is one that the block was designed with.
+  bool is_level = false;  ///< Whether its intensity is one of the block's design.
 };
 
-/// Presentations of trials whose answer stands, and with `explored` the media explored outside
-/// of trials, by their first tick. Throws `Error` for damaged rows. Not real time.
+/// The presentations of trials whose answer is valid and, with `explored`, the media explored
+/// outside of trials, by their first tick. Throws `Error` for damaged rows. Not real time.
 [[nodiscard]] std::vector<PlannedPresentation> presentations_of(const core::StudyStore& store,
                                                                 std::int64_t session,
                                                                 bool explored);
 
-/// Time that a change of the medium takes, as the session's study says.
+/// The time that a change of the medium takes in the session's study.
 [[nodiscard]] double ramp_s_of(const core::StudyStore& store, const core::SessionRow& session);
 
-/// Height of z = 0 above the floor in a simulated laboratory; nothing with persons.
+/// The height of z = 0 above the floor in a simulated laboratory. It is absent for sessions
+/// with persons.
 [[nodiscard]] std::optional<double> surface_height_m_of(const core::SessionRow& session);
 
-/// What the participant answered to "body_height_m"; nothing without a number in [0.5, 2.5].
+/// The participant's answer to "body_height_m". It is absent unless it is a number in
+/// [0.5, 2.5].
 [[nodiscard]] std::optional<double> body_height_m_of(const core::StudyStore& store,
                                                      std::int64_t session);
 

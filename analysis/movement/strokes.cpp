@@ -37,7 +37,8 @@ void StrokeMeter::feed(const Eigen::Vector3d& position_m,
     progress_.peak_since_farthest = 0.0;
     return;
   }
-  // Way back from the farthest point, along the line to it; compared squared, without a root.
+  // The way back from the farthest point along the line to it. Squares are compared, which
+  // avoids a root.
   const double back =
       (progress_.farthest_x_m - x) * (progress_.farthest_x_m - progress_.from_x_m) +
       (progress_.farthest_y_m - y) * (progress_.farthest_y_m - progress_.from_y_m);

@@ -11,33 +11,35 @@
 
 namespace jnd::analysis {
 
-/// A path without a gap, workspace frame; about 50 points a second.
+/// A path without a gap in the workspace frame, with about 50 points per second.
 struct Path {
   std::vector<double> x_m, y_m, z_m;
 };
 
-/// Where the hand went in one repetition of a block (thesis, fig. D.16, D.24): its first
-/// minute.
+/// The path of the hand in the first minute of one repetition of a block (thesis, fig. D.16,
+/// D.24).
 struct Trajectory {
   std::string block;
   std::int64_t repetition = 0;
-  std::vector<Path> hand;          ///< Mean of the device's points; one a stretch without gaps.
-  std::vector<Path> end_effector;  ///< The end effector; one path a stretch without gaps.
+  /// The mean of the device's points, with one path for each stretch without gaps.
+  std::vector<Path> hand;
+  /// The end effector, with one path for each stretch without gaps.
+  std::vector<Path> end_effector;
 };
 
-/// Takes the paths of a participant's presentations. Not real time.
+/// Collects the paths of a participant's presentations. Not real time.
 class TrajectoryTaker {
  public:
   explicit TrajectoryTaker(double rate_hz);
 
-  /// Samples that come now belong to this presentation.
+  /// The samples that follow belong to this presentation.
   void begin(const PresentationMovement& presentation);
   void feed(const HandTick& hand, const core::Sample& sample);
-  /// By block and repetition.
+  /// The trajectories by block and repetition.
   [[nodiscard]] std::vector<Trajectory> finish();
 
  private:
-  std::int64_t stride_;  ///< Of so many ticks one is taken.
+  std::int64_t stride_;  ///< One of this many ticks is used.
   std::map<std::pair<std::string, std::int64_t>, Trajectory> all_;
   std::map<std::pair<std::string, std::int64_t>, std::int64_t> num_points_;
   Trajectory* current_ = nullptr;

@@ -10,22 +10,25 @@
 
 namespace jnd::analysis {
 
-/// A contrast of the study file as simulated studies are analysed for it. Whoever only sums up
-/// runs needs no more than names and alpha.
+/// A contrast of the study file in the form in which simulated studies are analysed. To
+/// summarise runs, only the names and alpha are needed.
 struct PowerContrast {
   std::string name;
   std::string meaning;  ///< What is tested and how, in one phrase.
   double alpha = 0.05;
-  std::optional<double> margin;  ///< On the scale of the test; then equivalence is tested, too.
-  bool is_ratio = true;          ///< The scale is the logarithm of a ratio.
+  /// The margin on the scale of the test. If it is present, equivalence is tested too.
+  std::optional<double> margin;
+  bool is_ratio = true;  ///< Whether the scale is the logarithm of a ratio.
 
   experiments::ContrastMeasure measure = experiments::ContrastMeasure::kWeberFraction;
   Tail tail = Tail::kTwoSided;
   std::string family;
   experiments::Correction correction = experiments::Correction::kHolm;
-  std::vector<std::vector<std::size_t>> conditions;  ///< Places of the blocks of each.
-  std::vector<experiments::Levels> groups;           ///< What people of each group are.
-  std::vector<std::vector<double>> weights;          ///< By group, then by condition.
+  /// The indices of the blocks of each condition.
+  std::vector<std::vector<std::size_t>> conditions;
+  /// The levels of the factors that define each group of people.
+  std::vector<experiments::Levels> groups;
+  std::vector<std::vector<double>> weights;  ///< Indexed by group, then by condition.
 };
 
 }  // namespace jnd::analysis

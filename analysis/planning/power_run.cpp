@@ -17,12 +17,13 @@
 namespace jnd::analysis {
 namespace {
 
-/// A participant's own number in a block, where it is normally distributed over people:
-/// ln ln(1 + w), the exponent, in production 1 / exponent, ln(match), or the mean step.
+/// A participant's number in a block, on a scale on which it is normally distributed over
+/// people: ln ln(1 + w), the exponent, 1 / exponent for a production, ln(match), or the mean
+/// step.
 struct OwnNumber {
   bool answered = false;
-  std::optional<double> plain;      ///< None of a degenerate participant.
-  std::optional<double> corrected;  ///< With half an answer added, for Weber fractions.
+  std::optional<double> plain;      ///< Absent for a degenerate participant.
+  std::optional<double> corrected;  ///< For Weber fractions: with half an answer added.
 };
 
 std::optional<double> log_log(const std::optional<double>& weber_fraction) {
@@ -66,7 +67,7 @@ OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
     own.plain = mean_over_stimuli(means_of(answers.magnitudes));
     return own;
   }
-  // As the results have it: a match of 0 is left out.
+  // A match of 0 is left out, as in the results.
   const ZeroRule rule =
       block.quantity == PlannedQuantity::kMatch ? ZeroRule::kLeaveOut : ZeroRule::kHalfSmallest;
   const Means logs = means_of(log_answers(answers.magnitudes, rule).logs);
@@ -74,12 +75,12 @@ OwnNumber own_number(const PlannedAnalysis& analysis, const PlannedBlock& block,
     own.plain = mean_over_stimuli(logs);
     return own;
   }
-  // Production is answered with an intensity: the slope of ln I over ln S, 1 / exponent.
+  // A production is answered with an intensity, so the slope of ln I over ln S is 1 / exponent.
   own.plain = fit_log_estimation(logs).a;
   return own;
 }
 
-/// The answers in several blocks as if they were one.
+/// The answers in several blocks, pooled as if they were one block.
 PlannedAnswers joined(const PlannedPerson& person, const std::vector<std::size_t>& places) {
   PlannedAnswers all;
   std::map<std::pair<double, double>, AnswerCount> counts;
@@ -100,7 +101,8 @@ PlannedAnswers joined(const PlannedPerson& person, const std::vector<std::size_t
   return all;
 }
 
-/// A person's number in one condition of a contrast, as of `ConditionNumbers` of the results.
+/// A person's number in one condition of a contrast, as `ConditionNumbers` computes it for the
+/// results.
 std::optional<double> contrast_number(const PlannedAnalysis& analysis,
                                       const PowerContrast& contrast,
                                       const std::vector<std::size_t>& places,
@@ -164,10 +166,10 @@ std::optional<PersonScore> contrast_score(const PlannedAnalysis& analysis,
   return score;
 }
 
-/// By contrast, then by person.
+/// Indexed by contrast, then by person.
 using ContrastScores = std::vector<std::vector<std::optional<PersonScore>>>;
 
-/// The tests of all contrasts with the first `size` people, p values adjusted in their
+/// The tests of all contrasts with the first `size` people. p values are adjusted within their
 /// families.
 std::vector<PlannedTest> contrast_tests(const PlannedAnalysis& analysis,
                                         const ContrastScores& scores, std::size_t size) {
@@ -209,11 +211,11 @@ std::vector<PlannedTest> contrast_tests(const PlannedAnalysis& analysis,
   return tests;
 }
 
-/// Back from where it is normally distributed.
+/// Transforms a number back from the scale on which it is normally distributed.
 double quantity_at(double number, PlannedQuantity quantity) {
   if (quantity == PlannedQuantity::kWeberFraction) return std::expm1(std::exp(number));
   if (quantity == PlannedQuantity::kProductionExponent) {
-    // No power function sets less for more; an end there is open.
+    // No power function sets a lower intensity for a higher target, so such an end is open.
     return number > 0.0 ? 1.0 / number : std::numeric_limits<double>::infinity();
   }
   return quantity == PlannedQuantity::kMatch ? std::exp(number) : number;
@@ -228,14 +230,14 @@ PlannedEstimate mean_of(const std::vector<double>& numbers, PlannedQuantity quan
     const double value = quantity_at(**end, quantity);
     *end = std::isfinite(value) ? std::optional(value) : std::nullopt;
   }
-  // Turned round, the lower end is the upper one.
+  // The reciprocal exchanges the lower and the upper end.
   if (quantity == PlannedQuantity::kProductionExponent) {
     std::swap(estimate.ci95.low, estimate.ci95.high);
   }
   return estimate;
 }
 
-/// One study of a size, out of everybody's numbers.
+/// Analyses one study of a certain size from everybody's numbers.
 class SizeAnalysis {
  public:
   SizeAnalysis(const PlannedAnalysis& analysis, const std::vector<PlannedPerson>& people,
@@ -316,7 +318,8 @@ class SizeAnalysis {
     });
     return fit_hierarchical(
         answers, {.pse = free_pse ? HierarchicalPse::kPersonal : HierarchicalPse::kReference,
-                  // The interval of one block's fraction is told; of a difference, no profile.
+                  // The interval of a single block's fraction is reported. A difference needs
+                  // no profile.
                   .lapse_profile = blocks.size() == 1});
   }
 
@@ -383,7 +386,7 @@ std::vector<PlannedName> pair_names(const PlannedAnalysis& analysis) {
   const PlannedBlock& first = analysis.blocks[analysis.compared->first];
   const PlannedBlock& second = analysis.blocks[analysis.compared->second];
   const bool free_pse = frees_pse(analysis, first) || frees_pse(analysis, second);
-  // As the results have it; with all at the reference it is secondary there.
+  // A test with everything at the reference is secondary, as in the results.
   const bool is_primary = free_pse || (first.either_interval && second.either_interval);
   const std::string what = pair + ": ln ln(1 + w)";
   const std::string how =

@@ -15,69 +15,76 @@
 
 namespace jnd::analysis {
 
-/// What a block is there to estimate.
+/// The quantity that a block estimates.
 enum class PlannedQuantity {
   kWeberFraction,
   kEstimationExponent,
   kProductionExponent,
-  kMatch,   ///< Geometric mean of what was matched, over all standards.
-  kRating,  ///< Mean step, over all stimuli.
+  kMatch,   ///< The geometric mean of the matches over all standards.
+  kRating,  ///< The mean step over all stimuli.
 };
 
 struct PlannedBlock {
-  std::string name;  ///< "group_d"
+  std::string name;  ///< For example "group_d".
   PlannedQuantity quantity = PlannedQuantity::kWeberFraction;
-  double reference = 0.0;  ///< Reference intensity of a discrimination, > 0.
-  /// Either interval holds the test: its pse is at the reference then, see `primary_pse`.
+  double reference = 0.0;  ///< The reference intensity of a discrimination, > 0.
+  /// Whether either interval may hold the test. Its pse is then at the reference; see
+  /// `primary_pse`.
   bool either_interval = false;
-  std::optional<double> true_value;  ///< In the simulated laboratory.
+  std::optional<double> true_value;  ///< The true value in the simulated laboratory.
 };
 
-/// What simulated studies are analysed for.
+/// What is computed from simulated studies.
 struct PlannedAnalysis {
   std::vector<PlannedBlock> blocks;
-  std::optional<std::pair<std::size_t, std::size_t>> compared;  ///< Places of discriminations.
-  bool paired = true;         ///< Some participants get both of these blocks.
-  std::vector<int> sizes;     ///< Numbers of participants, ascending, each >= 1.
-  bool free_pse = true;       ///< False: at the reference, as in blocks of two intervals.
-  bool hierarchical = false;  ///< Also the hierarchical fit, which is a thousand times slower.
-  std::vector<PowerContrast> contrasts;         ///< Of the study file, in its order.
-  std::optional<PlannedSequential> sequential;  ///< Of one of these contrasts.
+  /// The indices of two discriminations that are compared.
+  std::optional<std::pair<std::size_t, std::size_t>> compared;
+  bool paired = true;      ///< Whether some participants get both of these blocks.
+  std::vector<int> sizes;  ///< Ascending numbers of participants, each >= 1.
+  /// Whether the pse is free. If false it is at the reference, as in blocks of two intervals.
+  bool free_pse = true;
+  /// Whether to compute the hierarchical fit too, which is a thousand times slower.
+  bool hierarchical = false;
+  /// The contrasts of the study file, in its order.
+  std::vector<PowerContrast> contrasts;
+  std::optional<PlannedSequential> sequential;  ///< The looks for one of these contrasts.
 
-  /// How many people a run has.
+  /// The number of people in a run.
   [[nodiscard]] int num_people() const {
     return std::max(sizes.back(), sequential ? sequential->boundaries.rule.looks.back() : 0);
   }
 };
 
-/// What the numbers of a `PlannedSize` are, in its order.
+/// What the numbers of a `PlannedSize` are, in the same order.
 struct PlannedName {
   std::string name;
   std::string meaning;
-  std::size_t block = 0;     ///< Of an estimate: its place in `blocks`.
-  bool quick = false;        ///< It stands for the hierarchical fit's, lapses left out.
-  double alpha = 0.05;       ///< Of a test.
-  bool of_contrast = false;  ///< It tests a contrast that the study file plans.
-  bool is_ratio = false;     ///< Its difference is the logarithm of a ratio.
+  std::size_t block = 0;  ///< For an estimate: the index in `blocks`.
+  /// Whether it replaces the estimate of the hierarchical fit, without lapses.
+  bool quick = false;
+  double alpha = 0.05;       ///< The alpha of a test.
+  bool of_contrast = false;  ///< Whether it tests a contrast that the study file plans.
+  bool is_ratio = false;     ///< Whether its difference is the logarithm of a ratio.
 };
 [[nodiscard]] std::vector<PlannedName> estimate_names(const PlannedAnalysis& analysis);
-/// The meaning of the test to plan by: that of the hierarchical fit, as in the results, or,
-/// without it, what stands for it.
+/// The meaning of the test by which to plan. It is the hierarchical fit's, as in the results.
+/// Without that fit it is the test that replaces it.
 inline constexpr char kPrimaryTest[] = "primary";
 inline constexpr char kStandsForPrimary[] = "quick, in place of the primary, hierarchical one";
-/// With the pse at the reference.
+/// The meaning of a test with the pse at the reference.
 inline constexpr char kSecondary[] = "secondary in the results";
 [[nodiscard]] std::vector<PlannedName> test_names(const PlannedAnalysis& analysis);
 
-/// One participant's answers in one block, without any if the block was not for them.
+/// One participant's answers in one block. They are empty if the participant did not get the
+/// block.
 struct PlannedAnswers {
-  std::vector<AnswerCount> counts;  ///< Discrimination.
+  std::vector<AnswerCount> counts;  ///< The answers of a discrimination.
   /// Ratios or steps at intensities, or intensities at targets or standards.
   MagnitudeAnswers magnitudes;
-  /// The posterior of QUEST+ reaches an end of one of its grids.
+  /// Whether the posterior of QUEST+ reaches an end of one of its grids.
   bool at_grid_end = false;
 };
-/// In the order of the blocks.
+/// One entry for each block, in the same order.
 using PlannedPerson = std::vector<PlannedAnswers>;
 
 struct PlannedEstimate {
@@ -85,40 +92,47 @@ struct PlannedEstimate {
   Interval ci95;
 };
 struct PlannedTest {
-  /// In ln ln(1 + w), first minus second; of a contrast the effect, a ratio as its logarithm.
+  /// The first minus the second in ln ln(1 + w). For a contrast it is the effect; a ratio is
+  /// given by its logarithm.
   std::optional<double> difference;
-  /// Two-sided, of a contrast as planned and adjusted; none where the test is undefined.
+  /// Two-sided. For a contrast it has the planned tail and is adjusted. It is absent if the
+  /// test is undefined.
   std::optional<double> p_value;
 };
 
-/// How a study with that many participants came out.
+/// The outcome of a study with a certain number of participants.
 struct PlannedSize {
   std::vector<PlannedEstimate> estimates;
   std::vector<PlannedTest> tests;
-  std::vector<int> num_with_answers;  ///< By block: participants who got it.
-  std::vector<int> num_degenerate;    ///< By block: of these, without a fit of their own.
-  std::vector<int> num_at_grid_end;   ///< By block: of these, `PlannedAnswers::at_grid_end`.
+  /// For each block, the number of participants who got it.
+  std::vector<int> num_with_answers;
+  /// For each block, the number of these who have no fit of their own.
+  std::vector<int> num_degenerate;
+  /// For each block, the number of these with `PlannedAnswers::at_grid_end`.
+  std::vector<int> num_at_grid_end;
 };
 /// One simulated study.
 struct PlannedRun {
-  std::vector<PlannedSize> sizes;           ///< At each of its sizes.
-  std::optional<SequentialRun> sequential;  ///< By its looks, where some are planned.
+  std::vector<PlannedSize> sizes;  ///< The outcome at each size.
+  /// The outcome under the looks, if some are planned.
+  std::optional<SequentialRun> sequential;
 };
 
-/// Analyses a study at every size: of the same people always the first so many. Each is fitted
-/// once, by maximum likelihood (lines through the logarithms for exponents).
+/// Analyses a study at every size. A size of n uses the first n people. Each person is fitted
+/// once, by maximum likelihood (for exponents, by lines through the logarithms).
 ///
-/// The fast route to the median person's Weber fraction: the mean of the individual
-/// ln ln(1 + w) with Student's interval, transformed back, of participants with a fit of their
-/// own. The quick test is Student's t on the same numbers (Welch's where nobody gets both
-/// blocks), as in `discrimination_comparison`, where it comes after the hierarchical fit's; the
-/// second one adds half an answer to everybody
-/// (`with_half_an_answer`), so that nobody is left out: more power, but where levels lie
-/// differently about two references that half moves their fractions differently.
-/// `people` are as many as the analysis asks for. `levels`: what each of them is in the factors
-/// that people differ in; only contrasts look at it. A contrast is Student's t of people's own
-/// contrasts, Welch's where there are groups, in the same numbers as the quick test, of Weber
-/// fractions those with half an answer added where there is no fit. Not real time.
+/// The quick route to the median person's Weber fraction is the mean of the individual ln ln(1
+/// + w) with Student's interval, transformed back. It uses participants with a fit of their
+/// own. The quick test is Student's t on the same numbers, or Welch's if nobody gets both
+/// blocks. `discrimination_comparison` reports the same test after that of the hierarchical
+/// fit. A second quick test adds half an answer to everybody (`with_half_an_answer`), so nobody
+/// is left out. It has more power, but if the levels lie differently about the two references,
+/// half an answer moves the two fractions differently.
+///
+/// A contrast is Student's t of people's own contrasts, or Welch's if there are groups. It uses
+/// the same numbers as the quick test; for Weber fractions without a fit, it adds half an
+/// answer. `people` are as many as the analysis needs. `levels` holds each person's levels of
+/// the factors in which people differ. Only contrasts use it. Not real time.
 [[nodiscard]] PlannedRun analyse_run(const PlannedAnalysis& analysis,
                                      const std::vector<PlannedPerson>& people,
                                      const std::vector<experiments::Levels>& levels = {});

@@ -146,7 +146,8 @@ std::vector<std::string> planning_doubts(const PlannedAnalysis& analysis,
   for (std::size_t place = 0; place < estimates.size(); ++place) {
     const PlannedPrecision& one = largest.estimates[place];
     if (!one.coverage || one.coverage_high >= kTooRarely) continue;
-    if (estimates[place].quick && analysis.hierarchical) continue;  // That one is beside it.
+    // The hierarchical estimate is judged instead.
+    if (estimates[place].quick && analysis.hierarchical) continue;
     const bool of_comparison =
         analysis.blocks[estimates[place].block].quantity == PlannedQuantity::kWeberFraction;
     doubts.push_back(

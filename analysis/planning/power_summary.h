@@ -9,57 +9,63 @@
 
 namespace jnd::analysis {
 
-/// Level of the tests.
+/// The alpha of the tests.
 inline constexpr double kPlannedLevel = 0.05;
 
-/// Over all runs, of one test at one size.
+/// The summary of one test at one size over all runs.
 struct PlannedPower {
   std::int64_t num_runs = 0, num_significant = 0;
-  std::int64_t num_undefined = 0;            ///< Without a p value: counted as not significant.
-  double power = 0.0;                        ///< Share of runs with p < 0.05.
-  double power_low = 0.0, power_high = 1.0;  ///< 95 %, Wilson: how well so many runs tell it.
-  std::optional<double> mean_difference;     ///< In ln ln(1 + w).
+  /// The number of runs without a p value, which count as not significant.
+  std::int64_t num_undefined = 0;
+  double power = 0.0;  ///< The share of runs with p < 0.05.
+  /// The 95 % Wilson interval of the power for this number of runs.
+  double power_low = 0.0, power_high = 1.0;
+  std::optional<double> mean_difference;  ///< The mean difference in ln ln(1 + w).
 };
 
-/// Over all runs, of one estimate at one size.
+/// The summary of one estimate at one size over all runs.
 struct PlannedPrecision {
-  std::int64_t num_undefined = 0;  ///< Runs without a value.
-  std::optional<double> median;    ///< Median of the estimates over all runs.
-  std::optional<double> bias;      ///< That median minus the laboratory's true value.
-  /// Half width of the 95 % interval over participants: in the median run, and what nine runs
-  /// in ten stay below; none where that many intervals are open.
+  std::int64_t num_undefined = 0;  ///< The number of runs without a value.
+  std::optional<double> median;    ///< The median of the estimates over all runs.
+  /// The median of the estimates minus the laboratory's true value.
+  std::optional<double> bias;
+  /// Half widths of the 95 % interval over participants: the median over runs, and the value
+  /// below which nine runs in ten stay. They are absent if too many intervals are open.
   std::optional<double> half_width_median, half_width_90;
-  std::optional<double> coverage;  ///< Share of intervals that hold the true value.
-  double coverage_low = 0.0, coverage_high = 1.0;  ///< 95 %, Wilson: how well the runs tell it.
-  std::optional<double> degenerate;  ///< Share of participants without a fit of their own.
+  std::optional<double> coverage;  ///< The share of intervals that hold the true value.
+  /// The 95 % Wilson interval of the coverage for this number of runs.
+  double coverage_low = 0.0, coverage_high = 1.0;
+  std::optional<double> degenerate;  ///< The share of participants without a fit of their own.
 };
 
 struct PlannedSummary {
   int num_participants = 0;
-  std::vector<PlannedPower> tests;          ///< One for each of `test_names`.
-  std::vector<PlannedPrecision> estimates;  ///< One for each of `estimate_names`.
-  /// By block: share of participants whose posterior of QUEST+ reaches an end of a grid.
+  std::vector<PlannedPower> tests;          ///< One entry for each of `test_names`.
+  std::vector<PlannedPrecision> estimates;  ///< One entry for each of `estimate_names`.
+  /// For each block, the share of participants whose posterior of QUEST+ reaches an end of a
+  /// grid.
   std::vector<double> at_grid_end;
 };
 
-/// One summary a size; sums go in the order of the runs, so that the same runs give the same
-/// numbers to the last bit. Throws `core::Error` without runs. Not real time.
+/// One summary for each size. Sums are taken in the order of the runs, so the same runs give
+/// the same numbers to the last bit. Throws `core::Error` without runs. Not real time.
 [[nodiscard]] std::vector<PlannedSummary> summary_of_runs(const PlannedAnalysis& analysis,
                                                           const std::vector<PlannedRun>& runs);
 
-/// How far the compared blocks lie apart in the laboratory, in ln ln(1 + w), first minus
-/// second; none where nothing is compared or a true value is not known.
+/// The true difference of the compared blocks in the laboratory, in ln ln(1 + w), first minus
+/// second. It is absent if nothing is compared or a true value is unknown.
 [[nodiscard]] std::optional<double> true_difference(const PlannedAnalysis& analysis);
 
-/// Whether that is as good as nothing, below half a percent of ln(1 + w): then the share of
-/// studies with p < 0.05 is the rate of false positives, not a power.
+/// Whether that difference is practically nothing, below half a percent of ln(1 + w). The share
+/// of studies with p < 0.05 is then the rate of false positives, not a power.
 [[nodiscard]] bool nothing_differs(const PlannedAnalysis& analysis);
 
-/// What not to plan on, a sentence each: intervals that hold the true value too rarely, and
-/// where nothing differs tests that find a difference too often, where the runs are enough to
-/// tell; and grids of QUEST+ that end too early for more than one in twenty. Also that nothing
-/// differs, unless the null hypothesis was asked for. Of every estimate and test the largest
-/// size speaks; of a quick estimate only where the hierarchical one is not beside it.
+/// Warnings about the plan, one sentence each. They name intervals that hold the true value too
+/// rarely and, if nothing differs, tests that find a difference too often, provided that there
+/// are enough runs to tell. They name grids of QUEST+ that end too early for more than one
+/// participant in twenty. They also say that nothing differs, unless the null hypothesis was
+/// asked for. Each estimate and test is judged at the largest size. A quick estimate is judged
+/// only if the hierarchical one is not computed.
 [[nodiscard]] std::vector<std::string> planning_doubts(
     const PlannedAnalysis& analysis, const std::vector<PlannedSummary>& summaries,
     bool null_hypothesis);

@@ -18,25 +18,25 @@ using Look = ChartSeries::Look;
 
 std::string quoted_column(const std::string& column) { return "'" + column + "'"; }
 
-/// "(column('series')==3 ? column('ratio') : NaN)"
+/// For example "(column('series')==3 ? column('ratio') : NaN)".
 std::string column_of(const ChartSeries& series, const std::string& column) {
   return series.series ? if_series(series.series_column, *series.series, column)
                        : quoted_column(column);
 }
 
-/// "'TABLE.csv' using ", or with "every ::20::39 " where the rows are known.
+/// "'TABLE.csv' using ", or with "every ::20::39 " if the rows are known.
 std::string from_rows(const FigureTable& table, const ChartSeries& series) {
   if (!series.rows) return from_table(table);
   const auto& [first, last] = *series.rows;
   return fmt::format("'{}.csv' every ::{}::{} using ", table.name, first, last);
 }
 
-/// "'intensity':(column('series')==3 ? column('ratio') : NaN)"
+/// For example "'intensity':(column('series')==3 ? column('ratio') : NaN)".
 std::string columns_of(const ChartSeries& series) {
   return quoted_column(series.x) + ":" + column_of(series, series.y);
 }
 
-/// The end of a bar; that of a row without one is the point itself.
+/// The end of a bar. If a row has no end, it is the point itself.
 std::string end_of(const FigureTable& table, const std::string& column, const std::string& y) {
   const std::string place = std::to_string(table.place_of(column) + 1);
   return "(valid(" + place + ") ? column('" + column + "') : column('" + y + "'))";
@@ -46,13 +46,13 @@ std::string colour_of(const ChartSeries& series) {
   return " lt " + std::to_string(series.colour);
 }
 
-/// "'intensity':'low':'high'" of its rows; a row without both ends is left out.
+/// "'intensity':'low':'high'" for the rows of the series. A row without both ends is left out.
 std::string band_columns(const ChartSeries& series) {
   return quoted_column(series.x) + ":" + column_of(series, series.low) + ":" +
          column_of(series, series.high);
 }
 
-/// The more answers, the larger the point.
+/// The size of a point grows with its number of answers.
 std::string size_of(const FigureTable& table, const ChartSeries& series) {
   return "(0.2+sqrt(column('" + series.size + "')/" +
          plot_number(std::max(largest_in(table, series.size), 1.0)) + "))";
@@ -120,7 +120,7 @@ std::string plot_of(const ChartSet& set, const Chart& chart, bool is_small) {
     if (is_small && series.look == Look::kBand) continue;
     commands.push_back(command_of(set, series, is_small));
   }
-  // Named last: the eye begins with what the chart is about.
+  // Faint curves come last in the key, so that a reader begins with what the chart is about.
   for (const ChartSeries& series : chart.series) {
     if (series.look != Look::kFaintCurve || series.legend.empty()) continue;
     commands.push_back("keyentry with lines ls 10 title " + gnuplot_quoted(series.legend));
@@ -138,7 +138,7 @@ std::string line_of(const ChartLine& line, std::size_t number) {
          " nohead " + style + "\n";
 }
 
-/// This chart's lines, and none that an earlier panel left.
+/// The lines of this chart. They remove the lines that an earlier panel left.
 std::string lines_of(const Chart& chart, std::size_t most) {
   std::string lines;
   for (std::size_t i = 0; i < chart.lines.size(); ++i) {
@@ -174,7 +174,7 @@ std::vector<FigureTable> tables_of(const ChartSet& set, const Chart* first, cons
   return tables;
 }
 
-/// Words of the report's figure, whole or of panels.
+/// A figure with the words of the report's figure, whole or in panels.
 template <typename Words>
 Figure figure_of(const ChartSet& set, const Words& words) {
   return {.name = words.name,
@@ -188,10 +188,10 @@ std::string panel_title(const Chart& chart) {
   return chart.who + "   " + (chart.value.empty() ? said("no value") : chart.value);
 }
 
-/// First and last row of each series of a table, by its number.
+/// The first and last row of each series of a table, by the number of the series.
 using SeriesRows = std::map<int, std::pair<std::size_t, std::size_t>>;
 
-/// Of those series whose rows stand together.
+/// The rows of those series whose rows stand together.
 SeriesRows series_rows(const FigureTable& table) {
   const std::size_t at = table.place_of("series");
   SeriesRows rows;
@@ -209,7 +209,7 @@ SeriesRows series_rows(const FigureTable& table) {
   return rows;
 }
 
-/// Of some of the participants.
+/// A figure with the panels of some of the participants.
 Figure panel_figure(const ChartSet& set, const PanelFigures& layout, std::size_t most_lines) {
   Figure figure = figure_of(set, layout);
   const PanelGrid grid{.num_columns = layout.num_columns,
@@ -233,9 +233,9 @@ Figure panel_figure(const ChartSet& set, const PanelFigures& layout, std::size_t
   return figure;
 }
 
-/// A figure's own people out of many: tables of their rows alone, so that the work of all
-/// figures together grows as the number of people, not as its square. A table that one of the
-/// charts shows whole stays whole.
+/// The part of a set that one figure shows: some of many participants, with tables that hold
+/// only their rows. The work of all figures together then grows in proportion to the number of
+/// people, not to its square. A table that a chart shows as a whole stays whole.
 class ChartPage {
  public:
   ChartPage(const ChartSet& set, std::size_t first, std::size_t end, std::size_t number)
@@ -248,7 +248,8 @@ class ChartPage {
                               set.participants.begin() + static_cast<std::ptrdiff_t>(end));
   }
 
-  /// `rows`: of each table, by the number of the series; they stand together there.
+  /// `rows` holds, for each table, the rows of each series that stand together, by the number
+  /// of the series.
   [[nodiscard]] ChartSet made(const std::vector<SeriesRows>& rows) {
     for (const Chart& chart : page_.participants) {
       for (const ChartSeries& series : chart.series) {
@@ -293,7 +294,8 @@ class ChartPage {
   std::size_t number_;
   ChartSet page_;
   std::set<std::size_t> whole_;
-  std::map<std::pair<std::size_t, int>, std::size_t> places_;  ///< Of first rows, in the page.
+  /// The index of the series' first row in the page.
+  std::map<std::pair<std::size_t, int>, std::size_t> places_;
 };
 
 std::vector<Figure> panel_figures(const ChartSet& set, const PanelFigures& layout) {
@@ -317,7 +319,7 @@ std::vector<Figure> panel_figures(const ChartSet& set, const PanelFigures& layou
   return figures;
 }
 
-/// Linear axes from nothing to the ends of the logarithmic ones.
+/// Linear axes from zero to the ends of the logarithmic ones.
 ChartSet on_linear_axes(const ChartSet& set) {
   ChartSet linear{.x = set.x, .y = set.y, .tables = set.tables};
   linear.x.logarithmic = linear.y.logarithmic = false;
@@ -326,7 +328,7 @@ ChartSet on_linear_axes(const ChartSet& set) {
   return linear;
 }
 
-/// The chart on linear axes, and on its own beside.
+/// The chart on linear axes, and beside it the chart on its own axes.
 std::string plot_on_both_axes(const ChartSet& set, const WholeFigure& layout,
                               const Chart& chart) {
   const PanelGrid grid{.num_columns = 2,

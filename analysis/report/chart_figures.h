@@ -7,8 +7,8 @@
 
 namespace jnd::analysis {
 
-/// The charts as figures of the report: a panel a participant, as many figures as that takes,
-/// or everybody's chart alone. Not real time.
+/// The charts as figures of the report. A set becomes panels, one for each participant, in as
+/// many figures as needed, or everybody's chart alone. Not real time.
 [[nodiscard]] std::vector<Figure> chart_figures(const std::vector<ChartSet>& charts);
 
 }  // namespace jnd::analysis

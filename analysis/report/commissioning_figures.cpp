@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kHeight_in = 2.7;
 
-/// Two panels side by side, each with axes of its own.
+/// Two panels side by side, each with its own axes.
 std::string two_panels(const Panel& left, const Panel& right, double width_in) {
   return grid_plot({.num_columns = 2, .left_in = 0.75, .gap_x_in = 0.85}, {left, right},
                    width_in, kHeight_in);
@@ -24,7 +24,7 @@ std::string axes(const std::string& x, const std::string& y) {
          gnuplot_quoted(y) + " font small offset 0.8,0\n";
 }
 
-/// From -half to half, a bit wider.
+/// A range slightly wider than from -half to half.
 std::string range_about_zero(const std::string& axis, double half) {
   const double wide = half > 0.0 ? 1.15 * half : 1.0;
   return "  set " + axis + "range " + range_words({-wide, wide}) + "\n" +
@@ -37,10 +37,10 @@ std::string range_from_zero(const std::string& axis, double largest) {
          small_tics(axis, {0.0, wide});
 }
 
-/// A round number, so that the largest arrow is about this long.
+/// A round magnification at which the largest arrow is about this long.
 double round_magnification(double largest_m, double wanted_m) {
   if (!(largest_m > 0.0)) return 1.0;
-  // A bit more, so that what is meant to be 20 is no 19.999.
+  // The small excess keeps rounding from turning 20 into 19.999.
   const double factor = (1.0 + 1e-9) * wanted_m / largest_m;
   const double decade = std::pow(10.0, std::floor(std::log10(factor)));
   for (const double round : {5.0, 2.0}) {
@@ -49,7 +49,7 @@ double round_magnification(double largest_m, double wanted_m) {
   return decade;
 }
 
-/// Seen along one axis of the workspace.
+/// A panel that shows the marks along one axis of the workspace.
 Panel marks_panel(const FigureTable& table, const std::array<std::string, 2>& axis,
                   const std::array<double, 4>& range, const std::string& title) {
   const auto column = [&](std::size_t which, const std::string& what) {
@@ -99,7 +99,8 @@ Figure marks_figure(const FrameFit& fit) {
     for (int axis = 0; axis < 3; ++axis) row.emplace_back(1e3 * times * missed_m[axis]);
   }
   const auto panel = [&](int across, int up, const std::string& title) {
-    // As long in both, so that angles are true: a panel is this much wider than high.
+    // Both axes have the same scale, so that angles are true. A panel is this much wider than
+    // high.
     constexpr double kWide = 1.41;
     const double half_m = 0.72 * extent_m;
     const double x_m = 0.5 * (low_m[across] + high_m[across]);
@@ -130,8 +131,8 @@ Figure marks_figure(const FrameFit& fit) {
   return figure;
 }
 
-/// What must be commanded on a way for its load alone, all that the device opposes to it taken
-/// away by the fit [N].
+/// The force that must be commanded on a way for its load alone. The fit removes everything
+/// that the device itself opposes to it [N].
 double commanded_for_load_n(const ForceFit& fit, const GuidedWay& way) {
   return commanded_without_mass_n(fit, way) - fitted_n(fit, way) +
          load_along_n(fit, way) / fit.gain.value;
@@ -288,7 +289,7 @@ Figure noise_figure(const NoiseFit& fit) {
   return figure;
 }
 
-/// Own estimates of the ways about that of all, with its interval.
+/// A panel with the estimates of single ways about the estimate of all, with its interval.
 Panel ways_panel(const FigureTable& table, const std::string& column, const Measured& all,
                  double scale, const std::string& y_title, const std::string& title) {
   double low = scale * all.ci95_low, high = scale * all.ci95_high;

@@ -11,7 +11,7 @@
 
 namespace jnd::analysis {
 
-/// What was measured of a device; what was not is absent.
+/// The measurements of a device. Those that were not made are absent.
 struct CommissionedFits {
   std::optional<NoiseFit> noise;
   std::optional<FrameFit> frame;
@@ -19,9 +19,10 @@ struct CommissionedFits {
   std::optional<DelayFit> delay;
 };
 
-/// Where marks were met (`device_marks`), force given over force commanded (`device_force`),
-/// what the device opposes to motion over speed (`device_resistance`), noise (`device_noise`),
-/// delay and mass (`device_delay`): each where the fit keeps the points for it. Not real time.
+/// Figures of how marks were met (`device_marks`), force given over force commanded
+/// (`device_force`), resistance to motion over speed (`device_resistance`), noise
+/// (`device_noise`), and delay and mass (`device_delay`). Each needs a fit that keeps its
+/// points. Not real time.
 [[nodiscard]] std::vector<Figure> commissioning_figures(const CommissionedFits& fits);
 
 }  // namespace jnd::analysis

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostTogether = 6, kMostPanels = 48;
 constexpr int kNumCurvePoints = 201;
-/// Below so many answers a point, bars say nothing but that they are few.
+/// With fewer answers for each point, bars would only show that they are few.
 constexpr double kFewestForBars = 3.0;
 
 AxisRange intensity_range(const std::vector<DrawnCurve>& curves, bool logarithmic) {
@@ -26,7 +26,7 @@ AxisRange intensity_range(const std::vector<DrawnCurve>& curves, bool logarithmi
   }
   AxisRange range = axis_range(intensities, logarithmic);
   if (logarithmic && !intensities.empty()) {
-    // Close around the levels: a power of ten may be far off.
+    // The range lies close around the levels, because the next power of ten may be far off.
     const auto [least, most] = std::ranges::minmax(intensities);
     const double air = std::pow(most / least, 0.06);
     range = {least / std::max(air, 1.02), most * std::max(air, 1.02)};
@@ -82,7 +82,7 @@ FigureTable thresholds_table(const std::vector<DrawnCurve>& curves, const AxisRa
   return table;
 }
 
-/// What one series draws.
+/// The plot commands of one series.
 std::string series_commands(const std::vector<FigureTable>& tables, int series, int colour,
                             const std::string& title, double most_trials, bool small) {
   const std::string type = " lt " + std::to_string(colour) + " dt 1";

@@ -27,8 +27,9 @@ std::string trial_words(const core::EventRow& event) {
   return event.trial ? said("trial {}", std::to_string(*event.trial)) : said("a trial");
 }
 
-/// Measurements count from the start of a loop, so the last one of each start is added up.
-// clang-tidy takes what nlohmann::json asserts for something that it throws.
+/// Adds up the timing of a session. Measurements count from the start of a loop, so the last
+/// one of each start is added.
+// clang-tidy mistakes the assertions of nlohmann::json for exceptions.
 // NOLINTNEXTLINE(bugprone-exception-escape)
 class TimingSum {
  public:
@@ -83,7 +84,7 @@ void count_events(const core::StudyStore& store, SessionQuality& quality) {
   std::string missing_force_cause;
   std::map<std::string, std::pair<std::int64_t, std::int64_t>> guards;  // Warned, shadowed.
   for (const core::EventRow& event : store.events(quality.session.session)) {
-    // Acts on a session long after it do not make it longer.
+    // Later acts on a session do not make it longer.
     const bool is_afterwards = event.kind == "trial_excluded" ||
                                event.kind == "trial_included" || event.kind == "unblinded";
     if (!is_afterwards) {
@@ -154,7 +155,7 @@ std::string minutes_of(double duration_s) {
   return std::to_string(std::llround(duration_s / 60.0)) + " min";
 }
 
-/// What the study itself asks of nobody.
+/// Adds a remark if the session was longer than its study permits.
 void check_limit(const core::StudyStore& store, SessionQuality& quality) {
   StoredStudies studies(store);
   const std::optional<double> most_s =
@@ -211,7 +212,7 @@ std::string data_sha256(const core::StudyStore& store,
                         const std::vector<core::SessionRow>& sessions) {
   std::string hashes;
   for (const core::SessionRow& session : sessions) {
-    // Lengths keep "a", "bc" apart from "ab", "c".
+    // Storing the lengths distinguishes "a", "bc" from "ab", "c".
     std::string text;
     const auto put = [&text](const std::string& part) {
       text += std::to_string(part.size()) + ":" + part;

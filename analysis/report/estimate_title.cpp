@@ -8,7 +8,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// "m_per_s" of "m/s", as names end in their unit.
+/// The ending that a unit has in names, such as "m_per_s" for "m/s".
 std::string ending_of(const std::string& unit) {
   std::string ending;
   for (const char letter : unit) {
@@ -24,7 +24,8 @@ std::string ending_of(const std::string& unit) {
   return ending;
 }
 
-/// Parts of names that are no words, or want a comma before them; the longer ones first.
+/// Parts of names that are not words, or that need a comma before them. The longer ones come
+/// first.
 constexpr std::pair<std::string_view, std::string_view> kPhrases[] = {
     {"median person", ", median person"},
     {"mean person", ", mean person"},
@@ -48,7 +49,7 @@ std::string in_phrases(std::string words) {
         (at == 0 || words[at - 1] == ' ') && (end == words.size() || words[end] == ' ');
     if (!is_whole) continue;
     const bool has_comma = to.starts_with(", ");
-    // No comma where nothing stands before it.
+    // There is no comma at the beginning.
     const std::size_t begin = has_comma && at > 0 ? at - 1 : at;
     words.replace(begin, end - begin, has_comma && at == 0 ? to.substr(2) : to);
   }

@@ -6,9 +6,9 @@
 
 namespace jnd::analysis {
 
-/// What readers call an estimate: "Group D: Weber fraction, median person" of
-/// "group_d.weber_fraction_median_person". `unit` is left out of it, for tables have a column
-/// of units.
+/// The title of an estimate for readers, such as "Group D: Weber fraction, median person" for
+/// "group_d.weber_fraction_median_person". The title does not contain `unit`, because tables
+/// have a column of units.
 [[nodiscard]] std::string estimate_title(const StudyTitles& titles, const std::string& name,
                                          const std::string& unit);
 

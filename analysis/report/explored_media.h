@@ -7,22 +7,22 @@
 
 namespace jnd::analysis {
 
-/// A medium explored outside of trials, as recordings show it.
+/// A medium that was explored outside of trials, as recordings show it.
 struct ExploredMedium {
   struct Person {
     std::string participant;
     StrokeMeans strokes;
   };
-  std::string title;  ///< "free space", "viscous, 5 Pa s".
+  std::string title;  ///< For example "free space" or "viscous, 5 Pa s".
   std::vector<Person> people;
 };
 
-/// In the order in which the first participant's analysis has them.
+/// The explored media, in the order in which the analysis of the first participant has them.
 [[nodiscard]] std::vector<ExploredMedium> explored_media(const FigureSource& source,
                                                          const MovementAnalysis& movement);
 
-/// Width and highest speed by medium, everybody's; only of a study that presents nothing in
-/// trials, whose figures show the rest.
+/// Everybody's stroke width and highest speed by medium. It is meant only for a study that
+/// presents nothing in trials; other figures show the rest.
 [[nodiscard]] std::vector<Figure> explored_figures(const FigureSource& source,
                                                    const MovementAnalysis& movement);
 

@@ -7,23 +7,26 @@
 
 namespace jnd::analysis {
 
-/// One figure, before it is drawn.
+/// One figure before it is drawn.
 struct Figure {
-  std::string name;     ///< Of its files, without ending: "group_d_psychometric".
-  std::string section;  ///< Of the results it belongs to: "group_d", "movement".
+  /// The name of its files without extension, such as "group_d_psychometric".
+  std::string name;
+  /// The section of the results to which it belongs, such as "group_d" or "movement".
+  std::string section;
   std::string title;
-  std::string caption;  ///< What is drawn, error bars and counts included; plain text.
-  std::string thesis;  ///< The figures of the thesis it answers: "Fig. 5 and D.23"; "" if none.
+  std::string caption;  ///< What is drawn, including error bars and counts. Plain text.
+  /// The figures of the thesis to which it corresponds, such as "Fig. 5 and D.23"; "" if none.
+  std::string thesis;
   double width_in = 6.6, height_in = 3.2;
-  std::string plot;  ///< gnuplot, from after the terminal is set to before it is closed.
+  std::string plot;  ///< The gnuplot commands between setting the terminal and closing it.
   std::vector<FigureTable> tables;
 };
 
-/// A figure's script, complete: run in the folder of its tables, gnuplot writes NAME.svg and
-/// NAME.pdf. With `simulated` it says so on the figure.
+/// The complete script of a figure. If gnuplot runs it in the folder of its tables, it writes
+/// NAME.svg and NAME.pdf. With `simulated` the figure says so.
 [[nodiscard]] std::string gnuplot_script(const Figure& figure, bool simulated);
 
-/// A text as gnuplot takes it, in quotes.
+/// A text in quotes for gnuplot.
 [[nodiscard]] std::string gnuplot_quoted(const std::string& text);
 
 }  // namespace jnd::analysis

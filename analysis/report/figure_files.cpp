@@ -43,7 +43,8 @@ std::string text_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// gnuplot says nothing of a disk that is full: a file without its end is none.
+/// Whether a file has its end. gnuplot does not report a full disk, so a file without its end
+/// is rejected.
 bool is_whole(const std::string& text, const char* end) {
   const std::size_t last = text.find_last_not_of(" \t\r\n");
   const std::string_view closing = end;
@@ -58,7 +59,7 @@ void require_whole(const fs::path& file, const std::string& text, const char* en
                     "disk full?");
 }
 
-/// Where Inter is not installed another face without serifs comes next to it.
+/// Adds fallbacks, so that another sans-serif font is used if Inter is not installed.
 std::string with_other_fonts(const std::string& svg) {
   const std::string alone = "font-family=\"Inter\"";
   const std::string with_others = "font-family=\"Inter, Helvetica, Arial, sans-serif\"";
@@ -71,8 +72,8 @@ std::string with_other_fonts(const std::string& svg) {
   return text.append(svg, from);
 }
 
-/// Without the marks of bars that have none: gnuplot draws them at the scale 0, and readers
-/// that invert every scale, as librsvg does, refuse the whole picture for that.
+/// Removes the marks of bars that have none. gnuplot draws them at scale 0, and readers that
+/// invert every scale, such as librsvg, then reject the whole picture.
 std::string without_empty_marks(const std::string& svg) {
   std::string text;
   std::size_t from = 0;
@@ -99,14 +100,14 @@ DrawnFigure draw(const Figure& figure, const fs::path& folder, const FigureOptio
     return drawn;
   }
   drawn.problem = "gnuplot: " + outcome.problem;
-  // Nothing half drawn stays.
+  // Partly drawn files are removed.
   std::error_code ignored;
   fs::remove(svg, ignored);
   fs::remove(pdf, ignored);
   return drawn;
 }
 
-/// "20261120190123", as a PDF tells dates.
+/// A time in the format of PDF dates, such as "20261120190123".
 std::string pdf_digits(std::int64_t time_ns) {
   using namespace std::chrono;
   const auto moment = sys_time<nanoseconds>(nanoseconds(time_ns));

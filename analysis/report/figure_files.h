@@ -10,35 +10,38 @@
 
 namespace jnd::analysis {
 
-/// One figure, drawn.
+/// A figure after drawing.
 struct DrawnFigure {
   std::string name;
-  std::string svg;      ///< The file's text; "" if it could not be drawn.
-  std::string problem;  ///< Why not; "" if it was.
+  std::string svg;      ///< The text of the file; "" if it could not be drawn.
+  std::string problem;  ///< Why it could not be drawn; "" if it was.
 };
 
 struct FigureOptions {
-  bool simulated = false;         ///< Each figure and each table says so.
-  std::int64_t date_time_ns = 0;  ///< What PDF files give as their date.
-  int jobs = 2;                   ///< Figures at once, >= 1; the files are the same for any.
-  std::filesystem::path gnuplot;  ///< Empty: scripts and tables alone.
-  /// Told how much is done, 0 to 1, from any of the jobs; what it throws ends the drawing.
+  bool simulated = false;         ///< If true, each figure and each table says so.
+  std::int64_t date_time_ns = 0;  ///< The date in PDF files.
+  /// The number of figures drawn at once, >= 1. The files do not depend on it.
+  int jobs = 2;
+  std::filesystem::path gnuplot;  ///< If empty, only scripts and tables are written.
+  /// Receives the share of the work that is done, 0 to 1, from any of the jobs. An exception
+  /// from it ends the drawing.
   std::function<void(double)> on_progress;
 };
 
-/// Writes NAME.gp and its tables for each figure, and draws NAME.svg and NAME.pdf. The same
-/// figures give the same bytes. Throws `Error` for what cannot be written; a figure that cannot
-/// be drawn is told in its `problem` and does not keep the others. Not real time.
+/// Writes NAME.gp and the tables of each figure, and draws NAME.svg and NAME.pdf. The same
+/// figures give the same bytes. Throws `Error` if something cannot be written. A figure that
+/// cannot be drawn reports it in `problem` and does not stop the others. Not real time.
 [[nodiscard]] std::vector<DrawnFigure> write_figures(const std::vector<Figure>& figures,
                                                      const std::filesystem::path& folder,
                                                      const FigureOptions& options);
 
-/// Puts this moment in place of the dates in a PDF, which keeps its length; one that was
-/// written without compressing them, as cairo and Chromium do. Throws `Error` for what cannot
-/// be written.
+/// Replaces the dates in a PDF by this time without changing its length. The PDF must contain
+/// its dates uncompressed, as those of cairo and Chromium do. Throws `Error` if it cannot be
+/// written.
 void set_pdf_dates(const std::filesystem::path& file, std::int64_t time_ns);
 
-/// Writes a text file as a whole. Throws `Error` naming it: not writable, disk full.
+/// Writes a whole text file. Throws `Error` that names it if it is not writable or the disk is
+/// full.
 void write_text_file(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace jnd::analysis

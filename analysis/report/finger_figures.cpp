@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kJointTitles[] = {said_later("base abduction"),
                                         said_later("base extension"), said_later("proximal")};
 
-/// At most that many rows of panels on a page.
+/// The largest number of rows of panels on a page.
 constexpr std::size_t kRows = 4;
 
 std::string joint_column(int finger, int joint) {
@@ -22,7 +22,7 @@ std::string joint_column(int finger, int joint) {
       core::kJointNames[static_cast<std::size_t>(core::finger_joint(finger, joint))]);
 }
 
-/// Mean curves of the joints of all fingers, one block of rows a condition.
+/// Mean curves of the joints of all fingers, with one block of rows for each condition.
 FigureTable joints_table(const std::string& name, const char* unit,
                          const std::vector<ShownCondition>& conditions,
                          const std::array<CurveBand, core::kNumJoints> StrokeCurves::*bands) {
@@ -62,7 +62,8 @@ double mean_of(const std::vector<double>& values) {
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-/// Conditions whose device had joints, as many as a page holds, and how many there are.
+/// The conditions whose device had joints. `shown` holds as many as fit on a page, and
+/// `num_there` is the number of all.
 struct JointConditions {
   std::vector<ShownCondition> shown;
   std::size_t num_there = 0;
@@ -77,13 +78,14 @@ JointConditions with_joints(const FigureSource& source, const ParticipantMovemen
   return found;
 }
 
-/// The condition of a row, beside its first panel.
+/// The title of the condition, beside the first panel of its row.
 std::string row_title(int finger, const std::string& title) {
   if (finger > 0) return "  unset ylabel\n";
   return "  set ylabel " + gnuplot_quoted(title) + " font small\n";
 }
 
-/// The vertical axis of one finger's panel: its joints with their spread, few tics.
+/// The vertical axis of one finger's panel. It covers the finger's joints with their spread,
+/// and has few tics.
 std::string own_scale(const std::array<CurveBand, core::kNumJoints>& bands, int finger,
                       bool about_mean, double unit) {
   std::vector<double> values;
@@ -153,7 +155,8 @@ std::optional<Figure> joint_angles_figure(const FigureSource& source,
         const std::string column = joint_column(finger, joint) + "_rad";
         const std::string here = "(column('series')==" + std::to_string(c + 1) + " ? ";
         const std::string type = std::to_string(joint + 1);
-        // From its mean over the stroke: the range of the motion is what is compared.
+        // Angles are relative to their mean over the stroke, because the range of the motion is
+        // compared.
         const auto index = static_cast<std::size_t>(core::finger_joint(finger, joint));
         const std::string mean =
             plot_number(mean_of(conditions[c].movement->curves.joint_position_rad[index].mean));

@@ -7,8 +7,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// Okabe and Ito's colours (2008), told apart by colour-blind eyes; in a grey print the marks
-/// and dashes tell them apart.
+/// The colours of Okabe and Ito (2008), which colour-blind people can distinguish. In a grey
+/// print the marks and dashes distinguish the series.
 constexpr char kGnuplotStyle[] = R"(  set linetype 1 lc rgb '#0072B2' dt 1 pt 7
   set linetype 2 lc rgb '#D55E00' dt (10,4) pt 4
   set linetype 3 lc rgb '#009E73' dt (3,3) pt 9
@@ -32,10 +32,10 @@ std::string inches(double value) {
   return {digits, end};
 }
 
-/// CSS pixels, of which there are 96 an inch.
+/// A length in CSS pixels, of which there are 96 per inch.
 std::string pixels(double value_in) { return std::to_string(std::lround(96.0 * value_in)); }
 
-/// A line of a comment.
+/// A text on one line of a comment.
 std::string one_line(std::string text) {
   for (char& letter : text) {
     if (static_cast<unsigned char>(letter) < 0x20) letter = ' ';

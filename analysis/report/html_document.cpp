@@ -4,7 +4,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// For the screen and for A4; no colour carries meaning, so that a grey print says the same.
+/// The style for the screen and for A4. No colour carries meaning, so a grey print says the
+/// same.
 constexpr char kPageStyle[] = R"css(
 :root { color-scheme: light; }
 * { box-sizing: border-box; }
@@ -52,7 +53,7 @@ figcaption { font-size: .82rem; line-height: 1.4; margin-top: .3rem; }
 }
 )css";
 
-/// A text within a string of CSS.
+/// A text inside a CSS string.
 std::string css_quoted(const std::string& text) {
   std::string quoted = "\"";
   for (const char letter : text) {

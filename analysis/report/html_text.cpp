@@ -11,8 +11,8 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-/// What can stand within a document: no declaration before it, identifiers that no other figure
-/// of the document has, a name for who cannot see it.
+/// An SVG that can stand inside a document. It has no declaration, its identifiers are unique
+/// in the document, and it has a name for readers who cannot see it.
 std::string inline_svg(std::string svg, const std::string& name, const std::string& title) {
   const std::size_t start = svg.find("<svg");
   if (start == std::string::npos) return "";
@@ -31,7 +31,7 @@ std::string inline_svg(std::string svg, const std::string& name, const std::stri
   return svg;
 }
 
-/// A name that may go on in the next line after its parts.
+/// A name that may be broken after its parts.
 std::string breakable(const std::string& name) {
   std::string parts = html_escaped(name);
   replace_all(parts, "_", "_<wbr>");
@@ -39,7 +39,7 @@ std::string breakable(const std::string& name) {
   return parts;
 }
 
-/// A name, and in a second line what it means.
+/// A name, with its meaning on a second line.
 std::string name_cell(const std::string& text) {
   const std::size_t end = text.find('\n');
   std::string cell = "<code>" + breakable(text.substr(0, end)) + "</code>";
@@ -47,7 +47,7 @@ std::string name_cell(const std::string& text) {
   return cell + "<br><span class=\"meaning\">" + html_escaped(text.substr(end + 1)) + "</span>";
 }
 
-/// Words, a name, more words.
+/// Words, a name, and more words.
 std::string titled_cell(const std::string& text) {
   const std::size_t end = text.find('\n');
   std::string cell = html_escaped(text.substr(0, end));
@@ -63,8 +63,8 @@ std::string titled_cell(const std::string& text) {
   return cell + "</span>";
 }
 
-/// One that fits on a third of a page is not torn apart; words of names take lines of their
-/// own.
+/// Whether a table is short enough for a third of a page, so that it is not broken. Words of
+/// names take lines of their own.
 bool is_short(const HtmlTable& table) {
   constexpr std::size_t kShortLines = 16;
   constexpr std::size_t kLettersALine = 45;
@@ -99,7 +99,7 @@ std::string html_escaped(const std::string& text) {
         escaped += "&#39;";
         break;
       default:
-        // What is left of control characters shows nothing and is not allowed.
+        // Other control characters are invisible and not allowed, so they are removed.
         if (static_cast<unsigned char>(letter) >= 0x20 || letter == '\n' || letter == '\t') {
           escaped += letter;
         }

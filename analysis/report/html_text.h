@@ -6,47 +6,49 @@
 
 namespace jnd::analysis {
 
-/// A text as it may stand in HTML, attributes included.
+/// A text that is safe in HTML, including attributes.
 [[nodiscard]] std::string html_escaped(const std::string& text);
 
 /// A table of a report. Cells are plain text.
 struct HtmlTable {
   struct Column {
     std::string title;
-    bool is_number = false;  ///< Set to the right, in figures of one width.
-    bool is_name = false;    ///< A name of the program: set as code; words on a second line.
-    /// Words, then a second line with a name of the program, which may be empty, then more
-    /// words on a third.
+    /// Whether cells are aligned to the right, with digits of one width.
+    bool is_number = false;
+    /// Whether cells are names of the program. They are set as code; a second line holds words.
+    bool is_name = false;
+    /// Whether cells have words, then a second line with a name of the program, which may be
+    /// empty, and then a third line with more words.
     bool is_titled = false;
   };
   std::string caption;
   std::vector<Column> columns;
   std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> notes;  ///< Below the table.
+  std::vector<std::string> notes;  ///< Notes below the table.
 };
 
-/// The body of a report, from top to bottom. All text is plain and escaped here.
+/// The body of a report, from top to bottom. All text is plain and is escaped here.
 class HtmlText {
  public:
   HtmlText() = default;
-  /// `mark`: "S" before every number, of a supplement.
+  /// `mark` stands before every number, such as "S" in a supplement.
   explicit HtmlText(std::string mark) : mark_(std::move(mark)) {}
 
-  /// Levels 2 to 4; level 2 and 3 are counted: "3.1 Group D".
+  /// A heading of level 2 to 4. Levels 2 and 3 are numbered: "3.1 Group D".
   void heading(int level, const std::string& text);
   void paragraph(const std::string& text, const std::string& style = "");
-  /// A paragraph that begins with words set apart: "Participants. ..."
+  /// A paragraph that begins with a highlighted topic: "Participants. ...".
   void paragraph_about(const std::string& topic, const std::string& text);
   void list(const std::vector<std::string>& items);
-  /// Numbered like figures are. Nothing for a table without rows.
+  /// Tables are numbered as figures are. A table without rows is not written.
   void table(const HtmlTable& table);
-  /// `svg` as gnuplot wrote it; its identifiers are made the figure's own. "" leaves the
-  /// caption alone. Returns its number.
+  /// `svg` is the text that gnuplot wrote. Its identifiers are made unique to the figure. If it
+  /// is "", only the caption is written. Returns the figure's number.
   int figure(const std::string& name, const std::string& svg, const std::string& title,
              const std::string& caption);
 
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
-  /// Level 2 headings with their identifiers, for a table of contents.
+  /// The level 2 headings with their identifiers, for a table of contents.
   [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& sections()
       const noexcept {
     return sections_;
@@ -58,8 +60,8 @@ class HtmlText {
   int section_ = 0, subsection_ = 0, num_tables_ = 0, num_figures_ = 0;
 };
 
-/// The whole document around a body. `mark` stands at the top of every printed page: "SIMULATED
-/// data"; "" for nothing. `style`: CSS of this kind of document besides.
+/// The whole document around a body. `mark` stands at the top of every printed page, such as
+/// "SIMULATED data"; "" for nothing. `style` is additional CSS for this kind of document.
 [[nodiscard]] std::string html_document(const std::string& title, const std::string& mark,
                                         const std::string& body, const std::string& style = "");
 

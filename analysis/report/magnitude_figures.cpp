@@ -23,7 +23,7 @@ double largest(const MagnitudeData::Own& own) {
   return most > 0.0 ? most : 1.0;
 }
 
-/// D.8, of everybody.
+/// Fig. D.8 for every participant.
 std::vector<Figure> repetition_figures(const MagnitudeData& data) {
   constexpr std::size_t kPanels = 20;
   FigureTable table{
@@ -87,7 +87,7 @@ std::vector<Figure> repetition_figures(const MagnitudeData& data) {
   return figures;
 }
 
-/// D.10.
+/// Fig. D.10.
 Figure estimation_boxes(const MagnitudeData& data) {
   std::vector<BoxGroup> groups;
   std::vector<std::string> names;
@@ -117,7 +117,7 @@ Figure estimation_boxes(const MagnitudeData& data) {
   return figure;
 }
 
-/// D.1, D.2 and D.11: what each participant set for each target.
+/// Fig. D.1, D.2 and D.11: the values that each participant set for each target.
 Figure production_boxes(const MagnitudeData& data) {
   Figure figure{
       .name = file_word(data.block) + "_boxes",
@@ -162,7 +162,7 @@ Figure production_boxes(const MagnitudeData& data) {
   return figure;
 }
 
-/// D.13.
+/// Fig. D.13.
 std::optional<Figure> ratios_figure(const MagnitudeData& data) {
   std::vector<BoxGroup> groups;
   std::vector<std::string> names;

@@ -13,7 +13,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Paragraphs as they are written, with what they cite.
+/// Writes the paragraphs and collects what they cite.
 class MethodWriter {
  public:
   explicit MethodWriter(const ReportSource& source) : source_(source) {
@@ -38,7 +38,7 @@ class MethodWriter {
   void write_movement();
 
  private:
-  /// "Holm 1979", which then stands in the list.
+  /// Returns a citation such as "Holm 1979", and adds it to the list of references.
   std::string cite(const std::string& work) {
     cited_.insert(work);
     return work;
@@ -50,7 +50,8 @@ class MethodWriter {
     return std::ranges::any_of(source_.data.blocks, measure);
   }
   [[nodiscard]] bool discriminates() const { return any_block(&BlockDesign::compares); }
-  /// Somebody answers the wrong way round, and is in the numbers or left out for it.
+  /// Whether a participant answers the wrong way round, and is either included in the numbers
+  /// or left out for it.
   [[nodiscard]] bool any_inverted() const {
     return std::ranges::any_of(source_.data.participants,
                                [](const auto& one) { return !one.left_out.empty(); }) ||

@@ -8,10 +8,11 @@
 
 namespace jnd::analysis {
 
-/// How the numbers of a report came about: only what this study has. Formulas are plain text.
+/// How the numbers of a report were computed, only as far as this study has them. Formulas are
+/// plain text.
 struct MethodWords {
-  std::vector<std::pair<std::string, std::string>> topics;  ///< A topic and its paragraph.
-  std::vector<std::string> references;  ///< Of what the paragraphs cite, by author.
+  std::vector<std::pair<std::string, std::string>> topics;  ///< Each topic with its paragraph.
+  std::vector<std::string> references;  ///< The works that the paragraphs cite, by author.
 };
 
 [[nodiscard]] MethodWords method_words(const ReportSource& source);

@@ -11,7 +11,7 @@ std::string plot_number(double value) {
   char digits[32];
   char* const end = std::to_chars(digits, digits + sizeof digits, value).ptr;
   std::string text(digits, end);
-  // gnuplot divides whole numbers without a rest.
+  // gnuplot divides whole numbers without a remainder.
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }
@@ -88,7 +88,7 @@ std::string grid_plot(const PanelGrid& grid, const std::vector<Panel>& panels, d
                       double height_in) {
   const int columns = std::max(1, std::min(grid.num_columns, static_cast<int>(panels.size())));
   const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;
-  // Panels of a row that is not full are as wide as the others.
+  // Panels in an incomplete row are as wide as the others.
   const int places = grid.num_columns;
   const double panel_width =
       (width_in - grid.left_in - grid.right_in - (places - 1) * grid.gap_x_in) / places;
@@ -118,7 +118,7 @@ std::string grid_plot(const PanelGrid& grid, const std::vector<Panel>& panels, d
               " font small offset 0,-0.7\n";
     script += panels[i].before;
     script += "  " + panels[i].plot + "\n";
-    // What is written on the whole figure is written once.
+    // Labels on the whole figure are written once.
     if (i == 0) script += "  unset label 1\n  unset label 2\n  unset label 99\n";
   }
   return script + "  unset multiplot\n";
@@ -130,7 +130,7 @@ std::string range_words(const AxisRange& range) {
 
 namespace {
 
-/// A round number that goes at most so often into the range.
+/// A round step that fits into the range at most this often.
 double round_step(const AxisRange& range, double most_steps) {
   const double least = (range.high - range.low) / most_steps;
   double step = least;
@@ -144,7 +144,7 @@ double round_step(const AxisRange& range, double most_steps) {
   return step;
 }
 
-/// Round numbers of decades within the range, as few digits as give three of them.
+/// Round numbers within the range, with as few digits per decade as give at least `fewest`.
 std::vector<double> places_of_decades(const AxisRange& range, std::size_t fewest) {
   const std::vector<std::vector<double>> digits_of_a_decade = {
       {1.0}, {1.0, 3.0}, {1.0, 2.0, 5.0}, {1.0, 1.5, 2.0, 3.0, 5.0, 7.0}};
@@ -155,7 +155,7 @@ std::vector<double> places_of_decades(const AxisRange& range, std::size_t fewest
     places.clear();
     for (int decade = first; decade <= last; ++decade) {
       for (const double digit : digits) {
-        // As written, 1.5e-1 is 0.15 to the last digit.
+        // This division gives 0.15 exactly as it is written, which 1.5 * 0.1 would not.
         const double place =
             decade < 0 ? digit / std::pow(10.0, -decade) : digit * std::pow(10.0, decade);
         if (place >= range.low && place <= range.high) places.push_back(place);
@@ -204,7 +204,7 @@ std::string named_tics(const std::string& axis, const std::vector<std::string>& 
                        bool upright) {
   std::string tics = "  set " + axis + "tics (";
   for (std::size_t i = 0; i < names.size(); ++i) {
-    // A label of an axis is a format.
+    // gnuplot treats a tic label as a format.
     std::string label;
     for (const char letter : names[i]) label += letter == '%' ? "%%" : std::string(1, letter);
     tics += (i > 0 ? ", " : "") + gnuplot_quoted(label) + " " + std::to_string(i + 1);

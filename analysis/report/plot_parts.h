@@ -10,25 +10,26 @@ namespace jnd::analysis {
 
 // Parts of gnuplot scripts that figures share. Columns are named as in the tables.
 
-/// A number as gnuplot reads it; NaN for what is not finite.
+/// A number in the syntax of gnuplot; NaN if it is not finite.
 [[nodiscard]] std::string plot_number(double value);
 
-/// "'TABLE.csv' using ".
+/// The text "'TABLE.csv' using ".
 [[nodiscard]] std::string from_table(const FigureTable& table);
 
-/// The largest number in a column of a table; 0 where none is larger.
+/// The largest number in a column of a table, and at least 0.
 [[nodiscard]] double largest_in(const FigureTable& table, const std::string& column);
 
-/// "(column('series')==3 ? column('mean') : NaN)": the rows of a table that have this number.
+/// Selects the rows of a table with this number, such as "(column('series')==3 ? column('mean')
+/// : NaN)".
 [[nodiscard]] std::string if_series(const std::string& series_column, int series,
                                     const std::string& column);
 [[nodiscard]] std::string if_series(int series, const std::string& column);
 
-/// Many panels alike: each is a title and its own plot command.
+/// One of many similar panels, with a title and its own plot command.
 struct Panel {
   std::string title;
-  std::string before;  ///< Settings for it and for those after it.
-  std::string plot;    ///< "plot ...", one line.
+  std::string before;  ///< Settings for this panel and those after it.
+  std::string plot;    ///< The command "plot ..." on one line.
 };
 
 /// How wide a letter of the small font is on average.
@@ -53,29 +54,30 @@ struct PanelGrid {
   double gap_x_in = 0.35, gap_y_in = 0.5;
 };
 
-/// Height of a figure whose panels are `panel_in` high.
+/// The height of a figure whose panels are `panel_in` high.
 [[nodiscard]] double grid_height_in(const PanelGrid& grid, std::size_t num_panels,
                                     double panel_in);
 [[nodiscard]] std::string grid_plot(const PanelGrid& grid, const std::vector<Panel>& panels,
                                     double width_in, double height_in);
 
-/// "[low:high]".
+/// The text "[low:high]".
 [[nodiscard]] std::string range_words(const AxisRange& range);
 
-/// "set xtics 0.5 font small": at most five tics, at round numbers, for a small panel.
+/// At most five tics at round numbers for a small panel, such as "set xtics 0.5 font small".
 [[nodiscard]] std::string small_tics(const std::string& axis, const AxisRange& range);
 
-/// "set ytics (3.0, 5.0, 7.0) font small" of a logarithmic axis: three to six round numbers
-/// within, at most four where it is small; gnuplot itself may label one. Equal steps in a
-/// narrow range.
+/// Tics of a logarithmic axis, such as "set ytics (3.0, 5.0, 7.0) font small". There are three
+/// to six round numbers, or at most four if the panel is small. gnuplot itself might label only
+/// one. A narrow range has equal steps.
 [[nodiscard]] std::string log_tics(const std::string& axis, const AxisRange& range,
                                    bool small = false);
 
-/// "set xtics ('P01' 1, 'P02' 2)", standing on end where there are many.
+/// Named tics, such as "set xtics ('P01' 1, 'P02' 2)". With `upright` they are rotated.
 [[nodiscard]] std::string named_tics(const std::string& axis,
                                      const std::vector<std::string>& names, bool upright);
 
-/// What "plot" draws of `box_table` and `box_values_table`; `width` of a box in units of x.
+/// The arguments of "plot" for `box_table` and `box_values_table`. `width` is that of a box in
+/// units of x.
 [[nodiscard]] std::string box_plot_commands(const FigureTable& boxes, const FigureTable& values,
                                             double width);
 

@@ -20,7 +20,7 @@ double law_at(const DrawnPowerLaw& law, double intensity) {
   return law.magnitude_offset + *law.k * std::pow(above, *law.a);
 }
 
-/// What both axes have: on logarithmic ones only what is above 0 can be seen.
+/// The range of both axes. Logarithmic axes show only values above 0.
 struct LawAxes {
   bool are_logarithmic = true;
   AxisRange intensity, magnitude;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kBins = 30;
 
-/// Shorter, for above a panel.
+/// A shorter name for the title of a panel.
 std::string panel_title(std::string name) {
   for (const auto& [long_word, short_word] :
        {std::pair<std::string, std::string>{"weber_fraction", "w"}, {"_m_per_s", ""}}) {
@@ -24,14 +24,14 @@ std::string panel_title(std::string name) {
   return name;
 }
 
-/// Counts of people, say.
+/// Whether all values are whole, such as counts of people.
 bool are_whole(const std::vector<double>& values) {
   return std::ranges::all_of(values, [](double value) { return value == std::floor(value); });
 }
 
-/// All but the outermost hundredth of the studies and what is further out than three times the
-/// middle half is wide, for a nearly flat curve of one person makes a mean as large as it
-/// likes; and both points.
+/// The range of a panel. It leaves out the outermost hundredth of the studies, and values
+/// farther out than three times the interquartile range, because a nearly flat curve of one
+/// person can make a mean arbitrarily large. It includes both points.
 AxisRange range_of(const Estimate& estimate) {
   std::vector<double> ascending = estimate.predictive->values;
   std::ranges::sort(ascending);
@@ -47,7 +47,7 @@ AxisRange range_of(const Estimate& estimate) {
           std::ceil(*std::ranges::max_element(kept)) + 0.5};
 }
 
-/// Counts by bin, as shares of the fullest one. A count of people has a bin a number.
+/// Adds the counts in each bin, as shares of the fullest bin. Whole numbers have one bin each.
 void add_bins(FigureTable& table, int series, const Estimate& estimate,
               const AxisRange& range) {
   const bool is_whole = are_whole(estimate.predictive->values);

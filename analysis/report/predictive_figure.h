@@ -6,8 +6,8 @@
 
 namespace jnd::analysis {
 
-/// A panel for every published value that simulated studies are known beside: ours a
-/// distribution, theirs a point. Nothing where none are known.
+/// A panel for each published value for which simulated studies are available. Ours is a
+/// distribution, and the published value a point. Absent if there are none.
 [[nodiscard]] std::optional<Figure> predictive_figure(const StudyResults& results);
 
 }  // namespace jnd::analysis

@@ -9,7 +9,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// An arrow for each end of an interval that lies outside of the axis.
+/// An arrow for each end of an interval that lies outside the axis.
 std::string cut_ends(const FigureTable& table, const AxisRange& axis) {
   std::string arrows;
   int number = 20;
@@ -41,7 +41,7 @@ std::vector<Figure> published_figures(const FigureSource& source) {
                                 "ratio_low", "ratio_high", "held_out"}};
   std::vector<std::string> names;
   std::vector<double> ratios;
-  constexpr double kLowest = 0.05;  // Of an interval that is open below.
+  constexpr double kLowest = 0.05;  // The lower end that replaces an open one.
   constexpr double kHighest = 20.0;
   for (const ResultsSection& section : source.results.sections) {
     for (const Estimate& estimate : section.estimates) {

@@ -9,8 +9,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// The start of a repetition: at some 50 points a second about a quarter of a minute. The whole
-/// would be a cloud.
+/// The start of a repetition: about a quarter of a minute at some 50 points per second. The
+/// whole path would be a cloud.
 constexpr std::size_t kPathPoints = 750;
 constexpr std::size_t kRepetitions = 6;
 
@@ -22,7 +22,7 @@ const Path* longest(const std::vector<Path>& paths) {
   return best;
 }
 
-/// Movement is not blown up beyond this.
+/// The narrowest range of an axis, so that small movements are not exaggerated.
 constexpr double kLeastWidthM = 0.1;
 
 AxisRange column_range(const FigureTable& table, std::size_t column) {
@@ -38,7 +38,7 @@ AxisRange at_least(const AxisRange& range, double width) {
   return {range.low - more, range.high + more};
 }
 
-/// D.16 and D.24, from above and from the front.
+/// Fig. D.16 and D.24, from above and from the front.
 std::optional<Figure> trajectories_figure(const FigureSource& source,
                                           const MovementAnalysis& movement,
                                           const ParticipantMovement& person) {
@@ -120,7 +120,7 @@ std::optional<Figure> trajectories_figure(const FigureSource& source,
   return figure;
 }
 
-/// What was delivered against what the law commands.
+/// The delivered force beside the force that the law commands.
 std::optional<Figure> force_figure(const FigureSource& source, const MovementAnalysis& movement,
                                    const ParticipantMovement& person) {
   constexpr std::size_t kIntensities = 12;

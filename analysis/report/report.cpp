@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// When the newest of the sessions began: what files give as their date.
+/// The time when the newest session began, which is the date of the files.
 std::int64_t date_of(const ReportSource& source) {
   std::int64_t newest_ns = 0;
   for (const core::SessionRow& session : source.store.sessions()) {

@@ -13,34 +13,36 @@
 
 namespace jnd::analysis {
 
-/// What a report is made of. Whether the study may be seen (double-blind ones) is the caller's.
+/// The data of a report. The caller decides whether the study may be seen (in double-blind
+/// studies).
 struct ReportSource {
   const core::StudyStore& store;
   const StudyData& data;
   const StudyResults& results;
-  ResultsOptions results_options;  ///< That the results were computed with.
+  ResultsOptions results_options;  ///< The options with which the results were computed.
   const MovementAnalysis& movement;
-  const DeliveredReport* delivered = nullptr;  ///< nullptr: nothing was measured of devices.
+  const DeliveredReport* delivered = nullptr;  ///< nullptr if no device was measured.
   std::string program_version;
-  bool pilot = false;  ///< Pilot sessions are among the data.
+  bool pilot = false;  ///< Whether pilot sessions are among the data.
 };
 
-/// As `write_document` does. The same study gives the same bytes. Not real time.
+/// Writes a report as `write_document` does. The same study gives the same bytes.
+/// Not real time.
 [[nodiscard]] ReportOutcome write_report(const ReportSource& source,
                                          const std::filesystem::path& folder,
                                          const ReportOptions& options);
 
-/// Every figure that there are data for, in the order of the report.
+/// Every figure for which there are data, in the order of the report.
 [[nodiscard]] std::vector<Figure> figures_of(const ReportSource& source);
 
-/// What a paper needs, as one self-contained HTML document: the answers, how they were found,
-/// one figure for each part of the results. `drawn` in the order of `figures`.
+/// The content of a paper as one self-contained HTML document: the answers, how they were
+/// found, and one figure for each part of the results. `drawn` is in the order of `figures`.
 [[nodiscard]] std::string report_html(const ReportSource& source,
                                       const std::vector<Figure>& figures,
                                       const std::vector<DrawnFigure>& drawn);
 
-/// All else there is to tell: every participant, every estimate, every comparison, every other
-/// figure, where all of it comes from.
+/// Everything else: every participant, every estimate, every comparison, every other figure,
+/// and where all of it comes from.
 [[nodiscard]] std::string supplement_html(const ReportSource& source,
                                           const std::vector<Figure>& figures,
                                           const std::vector<DrawnFigure>& drawn);

@@ -5,15 +5,15 @@
 
 namespace jnd::analysis {
 
-/// What the planned contrasts came to, a sentence each, the primary ones first; nothing for a
-/// study without.
+/// Writes one sentence on the result of each planned contrast, primary ones first. It writes
+/// nothing if the study has none.
 void write_contrast_sentences(HtmlText& html, const StudyResults& results);
 
-/// What deviates from what was registered; nothing where nothing was.
+/// Writes the deviations from what was registered. It writes nothing if nothing was registered.
 void write_deviations(HtmlText& html, const StudyResults& results);
 
-/// A chapter with their tables: what was planned, what came of it, the same by other means, who
-/// is left out.
+/// Writes a chapter with the tables of the contrasts: what was planned, the results, results by
+/// other methods, and who is left out.
 void write_contrasts(HtmlText& html, const StudyResults& results);
 
 }  // namespace jnd::analysis

@@ -14,7 +14,7 @@ namespace {
 struct BothWays {
   const Estimate* commanded = nullptr;
   const Estimate* delivered = nullptr;
-  std::string section;  ///< Of the results.
+  std::string section;  ///< The section of the results.
 };
 
 std::vector<BothWays> both_ways(const StudyResults& commanded, const StudyResults& delivered) {
@@ -80,7 +80,7 @@ std::vector<Figure> delivered_figures(const StudyResults& commanded,
   std::vector<std::string> names;
   std::vector<double> values;
   for (const BothWays& one : both_ways(commanded, delivered.results)) {
-    // Of the group or of the median person, whichever is primary.
+    // The fraction is that of the group or of the median person, whichever is primary.
     if (one.delivered->name.find(".weber_fraction") == std::string::npos) continue;
     names.push_back(titles.short_title_of(one.section));
     table.rows.push_back({static_cast<int>(names.size()), one.delivered->name,

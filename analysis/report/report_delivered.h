@@ -11,22 +11,23 @@
 
 namespace jnd::analysis {
 
-/// What comes of a study where its intensities are those that devices delivered, which were
+/// The results of a study with the intensities that the devices delivered, as they were
 /// measured before.
 struct DeliveredReport {
-  StudyResults results;              ///< With `device_ci95` of each estimate.
-  std::vector<std::string> devices;  ///< A sentence each: which, gain, own damping, sessions.
-  std::int64_t num_trials = 0;       ///< Whose intensity was replaced.
-  std::int64_t num_left_out = 0;     ///< Whose stimulus nobody measured.
+  StudyResults results;  ///< The results, with `device_ci95` of each estimate.
+  /// One sentence for each device: which one, its gain and own damping, and its sessions.
+  std::vector<std::string> devices;
+  std::int64_t num_trials = 0;    ///< The number of trials whose intensity was replaced.
+  std::int64_t num_left_out = 0;  ///< The number of trials whose stimulus was not measured.
 };
 
-/// What each block was asked for, by intensities as commanded and as delivered, with what
-/// people and what the device leave open of the latter. Nothing where there is nothing to
-/// compare.
+/// Writes the primary values of each block by commanded and by delivered intensities. For the
+/// latter it adds the uncertainties from people and from the device. It writes nothing if there
+/// is nothing to compare.
 void write_delivered(HtmlText& html, const StudyResults& commanded,
                      const DeliveredReport& delivered, const StudyTitles& titles);
 
-/// The Weber fractions of it (`delivered`), if there are any.
+/// A figure of the Weber fractions by both intensities (`delivered`), if there are any.
 [[nodiscard]] std::vector<Figure> delivered_figures(const StudyResults& commanded,
                                                     const DeliveredReport& delivered,
                                                     const StudyTitles& titles);

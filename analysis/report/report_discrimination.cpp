@@ -8,7 +8,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// A likelihood that flattens out bounds nothing, though it crosses its threshold far away.
+/// Opens ends that lie far away. There the likelihood is nearly flat and bounds nothing,
+/// although it crosses its threshold.
 Interval bounded(Interval ci95, const std::optional<double>& value) {
   constexpr double kFar = 1000.0;
   if (value && ci95.high && *ci95.high > kFar * *value) ci95.high.reset();
@@ -16,7 +17,7 @@ Interval bounded(Interval ci95, const std::optional<double>& value) {
   return ci95;
 }
 
-/// One participant's values of a block, by the ends of their names.
+/// One participant's values in a block, by the endings of their names.
 struct OwnRow {
   const ResultsSection& section;
   std::string participant;
@@ -27,7 +28,8 @@ struct OwnRow {
     }
     return nullptr;
   }
-  /// "– *" where there is a reason why there is none, which goes below the table.
+  /// The value in words. It is "– *" if there is a reason why it is missing; the reason goes
+  /// into the notes below the table.
   [[nodiscard]] std::string value(const std::string& name, const std::string& title,
                                   std::vector<std::string>& notes) const {
     const ParticipantEstimate* const own = find(name);

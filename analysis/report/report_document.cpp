@@ -11,7 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Makes the folder, or finds it empty; takes everything away again unless `keep` is called.
+/// Makes the folder, or checks that it is empty. It removes everything again unless `keep` is
+/// called.
 class OutputFolder {
  public:
   explicit OutputFolder(const fs::path& folder) : folder_(folder) {
@@ -101,7 +102,8 @@ ReportOutcome write_document(ReportDocument document, const fs::path& folder,
     write_text_file(outcome.supplement_html,
                     document.supplement(outcome.figures, outcome.drawn));
   }
-  // After all else but prints of it, so that a folder with a report in it is a whole one.
+  // This is written after everything except its prints, so that a folder with a report in it is
+  // complete.
   write_text_file(outcome.html, document.html(outcome.figures, outcome.drawn));
   progress(0.75);
   if (options.browser.empty()) {

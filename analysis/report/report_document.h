@@ -12,47 +12,50 @@
 namespace jnd::analysis {
 
 struct ReportOptions {
-  int jobs = 2;                   ///< Figures at once; the report is the same for any.
-  std::filesystem::path gnuplot;  ///< Empty: no figures.
-  std::filesystem::path browser;  ///< Makes the PDF; empty: none.
-  /// Told how much is done, 0 to 1; what it throws ends the work, and nothing of it stays.
+  /// The number of figures drawn at once. The report does not depend on it.
+  int jobs = 2;
+  std::filesystem::path gnuplot;  ///< If empty, there are no figures.
+  std::filesystem::path browser;  ///< The program that makes the PDF. If empty, there is none.
+  /// Receives the share of the work that is done, 0 to 1. An exception from it ends the work,
+  /// and nothing of it stays.
   std::function<void(double)> on_progress;
 };
 
 struct ReportOutcome {
   std::filesystem::path html;
   std::filesystem::path pdf;                              ///< Empty if there is none.
-  std::filesystem::path supplement_html, supplement_pdf;  ///< Empty if there is none.
+  std::filesystem::path supplement_html, supplement_pdf;  ///< Empty if there are none.
   std::vector<Figure> figures;
-  std::vector<DrawnFigure> drawn;     ///< In the order of `figures`.
-  std::vector<std::string> problems;  ///< What is lacking, a sentence each; the rest is whole.
+  std::vector<DrawnFigure> drawn;  ///< In the order of `figures`.
+  /// What is missing, one sentence each. The rest is complete.
+  std::vector<std::string> problems;
 };
 
-/// A report before it is written, whatever it is about.
+/// A report on any subject before it is written.
 struct ReportDocument {
   std::vector<Figure> figures;
-  bool simulated = false;         ///< Each figure and each table says so.
-  std::int64_t date_time_ns = 0;  ///< What PDF files give as their date.
-  /// The whole document; drawn figures in the order of `figures`.
+  bool simulated = false;         ///< If true, each figure and each table says so.
+  std::int64_t date_time_ns = 0;  ///< The date in PDF files.
+  /// Returns the whole document. The drawn figures are in the order of `figures`.
   using Html =
       std::function<std::string(const std::vector<Figure>&, const std::vector<DrawnFigure>&)>;
   Html html;
-  Html supplement;  ///< Empty: the document has none.
+  Html supplement;  ///< Empty if the document has no supplement.
 };
 
-/// Throws `Error` if something is in this folder already: before minutes are spent on its
+/// Throws `Error` if the folder already contains something, before time is spent on its
 /// content.
 void require_free_folder(const std::filesystem::path& folder);
 
-/// Writes report.html, report.pdf, figures/ and what there is of supplement.html and
-/// supplement.pdf into a folder that is new or empty. The same
-/// document gives the same bytes. Throws `Error`: folder not empty, not writable, disk full;
-/// then nothing of the report stays. Not real time.
+/// Writes report.html, report.pdf, figures/ and, if there is a supplement, supplement.html and
+/// supplement.pdf into a new or empty folder. The same document gives the same bytes. Throws
+/// `Error` if the folder is not empty or not writable, or if the disk is full; nothing of the
+/// report then stays. Not real time.
 [[nodiscard]] ReportOutcome write_document(ReportDocument document,
                                            const std::filesystem::path& folder,
                                            const ReportOptions& options);
 
-/// The programs of this machine that a report can use: gnuplot; chromium or wkhtmltopdf.
+/// The programs on this machine that a report can use: gnuplot, and chromium or wkhtmltopdf.
 [[nodiscard]] ReportOptions installed_report_tools();
 
 }  // namespace jnd::analysis

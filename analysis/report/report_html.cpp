@@ -21,14 +21,14 @@ std::vector<core::SessionRow> analysed_sessions(const ReportSource& source) {
   return sessions;
 }
 
-/// Whether the report has a figure of this section: of what was asked for, not of how people
+/// Whether the report has a figure of this section. It shows what was asked, and not how people
 /// moved, how fast they answered or what they said.
 bool is_in_report(const std::string& section) {
   return section.empty() || (section != "movement" && section != "response_times" &&
                              section != "questionnaires" && !section.ends_with("_questions"));
 }
 
-/// Puts figures where they belong, each once, and lists them at the end.
+/// Puts figures into their sections, each once, and lists them at the end.
 class FigureChapters {
  public:
   FigureChapters(HtmlText& html, const std::vector<Figure>& figures,
@@ -40,14 +40,15 @@ class FigureChapters {
         of_thesis_(is_of_thesis(results)),
         numbers_(figures.size(), 0) {}
 
-  /// The first of this section of the results.
+  /// Writes the first figure of this section of the results.
   void write_first(const std::string& section) {
     for (std::size_t i = 0; i < figures_.size(); ++i) {
       if (figures_[i].section == section) return write(i);
     }
   }
 
-  /// All but the first of this section of the results, which the report has; "" all of none.
+  /// Writes the figures of this section of the results, without the first one if the report
+  /// shows it. The section "" holds the figures that belong to no other one.
   void write_others_of(const std::string& section) {
     bool is_first = true;
     for (std::size_t i = 0; i < figures_.size(); ++i) {
@@ -110,8 +111,9 @@ class FigureChapters {
   const std::vector<Figure>& figures_;
   const std::vector<DrawnFigure>& drawn_;
   bool simulated_;
-  bool of_thesis_;            ///< See `is_of_thesis`.
-  std::vector<int> numbers_;  ///< In this document; 0 of those that are not written yet.
+  bool of_thesis_;  ///< See `is_of_thesis`.
+  /// The number of each figure in this document; 0 for figures that are not yet written.
+  std::vector<int> numbers_;
   std::set<std::size_t> in_report_;
 };
 
@@ -123,7 +125,7 @@ std::string contents(const HtmlText& html) {
   return text + "</ul></nav>\n";
 }
 
-/// `what`: "Report on".
+/// The front of a document. `what` is its kind, such as "Report on".
 std::string front(const ReportSource& source, const std::string& title,
                   const std::string& what) {
   std::string text = "<h1>" + html_escaped(title) + "</h1>\n<p class=\"authors\">";

@@ -45,7 +45,7 @@ std::string reference_words(const BlockDesign& block, const std::set<double>& re
            : ""));
 }
 
-/// How many trials people ran. Where the answers decide it, as the data have it.
+/// How many trials people had. If the answers decide it, the words use the counts in the data.
 std::string num_trials_words(const StudyData& data, const BlockDesign& block) {
   if (!block.is_adaptive())
     return said("{} a participant", counted_words(block.num_trials, "trial"));
@@ -88,7 +88,7 @@ std::string practice_words(const experiments::Block& block) {
               counted_words(practice.max_trials, "trial"));
 }
 
-/// What bounds a trial: its stimuli, going back to them, its answer.
+/// What limits a trial: its stimuli, going back to them, and its answer.
 std::string answering_words(const experiments::Block& block) {
   const auto seconds = [](double duration_s) { return shortest_words(duration_s) + " s"; };
   std::string words;
@@ -172,7 +172,7 @@ std::string design_words(const ChapterSource& source) {
   const experiments::Study& study = source.report.data.written;
   std::string text = in_spoken_language(study.description);
   if (!text.empty() && !text.ends_with('.')) text += ".";
-  // Where nothing is asked there is nothing to be blind to.
+  // If nothing is asked, there is nothing to blind.
   if (!source.report.data.blocks.empty()) {
     text += said(" Blinding: {}.",
                  (study.blinding == experiments::Blinding::kDouble
@@ -183,7 +183,7 @@ std::string design_words(const ChapterSource& source) {
   }
   std::map<std::string, int> cells;
   for (const core::SessionRow& session : source.sessions) ++cells[session.cells];
-  // Squares of many conditions have one for every row of every stratum.
+  // Squares of many conditions have one cell for every row of every stratum.
   constexpr std::size_t kMostToldSingly = 6;
   if (cells.size() > kMostToldSingly) {
     int fewest = static_cast<int>(source.sessions.size()), most = 0;
@@ -235,7 +235,7 @@ std::string apparatus_words(const ChapterSource& source) {
   return text;
 }
 
-/// One sentence for each group of blocks whose trials were mixed; "" where there is none.
+/// One sentence for each group of blocks whose trials were mixed; "" if there is none.
 std::string interleaved_words(const ChapterSource& source) {
   struct Group {
     experiments::Interleaving its;

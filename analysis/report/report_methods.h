@@ -7,25 +7,26 @@
 
 namespace jnd::analysis {
 
-/// Whatever the chapters of a report say something about.
+/// What the chapters of a report are about.
 struct ChapterSource {
   const ReportSource& report;
   const StudyTitles& titles;
-  const std::vector<core::SessionRow>& sessions;  ///< Sessions that are analysed.
-  const std::vector<SessionQuality>& quality;     ///< Quality of these sessions.
+  const std::vector<core::SessionRow>& sessions;  ///< The sessions that are analysed.
+  const std::vector<SessionQuality>& quality;     ///< The quality of these sessions.
 };
 
-/// What was run: design, apparatus, analysis, where everything comes from.
+/// Writes what was run: design, apparatus, analysis, and where everything comes from.
 void write_methods(HtmlText& html, const ChapterSource& source);
-/// The participants who took part: a paragraph, and a row for each of them.
+/// Write about the participants: the first a paragraph, and the second a row for each of them.
 void write_participants_in_short(HtmlText& html, const ChapterSource& source);
 void write_participants(HtmlText& html, const ChapterSource& source);
-/// Missing, resumed, undone, set aside; recordings; timing: a paragraph, and tables.
+/// Write what is missing, resumed, undone or set aside, the recordings and the timing: the
+/// first a paragraph, and the second tables.
 void write_data_quality_in_short(HtmlText& html, const ChapterSource& source);
 void write_data_quality(HtmlText& html, const ChapterSource& source);
-/// What the methods cite; nothing where they cite nothing.
+/// Writes what the methods cite. It writes nothing if they cite nothing.
 void write_references(HtmlText& html, const ChapterSource& source);
-/// Sessions with their seeds, hashes, versions.
+/// Writes the sessions with their seeds, hashes and versions.
 void write_provenance(HtmlText& html, const ChapterSource& source);
 
 }  // namespace jnd::analysis

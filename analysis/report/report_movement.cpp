@@ -10,12 +10,12 @@
 namespace jnd::analysis {
 namespace {
 
-/// From there on a comparison may be one of selections.
+/// If at least this share is missing, a comparison may be one of selections.
 constexpr double kManyMissing = 0.10;
 
 std::string percent_words(double ratio) { return number_words(100.0 * ratio, 0) + " %"; }
 
-/// Of each block and interval as a whole.
+/// The use of each block and interval as a whole.
 std::vector<PresentationUse> by_interval(const std::vector<PresentationUse>& uses) {
   std::vector<PresentationUse> wholes;
   for (const PresentationUse& use : uses) {

@@ -26,7 +26,7 @@ std::string in_words(std::string name, const std::string& unit) {
   return name;
 }
 
-/// "not said" of "not_said", 26 of "26.00": as a person would write it.
+/// An answer as a person would write it: "not said" for "not_said", 26 for "26.00".
 std::string answer_words(const std::string& answer) {
   if (const auto number = number_of(answer)) return shortest_words(*number);
   std::string words = answer;
@@ -88,7 +88,7 @@ std::string dash_if_none(std::int64_t count) {
   return count == 0 ? "–" : std::to_string(count);
 }
 
-/// Takes the columns away whose titles these are.
+/// Removes the columns with these titles.
 void drop_columns(HtmlTable& table, const std::set<std::string>& titles) {
   for (std::size_t i = table.columns.size(); i-- > 0;) {
     if (!titles.contains(table.columns[i].title)) continue;
@@ -189,7 +189,7 @@ HtmlTable movement_table(const ChapterSource& source) {
   return table;
 }
 
-/// Whether loss depends on what was presented.
+/// A table that shows whether losses depend on what was presented.
 HtmlTable losses_table(const ChapterSource& source) {
   HtmlTable table{
       .caption = said("Trials that were lost or did not go as meant, by stimulus level"),

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A browser keeps things; here they go when it is done.
+/// A folder for what a browser stores. It is removed when the browser has finished.
 class ProfileFolder {
  public:
   ProfileFolder() {
@@ -34,7 +34,7 @@ class ProfileFolder {
   fs::path path_;
 };
 
-/// A path as a browser takes it.
+/// A path as a URL for a browser.
 std::string file_url(const fs::path& file) {
   constexpr char kDigits[] = "0123456789ABCDEF";
   std::string url = "file://";
@@ -74,7 +74,7 @@ std::string print_as_pdf(const fs::path& browser, const fs::path& html, const fs
                  "--no-pdf-header-footer",
                  "--user-data-dir=" + profile.path().string(),
                  "--print-to-pdf=" + target.string()};
-    // Its sandbox does not start for root, and the page is our own and has no script.
+    // The sandbox does not start for root. The page is our own and has no script.
     if (::geteuid() == 0) arguments.insert(arguments.begin() + 1, "--no-sandbox");
     arguments.push_back(file_url(html));
   }

@@ -10,15 +10,15 @@
 namespace jnd::analysis {
 namespace {
 
-/// "0.70 (0.44 to 1.02)": median and middle 95 % of the simulated studies.
+/// The median and the middle 95 % of the simulated studies, such as "0.70 (0.44 to 1.02)".
 std::string simulated_words(const Estimate& estimate) {
   if (!estimate.predictive) return "–";
   const PredictiveTail& of = *estimate.predictive;
   return with_interval(of.median, {.low = of.low, .high = of.high});
 }
 
-/// "0.004 below (se 0.002)": the share of simulated studies as far on the published value's
-/// side, with its standard error.
+/// The share of simulated studies that are as far on the published value's side, with its
+/// standard error, such as "0.004 below (se 0.002)".
 std::string tail_words(const Estimate& estimate) {
   if (!estimate.predictive) return "–";
   const PredictiveTail& of = *estimate.predictive;

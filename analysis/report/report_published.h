@@ -10,17 +10,17 @@
 
 namespace jnd::analysis {
 
-/// "0.72 ± 0.2", "> 0"; a dash for what nobody published.
+/// For example "0.72 ± 0.2" or "> 0"; a dash if nothing was published.
 [[nodiscard]] std::string published_words(const Estimate& estimate);
 
-/// What has to be known to compare these with what was published; nothing where that is plain.
+/// Notes that are needed to compare these with what was published; empty if none are needed.
 [[nodiscard]] std::vector<std::string> published_notes(
     const std::vector<const Estimate*>& estimates);
 
-/// "calibrated", "implied" or "held out"; a dash for what nobody published.
+/// "calibrated", "implied" or "held out"; a dash if nothing was published.
 [[nodiscard]] std::string basis_words(const Estimate& estimate);
 
-/// Not torn apart at the end of a line; "" of a pure number.
+/// The unit with no-break spaces; "" for a pure number.
 [[nodiscard]] std::string unit_words(const std::string& unit);
 
 /// The estimates of all sections for which the condition holds.
@@ -35,12 +35,12 @@ std::vector<const Estimate*> estimates_where(const StudyResults& results, Condit
   return found;
 }
 
-/// Everything that has a published value, beside it, a line each.
+/// Every estimate with a published value beside it, one line each.
 [[nodiscard]] HtmlTable published_in_short(const StudyResults& results,
                                            const StudyTitles& titles);
 
-/// Everything that has a published value, beside it, how it was published, and what simulated
-/// studies come to where that is known; without rows where nothing was published.
+/// Every estimate with a published value beside it, how it was published and, if available, the
+/// values of simulated studies. It has no rows if nothing was published.
 [[nodiscard]] HtmlTable published_table(const StudyResults& results, const StudyTitles& titles);
 
 }  // namespace jnd::analysis

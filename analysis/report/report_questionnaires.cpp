@@ -19,7 +19,8 @@ std::string value_of(const ResultsSection& section, const std::string& name) {
   return estimate == nullptr ? "–" : number_words(estimate->value, 2);
 }
 
-/// Item, question, count, mean and spread; then one column a further statistic.
+/// Adds a row with item, question, count, mean and spread, and one column for each further
+/// statistic.
 void add_row(HtmlTable& table, const ResultsSection& section, const QuestionnaireItem& item,
              const std::vector<const char*>& statistics) {
   const std::string name = "questionnaire." + item.name;
@@ -46,7 +47,7 @@ std::vector<HtmlTable::Column> columns_with(const std::vector<const char*>& titl
   return columns;
 }
 
-/// "1: fluid, 10: solid"
+/// The labels of the ends of a scale, such as "1: fluid, 10: solid".
 std::string ends_words(const QuestionnaireItem& item) {
   std::string words = item.low_label.empty() ? "" : "1: " + item.low_label;
   if (item.high_label.empty()) return words;

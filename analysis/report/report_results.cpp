@@ -25,14 +25,15 @@ std::string effect_words(const Comparison& c) {
   return "–";
 }
 
-/// Why numbers may be wrong for these data, after what is said of them.
+/// Why numbers may be wrong for these data. It follows their description.
 std::string caution_words(const std::vector<std::string>& cautions) {
   std::string words;
   for (const std::string& caution : cautions) words += said(". Caution: {}", caution);
   return words;
 }
 
-/// "t = 2.31"; of ranks every name that the statistic has: "V = 45, T = 0".
+/// A statistic such as "t = 2.31". Rank tests have every name of the statistic: "V = 45, T =
+/// 0".
 std::string statistic_words(const Comparison& c) {
   std::string words;
   for (const auto& [name, value] : c.all_statistics()) {
@@ -43,7 +44,7 @@ std::string statistic_words(const Comparison& c) {
   return words.empty() ? "–" : words;
 }
 
-/// Where adjusted p-values stand, if there are any.
+/// The index of the column of adjusted p values, if there are any.
 constexpr std::size_t kHolmColumn = 5;
 
 std::vector<std::string> comparison_row(const NamedComparison& named) {
@@ -62,7 +63,8 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
   if (c.num_b > 0 && (are_two_groups || c.num_b != c.num_a)) {
     count += ", " + std::to_string(c.num_b);
   }
-  // What the test is about: of ranks the median of pairwise differences, else the mean.
+  // The effect that the test is about: the median of pairwise differences for rank tests, and
+  // the mean otherwise.
   std::string effect =
       c.hodges_lehmann
           ? "Hodges-Lehmann " + with_interval(c.hodges_lehmann, c.hodges_lehmann_ci95)
@@ -102,7 +104,7 @@ std::vector<std::string> estimate_row(const StudyTitles& titles, const Estimate&
           unit_words(estimate.unit), std::to_string(estimate.n)};
 }
 
-/// Estimates of a section that are the answer to what was asked, or those that are not.
+/// Writes the estimates of a section that answer the question, or those that do not.
 void write_estimates(HtmlText& html, const StudyResults& results, const StudyTitles& titles,
                      const ResultsSection& section, bool primary, const char* caption) {
   const bool any_published = std::ranges::any_of(section.estimates, &Estimate::is_published);
@@ -159,7 +161,7 @@ void write_comparisons(HtmlText& html, const ResultsSection& section) {
   html.table(table);
 }
 
-/// What all names begin with, up to a dot: "magnitude_estimation.".
+/// The common beginning of all names up to a dot, such as "magnitude_estimation.".
 std::string common_start(const std::vector<std::string>& names) {
   if (names.empty()) return "";
   std::string start = names.front().substr(0, names.front().find('.') + 1);
@@ -169,7 +171,7 @@ std::string common_start(const std::vector<std::string>& names) {
   return start;
 }
 
-/// Everybody's own numbers, a column each.
+/// Everybody's own numbers, with one column for each number.
 class OwnValues {
  public:
   explicit OwnValues(const ResultsSection& section) {
@@ -186,7 +188,7 @@ class OwnValues {
   }
 
   void write(HtmlText& html) const {
-    // As many as a page is wide.
+    // The number of columns that fit on a page.
     const std::size_t num_columns = has_intervals_ ? 3 : 7;
     for (std::size_t first = 0; first < names_.size(); first += num_columns) {
       html.table(table_of(first, std::min(first + num_columns, names_.size())));
@@ -249,7 +251,7 @@ void write_cautions(HtmlText& html, const ResultsSection& section) {
   html.table(table);
 }
 
-/// A question, and below it what was said to it.
+/// Writes each question, and below it the answers.
 void write_free_answers(HtmlText& html, const ResultsSection& section) {
   std::vector<std::string> items;
   for (const FreeAnswer& one : section.free_answers) {
@@ -270,7 +272,7 @@ void write_free_answers(HtmlText& html, const ResultsSection& section) {
   }
 }
 
-/// What each block was asked for. A value whose own goodness of fit rejects it is not told.
+/// The primary values of each block. A value that its own goodness of fit rejects is not shown.
 HtmlTable primary_table(const StudyResults& results, const StudyTitles& titles) {
   HtmlTable table = estimates_table(said("Primary values"));
   bool any_rejected = false;

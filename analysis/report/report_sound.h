@@ -6,8 +6,8 @@
 
 namespace jnd::analysis {
 
-/// What participants were to hear, and in how many sessions it was played; "" where the study
-/// has no sound.
+/// What participants were meant to hear, and in how many sessions it was played; "" if the
+/// study has no sound.
 [[nodiscard]] std::string sound_words(const ChapterSource& source);
 
 }  // namespace jnd::analysis

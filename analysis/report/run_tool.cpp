@@ -23,7 +23,7 @@ std::vector<std::string> child_environment() {
   std::vector<std::string> all;
   for (char** entry = ::environ; *entry != nullptr; ++entry) {
     const std::string_view text = *entry;
-    // A figure is the same in every place, and no window is wanted.
+    // A figure must be the same everywhere, and no window may open.
     const bool is_ours = text.starts_with("TZ=") || text.starts_with("LC_ALL=") ||
                          text.starts_with("DISPLAY=") || text.starts_with("GNUPLOT_");
     if (!is_ours) all.emplace_back(text);
@@ -40,7 +40,8 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// A process group of its own, so that all of it can be ended. -1 with `errno` if refused.
+/// Starts the program in its own process group, so that all of it can be ended. Returns -1 with
+/// `errno` if that fails.
 pid_t start(const fs::path& program, const std::vector<std::string>& arguments,
             const fs::path& folder, int output) {
   std::vector<std::string> words = {program.string()};
@@ -72,7 +73,7 @@ pid_t start(const fs::path& program, const std::vector<std::string>& arguments,
   return refused == 0 ? pid : -1;
 }
 
-/// Its status, or none if the time was over first.
+/// Waits for the process and returns its status, or returns false if the time limit came first.
 bool wait_for(pid_t pid, std::chrono::seconds time_limit, int& status) {
   const auto end = std::chrono::steady_clock::now() + time_limit;
   auto pause = std::chrono::milliseconds(1);
@@ -85,7 +86,7 @@ bool wait_for(pid_t pid, std::chrono::seconds time_limit, int& status) {
   }
 }
 
-/// The first words of its output, on one line.
+/// The first words of the output, on one line.
 std::string words_of(int output) {
   std::array<char, 300> bytes{};
   const ssize_t count = ::pread(output, bytes.data(), bytes.size(), 0);

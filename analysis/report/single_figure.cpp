@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that goes with it.
+/// A temporary folder that is removed with the object.
 class DrawingFolder {
  public:
   DrawingFolder() {
@@ -44,7 +44,7 @@ void replace_once(std::string& text, const std::string& from, const std::string&
     text.replace(at, from.size(), to);
 }
 
-/// The script for a picture of dots, 200 an inch.
+/// The script for a bitmap of 200 dots per inch.
 std::string script_for_png(const Figure& figure) {
   constexpr double kDotsPerInch = 200.0;
   std::string script = gnuplot_script(figure, false);

@@ -20,7 +20,7 @@ std::string x_axis(const std::vector<PlannedSummary>& summaries) {
          range_words(axis_range(sizes)) + "\n";
 }
 
-/// Series of a table, numbered from 1, as lines with marks and bars.
+/// The series of a table, numbered from 1, as lines with marks and bars.
 std::string series_plot(const FigureTable& table, const std::vector<PlannedName>& names,
                         const std::string& value, const std::string& low,
                         const std::string& high) {

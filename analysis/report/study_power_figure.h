@@ -9,15 +9,16 @@
 
 namespace jnd::analysis {
 
-/// What the titles of power figures name.
+/// What the titles of power figures mention.
 struct PowerFigureWords {
   std::string study, laboratory;
   std::int64_t num_runs = 0;
-  bool null_hypothesis = false;  ///< Nothing differs: shares are rates of false positives.
+  /// If true, nothing differs, so shares are rates of false positives.
+  bool null_hypothesis = false;
 };
 
-/// Power over the number of participants, where something is compared; and the half width of
-/// every estimate's interval.
+/// Figures of the power over the number of participants, if something is compared, and of the
+/// half width of every estimate's interval.
 [[nodiscard]] std::vector<Figure> power_figures(const PlannedAnalysis& analysis,
                                                 const std::vector<PlannedSummary>& summaries,
                                                 const PowerFigureWords& words);

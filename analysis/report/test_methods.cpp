@@ -19,7 +19,7 @@ class Tests {
     const auto also = [&names](const std::string& test) {
       names += (names.empty() ? "" : ", ") + test;
     };
-    // Not the hierarchical tests, which have words of their own.
+    // The hierarchical tests are left out, because they have words of their own.
     const bool any_paired = any([](const NamedComparison& one) {
       return one.comparison.method.starts_with("paired t");
     });

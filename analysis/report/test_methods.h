@@ -8,9 +8,9 @@
 
 namespace jnd::analysis {
 
-/// How the tests that a study has, and their effect sizes, come about, for its methods:
-/// `comparisons` are those with a result, `compares` says whether a block asked for
-/// comparisons, `add` takes a topic with its text, `cite` a work that then stands in the list
+/// Adds to the methods how the tests of a study and their effect sizes are computed.
+/// `comparisons` holds the tests with a result. `compares` says whether a block asked for
+/// comparisons. `add` takes a topic and its text. `cite` takes a work and adds it to the list
 /// of references.
 void add_test_methods(const std::vector<const NamedComparison*>& comparisons, bool compares,
                       const std::function<std::string(const std::string&)>& cite,

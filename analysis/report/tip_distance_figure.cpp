@@ -16,20 +16,21 @@ constexpr std::size_t kConditions = 9;
 /// One row of panels.
 struct ShownPerson {
   std::string participant;
-  StrokeCurves first;  ///< Of the first condition, whose turning points are drawn.
+  StrokeCurves first;  ///< The curves of the first condition, whose turning points are drawn.
   std::array<std::vector<double>, core::kNumContactPoints> distances_mm;
 };
 
-/// What the figure shows, gathered from those whose device had joints; of others the tips are
-/// where the hand is.
+/// The content of the figure, from participants whose device had joints. For others the tips
+/// are where the hand is.
 class TipDistances {
  public:
   FigureTable table{
       .name = "tip_distances",
       .columns = {"person", "participant", "series", "condition", "stroke_percent"}};
   std::vector<ShownPerson> people;
-  std::vector<std::string> titles;   ///< Of conditions, in the order of their series.
-  std::set<std::string> all_titles;  ///< Also of those that are not shown.
+  /// The titles of the conditions, in the order of their series.
+  std::vector<std::string> titles;
+  std::set<std::string> all_titles;  ///< Includes conditions that are not shown.
 
   TipDistances() {
     for (const std::string_view point : core::kContactPointNames) {
@@ -55,7 +56,8 @@ class TipDistances {
   }
 
  private:
-  /// From 1; nothing once there are as many conditions as lines can be told apart.
+  /// The number of a series, from 1. It is absent once there are as many conditions as lines
+  /// that can be distinguished.
   std::optional<int> series_of(const std::string& title) {
     all_titles.insert(title);
     const auto known = std::ranges::find(titles, title);
@@ -83,7 +85,7 @@ class TipDistances {
   }
 };
 
-/// From light to dark and from dashes to a line, as the conditions come.
+/// A style from light to dark and from dashed to solid, in the order of the conditions.
 std::string line_style(std::size_t series, std::size_t num_series) {
   constexpr const char* kDashes[] = {"1", "(12,4)", "(5,3)", "(2,3)"};
   const double part =

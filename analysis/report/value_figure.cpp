@@ -15,7 +15,7 @@ namespace jnd::analysis {
 namespace {
 
 constexpr std::size_t kMostValuePanels = 48;
-/// Of more pairs a line each would hide the others.
+/// With more pairs, a line for each would hide the others.
 constexpr std::size_t kMostJoinedPairs = 200;
 
 std::vector<ComparedValues> shown_of(const std::vector<ComparedValues>& groups) {
@@ -29,8 +29,8 @@ std::vector<ComparedValues> shown_of(const std::vector<ComparedValues>& groups) 
   return shown;
 }
 
-/// Steps aside, -1 to 1, for values that would lie on one another: those of one place in turn
-/// to the left and to the right, so that the same data always look alike.
+/// Steps to the side, -1 to 1, for values that would overlap. Values at one place move left and
+/// right in turn, so the same data always look the same.
 std::vector<double> steps_aside(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -86,7 +86,7 @@ FigureTable means_table(const std::vector<ComparedValues>& groups) {
   return table;
 }
 
-/// A row for each step of a person from one condition to the next.
+/// A table with one row for each step of a person from one condition to the next.
 FigureTable pairs_table(const std::vector<ComparedValues>& groups) {
   FigureTable table{.name = "pairs", .columns = {"series", "pair", "place", "value", "next"}};
   for (std::size_t i = 0; i < groups.size(); ++i) {

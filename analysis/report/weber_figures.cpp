@@ -23,13 +23,15 @@ std::vector<BlockDesign> discriminations(const FigureSource& source) {
   return found;
 }
 
-/// Own fractions of a block as their median and box have them, or with the other pse.
+/// The name of own fractions in a block: those of the block's median and box or, with `other`,
+/// those with the other pse.
 std::string own_name(const FigureSource& source, const BlockDesign& block, bool other = false) {
   const bool free_pse = source.section(block.block)->own_fractions_free_pse != other;
   return block.block + (free_pse ? ".weber_fraction_free_pse" : ".weber_fraction");
 }
 
-/// "at the reference", or "free" with the blocks that have it so: what `own_name` has.
+/// The pse of the fractions of `own_name`: "at the reference", or "free" with the blocks in
+/// which it is free.
 std::string pse_words(const FigureSource& source, const std::vector<BlockDesign>& blocks) {
   std::string free_titles;
   std::size_t num_free = 0;
@@ -50,8 +52,8 @@ std::optional<double> reference_of(const StudyData& data, const std::string& blo
   return std::nullopt;
 }
 
-/// Everybody's fraction in every block, with what there is to see of its interval, and the one
-/// with the other pse beside it.
+/// Everybody's fraction in every block, with the part of its interval that can be shown, and
+/// the fraction with the other pse beside it.
 FigureTable fractions_table(const FigureSource& source,
                             const std::vector<BlockDesign>& blocks) {
   FigureTable table{.name = "weber_fractions",
@@ -78,7 +80,7 @@ FigureTable fractions_table(const FigureSource& source,
   return table;
 }
 
-/// Where a figure of all these blocks stands: with the first comparison there is.
+/// The section that holds a figure of all these blocks: the first comparison if there is one.
 std::string section_of(const StudyResults& results, const std::vector<BlockDesign>& blocks) {
   for (const ResultsSection& section : results.sections) {
     if (section.name.find("_against_") != std::string::npos) return section.name;
@@ -86,7 +88,7 @@ std::string section_of(const StudyResults& results, const std::vector<BlockDesig
   return blocks.front().block;
 }
 
-/// D.21.
+/// Fig. D.21.
 std::optional<Figure> fractions_figure(const FigureSource& source,
                                        const std::vector<BlockDesign>& blocks) {
   FigureTable table = fractions_table(source, blocks);
@@ -120,7 +122,7 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const int series = static_cast<int>(b) + 1;
     const std::string type = std::to_string(b % 7 + 1);
-    // Open ends go to the edge of the figure.
+    // Open ends reach to the edge of the figure.
     const std::string low = "(valid(6) ? column('ci95_low') : " + plot_number(range.low) + ")";
     const std::string high =
         "(valid(7) ? column('ci95_high') : " + plot_number(range.high) + ")";
@@ -165,7 +167,7 @@ std::optional<Figure> fractions_figure(const FigureSource& source,
   return figure;
 }
 
-/// D.22.
+/// Fig. D.22.
 std::optional<Figure> thresholds_figure(const FigureSource& source,
                                         const std::vector<BlockDesign>& blocks) {
   std::vector<BoxGroup> groups;

@@ -12,14 +12,15 @@
 namespace jnd::analysis {
 namespace {
 
-/// Of w where the level that a staircase converges to, and the pse at the reference, are known.
+/// The Weber fraction that follows from the threshold of a staircase, if the pse is at the
+/// reference. If there is none, `reason` says why.
 struct FractionAtTarget {
   std::optional<double> value;
   std::string reason;
 };
 
-/// The level answered "yes" with probability p is reference (1 + w)^z(p) on the curve whose pse
-/// is at the reference.
+/// On the curve whose pse is at the reference, the level answered "yes" with probability p is
+/// reference (1 + w)^z(p).
 FractionAtTarget fraction_at_target(double threshold, double reference, double probability) {
   const double z = core::standard_normal_quantile(probability);
   constexpr double kFlattest = 0.05;
@@ -35,7 +36,8 @@ FractionAtTarget fraction_at_target(double threshold, double reference, double p
   return {.value = std::expm1(ratio)};
 }
 
-/// Why what a posterior says may be wrong; "" if it keeps away from the ends of its grids.
+/// Why a value of the posterior may be wrong; "" if the posterior stays away from the ends of
+/// its grids.
 std::string edge_words(const AdaptiveRun& run) {
   std::string words;
   for (const std::string& end : run.reached_ends)
@@ -51,7 +53,7 @@ std::string percent_words(double probability) {
   return number_words(100.0 * probability, 1) + " %";
 }
 
-/// One block's section while it is written.
+/// Writes the section of one block.
 class AdaptiveWriter {
  public:
   AdaptiveWriter(const StudyData& data, const BlockDesign& block)
@@ -65,7 +67,7 @@ class AdaptiveWriter {
   void write_other();
 
  private:
-  /// Runs with something to say; the others are named.
+  /// The runs that have a result. Runs with a problem are named as excluded.
   [[nodiscard]] std::vector<const AdaptiveRun*> runs() {
     std::vector<const AdaptiveRun*> found;
     for (const AdaptiveRun& run : data_.runs) {
@@ -114,7 +116,8 @@ class AdaptiveWriter {
   }
   /// Of the estimates from `first` on: who brought what to an end of the grid.
   void caution_group(std::size_t first, int num_at_edge, int num_runs);
-  /// What the rules of staircases and of QUEST+ know nothing of.
+  /// A caution that the rules of staircases and of QUEST+ ignore the order of the intervals; ""
+  /// if the block has no intervals.
   [[nodiscard]] std::string of_both_orders() const {
     return has_intervals(data_, block_) ? said(
                                               "; too large where people favour an interval, "
@@ -282,7 +285,7 @@ void AdaptiveWriter::write_quest_plus() {
                      end),
                 own);
     }
-    // Of fewer, their own values say so, and the mean of all hardly moves.
+    // For fewer participants their own values say so, and the mean of all hardly changes.
     if (10 * num_at_edge > num_runs) caution_group(first, num_at_edge, num_runs);
   }
 }

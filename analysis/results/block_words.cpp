@@ -14,7 +14,7 @@ namespace {
 using experiments::Block;
 using experiments::Settings;
 
-/// As few digits as tell it.
+/// The fewest digits that represent the value.
 std::string general(double value) { return with_decimal_sign(fmt::format("{:g}", value)); }
 
 std::string staircase_words(const Settings& given) {

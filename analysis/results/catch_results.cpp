@@ -13,9 +13,10 @@ namespace {
 /// One participant's answers to trials in which test and reference are equal.
 struct CatchCounts {
   int num_trials = 0;
-  int num_test = 0;       ///< The test was called more, or its interval chosen.
-  int num_intervals = 0;  ///< Trials of two intervals.
-  int num_second = 0;     ///< Of those, the second interval was chosen.
+  /// The number of trials in which the test was called more, or its interval was chosen.
+  int num_test = 0;
+  int num_intervals = 0;  ///< The number of trials with two intervals.
+  int num_second = 0;     ///< The number of these in which the second interval was chosen.
 };
 
 CatchCounts counts_of(const ParticipantData& participant, const std::string& block) {
@@ -32,7 +33,7 @@ CatchCounts counts_of(const ParticipantData& participant, const std::string& blo
   return counts;
 }
 
-/// The section while it is written.
+/// Writes the section.
 class CatchWriter {
  public:
   explicit CatchWriter(const BlockDesign& block)

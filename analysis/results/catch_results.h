@@ -4,14 +4,16 @@
 
 namespace jnd::analysis {
 
-/// Whether anybody answered catch trials in a block of comparisons, in which the test equals
-/// the reference. Those of yes-no and same-different tasks belong to their own results.
+/// Whether anybody answered catch trials in a block of comparisons, where the test equals the
+/// reference. Catch trials of yes-no and same-different tasks belong to the results of those
+/// blocks.
 [[nodiscard]] bool has_catch_trials(const StudyData& data, const BlockDesign& block);
 
-/// How many there were and what was answered, of everybody and of the group; section
-/// BLOCK_catch_trials. Of a reminder "more" without cause; of two intervals, where either
-/// answer is by chance, how often the one that was drawn for the test was chosen, and how often
-/// the second one. They are in no curve. Not real time.
+/// The number of catch trials and their answers, for everybody and for the group, in the
+/// section BLOCK_catch_trials. In a reminder task it reports how often "more" was said without
+/// cause. With two intervals either answer is right by chance, so it reports how often the
+/// interval drawn for the test was chosen, and how often the second one was. Catch trials are
+/// in no curve. Not real time.
 [[nodiscard]] ResultsSection catch_results(const StudyData& data, const BlockDesign& block);
 
 }  // namespace jnd::analysis

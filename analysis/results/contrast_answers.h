@@ -10,13 +10,13 @@
 
 namespace jnd::analysis {
 
-/// The place of the group that a participant belongs to; none where the contrast has no weight
-/// for their arm.
+/// The index of the group to which a participant belongs. It is absent if the contrast has no
+/// weight for the participant's arm.
 [[nodiscard]] std::optional<std::size_t> group_of(
     const ParticipantData& participant, const experiments::ContrastConditions& conditions);
 
-/// Everybody's comparisons in all blocks of a condition together. What depends on the order of
-/// the trials is that of the first block alone.
+/// Everybody's comparisons in all blocks of a condition, pooled. Values that depend on the
+/// order of the trials use only the first block.
 [[nodiscard]] std::vector<DiscriminationAnswers> condition_answers(
     const StudyData& data, const experiments::ContrastCondition& condition);
 

@@ -50,8 +50,8 @@ std::optional<double> exponent_of(const Trials& trials) {
   return fit_log_estimation(means_of(log_answers(answers, ZeroRule::kHalfSmallest).logs)).a;
 }
 
-/// Of the answers to a question after the trials of these blocks that count, those of catch
-/// trials among them.
+/// The mean answer to a question after the valid trials of these blocks, including catch
+/// trials.
 std::optional<double> mean_answer(const ParticipantData& participant,
                                   const std::vector<std::string>& blocks,
                                   const std::string& question) {

@@ -22,7 +22,7 @@ std::string joined(const std::vector<std::string>& words) {
   return all;
 }
 
-/// Names of a study are words that `_` joins.
+/// Names in a study join words by `_`.
 std::string shown(std::string name) {
   std::ranges::replace(name, '_', ' ');
   return name;
@@ -40,7 +40,7 @@ std::vector<std::string> levels_with(const Weights& weights, bool above) {
 
 bool compares(const Weights& weights) { return !levels_with(weights, false).empty(); }
 
-/// ", of those primed": to which levels a contrast is restricted.
+/// The levels to which a contrast is restricted, such as " (priming: primed)".
 std::string restriction_words(const PlannedContrast& plan) {
   std::string words;
   for (const auto& [factor, weights] : plan.weights) {
@@ -54,7 +54,7 @@ std::string decimals(double value, int num_decimals) {
   return with_decimal_sign(fmt::format("{:.{}f}", value, num_decimals));
 }
 
-/// Two decimals of what is about 1, three significant digits of anything else.
+/// Two decimals for values of the order of 1, and about three significant digits for others.
 std::string effect_words(const std::optional<double>& value) {
   if (!value) return said("open");
   const double size = std::abs(*value);
@@ -82,7 +82,7 @@ std::string test_words(const ContrastTest& test, const PlannedContrast& plan) {
   return words;
 }
 
-/// " larger", of steps and other answers " higher".
+/// For example " larger"; " higher" for steps and other answers.
 std::string difference_words(ContrastMeasure measure, double effect) {
   if (measure == ContrastMeasure::kExponent) {
     return effect < 0.0 ? said(" smaller") : said(" larger");
@@ -90,7 +90,7 @@ std::string difference_words(ContrastMeasure measure, double effect) {
   return effect < 0.0 ? said(" lower") : said(" higher");
 }
 
-/// What a single factor compares: "was 2.10 times as large in thin as in thick".
+/// The effect of a single factor, such as "was 2.10 times as large in thin as in thick".
 std::string main_words(const PlannedContrast& plan, double effect, const Weights& weights) {
   const std::string above = joined(levels_with(weights, true));
   const std::string below = joined(levels_with(weights, false));
@@ -107,8 +107,8 @@ std::string main_words(const PlannedContrast& plan, double effect, const Weights
               difference_words(plan.measure, effect), above, below);
 }
 
-/// What several factors compare: "The ratio of the Weber fraction in thin to that in thick was
-/// 1.30 times as large in primed as in control".
+/// The effect of several factors, such as "The ratio of the Weber fraction in thin to that in
+/// thick was 1.30 times as large in primed as in control".
 std::string interaction_words(const PlannedContrast& plan, double effect,
                               const std::vector<const Weights*>& factors) {
   const bool of_ratios = is_ratio(plan.measure);
@@ -120,7 +120,7 @@ std::string interaction_words(const PlannedContrast& plan, double effect,
                   ? said("the ratio of {} in {} to that in {}", subject, above, below)
                   : said("the difference of {} in {} less that in {}", subject, above, below);
   }
-  // A sentence begins.
+  // The sentence begins with a capital letter.
   if (subject.front() >= 'a' && subject.front() <= 'z') {
     subject.front() = static_cast<char>(subject.front() - 'a' + 'A');
   }

@@ -16,7 +16,7 @@ constexpr const char* kModel = said_later(
     "P = g + (1 - g) Phi(ln(x / threshold) / s), g the rate of false alarms, estimated with "
     "it");
 
-/// Everybody's own numbers in one block, and who has none.
+/// Everybody's own numbers in one block, and the participants who have none.
 class Detection {
  public:
   Detection(const BlockDesign& block, const ResultsOptions& options)
@@ -138,7 +138,7 @@ class Detection {
   OwnNumbers false_alarms_, sensitivities_, criteria_;
 };
 
-/// The main estimate once more, with the trials that were set aside.
+/// Adds the main estimate again, with the trials that were set aside.
 void add_with_excluded_trials(ResultsSection& section, const StudyData& data,
                               const BlockDesign& block, const ResultsOptions& options) {
   std::vector<ExcludedParticipant> named_before;

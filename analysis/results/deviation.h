@@ -5,17 +5,17 @@
 
 namespace jnd::analysis {
 
-/// Something that is not as it was planned before anybody took part.
+/// A difference from what was planned before anybody took part.
 struct Deviation {
-  std::string topic;    ///< "number of participants", "contrast fluids, alpha".
-  std::string planned;  ///< As the preregistration has it.
+  std::string topic;    ///< For example "number of participants" or "contrast fluids, alpha".
+  std::string planned;  ///< What the preregistration says.
   std::string found;
 };
 
-/// How a study came out beside its preregistration.
+/// How a study differs from its preregistration.
 struct PreregisteredStudy {
-  std::string registered_on;  ///< "2026-11-26"; "" where nothing was registered.
-  std::string sha256;         ///< Of the preregistration.
+  std::string registered_on;  ///< For example "2026-11-26"; "" if nothing was registered.
+  std::string sha256;         ///< The SHA-256 of the preregistration.
   std::vector<Deviation> deviations;
 };
 

@@ -93,7 +93,7 @@ PsychometricFit own_fit(const DiscriminationAnswers& answers, const OwnFitOption
 
 std::string why_no_pse(const PsychometricFit& fit) {
   if (fit.pse || fit.status != FitStatus::kOk) return fit.reason;
-  // The last doubt of such a fit names the order.
+  // The last warning of such a fit names the order.
   return fit.warnings.empty() ? said("the answers do not bound it") : fit.warnings.back();
 }
 

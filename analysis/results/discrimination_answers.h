@@ -10,51 +10,53 @@
 
 namespace jnd::analysis {
 
-/// Answers of one participant in one block of comparisons.
+/// The answers of one participant in one block of comparisons.
 struct DiscriminationAnswers {
   std::string participant;
   double reference = 0.0;
   std::map<double, AnswerCount>
-      levels;  ///< By intensity, with both orders of the intervals together.
+      levels;  ///< By intensity, with both orders of the intervals pooled.
   std::map<std::pair<double, double>, AnswerCount> cells;  ///< By intensity and order.
-  std::vector<OrderedAnswers> in_order;                    ///< One a trial.
+  std::vector<OrderedAnswers> in_order;                    ///< One entry for each trial.
 
-  /// One for each level and, where either interval may hold the test, order.
+  /// One row for each level or, if either interval may hold the test, for each level and order.
   [[nodiscard]] std::vector<AnswerCount> rows() const;
 };
 
-/// Everybody's answers in a block; who has none is named. `with_excluded`: those in trials that
-/// were set aside as well.
+/// Everybody's answers in a block. Participants without answers are added to `excluded`.
+/// `with_excluded` includes answers in trials that were set aside.
 [[nodiscard]] std::vector<DiscriminationAnswers> discrimination_answers(
     const StudyData& data, const BlockDesign& block, bool with_excluded,
     std::vector<ExcludedParticipant>& excluded);
 
-/// The answers with half a "yes" and half a "no" in all added, in equal shares of 1 / (2
-/// levels) at every level (after the log-linear correction of Hautus 1995), and multiplied to
-/// stay whole, which leaves the estimate as it is. One row a level.
+/// Adds half a "yes" and half a "no" in total to the answers, in equal shares of 1 / (2 levels)
+/// at every level (after the log-linear correction of Hautus 1995). All counts are multiplied
+/// so that they stay whole, which does not change the estimate. There is one row for each
+/// level.
 [[nodiscard]] std::vector<AnswerCount> with_half_an_answer(std::vector<AnswerCount> rows);
 
-/// One participant's fit, each order of the intervals with a pse of its own. `corrected`:
-/// `with_half_an_answer`, so that answers that separate the stimuli perfectly have a fraction
-/// too. It moves every fraction, so it is for those alone who have none. Least squares take
-/// both orders of the intervals for one.
+/// How one participant is fitted. Each order of the intervals has a pse of its own; least
+/// squares pools both orders. `corrected` applies `with_half_an_answer`, so that answers that
+/// separate the stimuli perfectly have a Weber fraction too. It changes every fraction, so it
+/// is meant only for participants who have none.
 struct OwnFitOptions {
   PsychometricMethod method = PsychometricMethod::kMaximumLikelihood;
   bool corrected = false;
   bool free_pse = false;
   bool intervals = false;
-  int num_calibration = 0;  ///< As in `PsychometricOptions`.
-  int num_goodness = 0;     ///< Redraws for the goodness of fit's p value; 0 leaves it out.
-  std::uint64_t seed = 1;   ///< Seed of these redraws.
+  int num_calibration = 0;  ///< See `PsychometricOptions`.
+  /// The number of redraws for the p value of the goodness of fit; 0 for none.
+  int num_goodness = 0;
+  std::uint64_t seed = 1;  ///< The seed of these redraws.
 };
 [[nodiscard]] PsychometricFit own_fit(const DiscriminationAnswers& answers,
                                       const OwnFitOptions& options);
 
-/// Why a fit with a Weber fraction has no pse and no order effect, "" where it has: with a free
-/// pse answers of one order of the intervals may be all alike.
+/// Why a fit with a Weber fraction has no pse and no order effect; "" if it has them. With a
+/// free pse, all answers in one order of the intervals may be alike.
 [[nodiscard]] std::string why_no_pse(const PsychometricFit& fit);
 
-/// Everybody's answers in the form in which the hierarchical fit takes them.
+/// Everybody's answers in the form that the hierarchical fit needs.
 [[nodiscard]] std::vector<ParticipantAnswers> participant_answers(
     const std::vector<DiscriminationAnswers>& all, const std::string& condition);
 

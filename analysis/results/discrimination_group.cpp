@@ -22,7 +22,7 @@ namespace {
 
 using Everybody = std::vector<DiscriminationAnswers>;
 
-/// Everybody's answers to the levels that anybody has, to be added up over and over.
+/// Everybody's answers at all levels, in a form that can be summed repeatedly.
 class PooledAnswers {
  public:
   explicit PooledAnswers(const Everybody& all) {
@@ -40,7 +40,7 @@ class PooledAnswers {
     }
   }
 
-  /// Of these people, a row a level that any of them has.
+  /// The pooled answers of these people, with one row for each level that any of them has.
   [[nodiscard]] std::vector<AnswerCount> of(const std::vector<std::size_t>& drawn) const {
     std::vector<AnswerCount> rows = levels_;
     for (const std::size_t person : drawn) {
@@ -58,7 +58,7 @@ class PooledAnswers {
     std::size_t level = 0;
     AnswerCount count;
   };
-  std::vector<AnswerCount> levels_;  ///< Without answers, ascending.
+  std::vector<AnswerCount> levels_;  ///< The levels without answers, ascending.
   std::vector<std::vector<Cell>> people_;
 };
 
@@ -74,8 +74,8 @@ PsychometricFit pooled_fit(const PooledAnswers& answers, double reference,
                            .solver = solver});
 }
 
-/// The Weber fraction of a fit; where there is none, its limit: 0 if thicker was said of the
-/// thicker ones all the same (separated), else infinite (flat, inverted).
+/// The Weber fraction of a fit. Without a fit it is the limit: 0 if larger intensities were
+/// called more (separated), and infinite otherwise (flat, inverted).
 double fraction_or_limit(const std::optional<double>& fraction, const Everybody& all,
                          const std::vector<std::size_t>& drawn) {
   if (fraction) return *fraction;
@@ -90,7 +90,8 @@ double fraction_or_limit(const std::optional<double>& fraction, const Everybody&
   return order > 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
-/// Where the estimates of one set of people go, and what their names and meanings end with.
+/// Where the estimates of one set of people are added, and what is appended to their names and
+/// meanings.
 struct Target {
   ResultsSection& section;
   const BlockDesign& block;
@@ -178,7 +179,7 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
   add(target, pse, "pse", said("pse of the pooled curve: {}", meaning), all.size());
 }
 
-/// Of which lapse rates the interval of a fraction holds.
+/// The range of lapse rates for which the interval of a fraction holds, in words.
 std::string interval_basis(const HierarchicalFit& fit) {
   const Interval& left = fit.lapse_rate_with_prior_ci95;
   if (!left.low || !left.high) return "";
@@ -186,7 +187,7 @@ std::string interval_basis(const HierarchicalFit& fit) {
               number_words(left.low), number_words(left.high));
 }
 
-/// How far the prior of the lapse rate moves the fraction.
+/// How far the prior of the lapse rate moves the fraction, in words.
 std::string prior_effect(const HierarchicalFit& fit) {
   if (fit.conditions.empty() || !fit.lapse_rate_without_prior) return "";
   const HierarchicalCondition& one = fit.conditions.front();
@@ -250,8 +251,8 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
       all.size());
 }
 
-/// As published, or, where that would take both orders of the intervals for one, with the
-/// orders apart.
+/// Adds the pooled estimate as it was published. If that would pool both orders of the
+/// intervals, it keeps them apart.
 void add_pooled_at_reference(const Target& target, const Everybody& all,
                              const std::string& words) {
   if (have_orders(all)) {
@@ -264,7 +265,7 @@ void add_pooled_at_reference(const Target& target, const Everybody& all,
   }
 }
 
-/// What is shown again for another set of people or trials.
+/// Adds the estimates that are repeated for another set of people or trials.
 void add_main(const Target& target, const Everybody& all) {
   add_pooled_at_reference(target, all, "");
   add_median_person(target, all, primary_pse(all));
@@ -354,7 +355,7 @@ Comparison median_person_difference(const Everybody& first_answers, const BlockD
   const auto negated = [](const std::optional<double>& value) {
     return value ? std::optional(-*value) : std::nullopt;
   };
-  comparison.estimate = -difference.estimate;  // First minus second.
+  comparison.estimate = -difference.estimate;  // The result is the first minus the second.
   comparison.ci95 = {negated(difference.ci95.high), negated(difference.ci95.low)};
   comparison.statistic = negated(difference.statistic);
   comparison.p_value = difference.p_value;

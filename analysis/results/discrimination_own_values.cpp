@@ -5,7 +5,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// The smallest p value there can be is one over one more.
+/// The number of redraws. The smallest possible p value is 1 / (this number + 1).
 constexpr int kOwnRedraws = 1000;
 
 }  // namespace
@@ -36,7 +36,7 @@ void add_own_values(ResultsSection& section, const std::vector<DiscriminationAns
     }
     add("weber_fraction_free_pse", free.weber_fraction, free.weber_fraction_ci95, free.reason);
     section.participants.back().is_separated = free.is_separated;
-    // For those who draw the curve of the first.
+    // Charts that draw the curve of the first fit need this.
     if (fixed.order_effect_ln) {
       add("order_effect_ln_at_reference", fixed.order_effect_ln, {}, "");
     }

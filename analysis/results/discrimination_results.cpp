@@ -16,8 +16,8 @@ namespace {
 
 using Everybody = std::vector<DiscriminationAnswers>;
 
-/// Own fractions by participant: of those who have one, and of those as well who have one with
-/// half an answer added.
+/// Participants' own fractions by name. They include either only people with a fit, or also
+/// people whose fraction needs half an answer added.
 using FractionsByName = std::map<std::string, double>;
 
 FractionsByName with_fit(const OwnFractions& fractions) {
@@ -52,7 +52,8 @@ void name_those_without(ResultsSection& section, const OwnFractions& fractions,
   }
 }
 
-/// Where individual Weber fractions are compared: their spread is even there.
+/// The scale on which individual Weber fractions are compared, because their spread is even
+/// there.
 double log_log(double weber_fraction) { return std::log(std::log1p(weber_fraction)); }
 
 std::vector<double> log_log_of(const FractionsByName& fractions) {
@@ -61,7 +62,7 @@ std::vector<double> log_log_of(const FractionsByName& fractions) {
   return values;
 }
 
-/// Student's t with pooled variance, the test that was published.
+/// Student's t with pooled variance, which is the test that was published.
 Comparison pooled(const std::vector<double>& a, const std::vector<double>& b) {
   const Summary first = summary_of(a);
   const Summary second = summary_of(b);
@@ -73,8 +74,8 @@ Comparison pooled(const std::vector<double>& a, const std::vector<double>& b) {
                        {*second.mean, *second.standard_deviation, second.num_values});
 }
 
-/// Tests between two blocks' fractions that people have of their own; `words` say whose and
-/// how.
+/// Adds tests between two blocks of people's own fractions. `words` say whose they are and how
+/// they were computed.
 void add_own_fraction_tests(ResultsSection& section, const FractionsByName& a,
                             const FractionsByName& b, const std::string& pair,
                             const std::string& words, bool free_pse) {
@@ -103,8 +104,8 @@ void add_own_fraction_tests(ResultsSection& section, const FractionsByName& a,
       pooled(values_of(a), values_of(b)));
 }
 
-/// With a free pse or with that at the reference; where somebody has no fraction, both without
-/// and with them.
+/// Adds these tests with a free pse, or with the pse at the reference. If some participants
+/// have no fraction, the tests are computed without and with them.
 void add_own_fractions(ResultsSection& section, const Everybody& first_answers,
                        const BlockDesign& first, const Everybody& second_answers,
                        const BlockDesign& second, bool free_pse) {

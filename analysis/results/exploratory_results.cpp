@@ -20,7 +20,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Of one block, each with its running number, in the order in which they were run.
+/// The trials of one block with their running numbers, in the order in which they were run.
 using Trials = std::vector<core::TrialRow>;
 using Points = std::vector<GroupedPoint>;
 
@@ -32,7 +32,7 @@ struct Effect {
   std::function<std::optional<double>(const Trials&)> of_one;
 };
 
-/// Production: the set value over the starting one, each target by itself.
+/// For productions: the slope of the set value over the starting value, within each target.
 std::optional<double> starting_value_slope(const Trials& trials) {
   Points points;
   for (const core::TrialRow& trial : trials) {
@@ -43,9 +43,9 @@ std::optional<double> starting_value_slope(const Trials& trials) {
   return within_slope(points);
 }
 
-/// Answers over their own mean for the same stimulus or target, minus 1, at `x_of` the trial
-/// and the one before it in the block (null at its first). Free space is left out, for a ratio
-/// to next to nothing says nothing.
+/// Answers divided by their own mean for the same stimulus or target, minus 1. `x_of` gives
+/// their x from the trial and the one before it in the block (null for the first). Free space
+/// is left out, because a ratio to almost nothing has no meaning.
 template <typename XOf>
 Points relative_answers(const Trials& trials, std::optional<double> core::TrialRow::*stimulus,
                         const XOf& x_of) {
@@ -157,11 +157,11 @@ void add_effect(ResultsSection& section, const StudyData& data, const BlockDesig
             wilcoxon_test(values, std::vector<double>(values.size(), 0.0)));
 }
 
-/// A parameter that every participant has for themselves, on the scale where people spread
-/// evenly.
+/// A parameter that every participant has, on a scale on which people spread evenly.
 struct Outcome {
   std::string name;
-  std::string ratio_of{};  ///< What the exponential of a difference is a ratio of.
+  /// For a difference of logarithms: the quantity whose ratio its exponential is.
+  std::string ratio_of{};
   std::map<std::string, double> by_participant{};
 };
 
@@ -180,7 +180,7 @@ std::vector<Outcome> outcomes_of(const StudyData& data,
          {std::tuple{"k", "ln k", "k"},
           {"a", "a", ""},
           {"weber_fraction", "ln ln(1 + w)", "ln(1 + w)"}}) {
-      // Numbers of everybody's own choice: k is as they chose them.
+      // With everybody's own numbers, k depends only on that choice.
       if (parameter == std::string("k") && block.counts_in_own_numbers()) continue;
       Outcome outcome{.name = said("{} of {}", std::string(words), block.block),
                       .ratio_of = ratio_of};
@@ -197,7 +197,7 @@ std::vector<Outcome> outcomes_of(const StudyData& data,
   return outcomes;
 }
 
-/// Participants by the arm that they were in.
+/// The participants in each arm.
 using Arms = std::map<std::string, std::vector<std::string>>;
 
 Arms people_in(const StudyData& data, const std::string& counterbalance) {
@@ -210,8 +210,9 @@ Arms people_in(const StudyData& data, const std::string& counterbalance) {
   return people;
 }
 
-/// A row of a square, or one of many orders: these are there so that order evens out over
-/// people, not to be told apart by the few in each. Of two methods the order is compared.
+/// Whether an arm is a row of a square, or one of many orders. These exist to balance the order
+/// over people, and each has too few people to be compared. The order of two methods is
+/// compared.
 bool is_sequence(const std::string& arm) {
   constexpr std::string_view kRow = "row_";
   const bool is_row = arm.starts_with(kRow) &&
@@ -228,7 +229,7 @@ void compare_arms(ResultsSection& section, const Arms& people, const Outcome& ou
       if (value != outcome.by_participant.end()) by_arm[arm].push_back(value->second);
     }
   }
-  // Of one there is no spread.
+  // A single person has no spread.
   std::erase_if(by_arm, [](const auto& arm) { return arm.second.size() < 2; });
   for (auto a = by_arm.begin(); a != by_arm.end(); ++a) {
     for (auto b = std::next(a); b != by_arm.end(); ++b) {

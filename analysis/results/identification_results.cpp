@@ -17,7 +17,7 @@ PsychometricFit fit_of(const ThresholdAnswers& answers, double guess_rate) {
     row.intensity = std::abs(std::log(row.intensity / answers.reference));
     rows.push_back(row);
   }
-  // The reference scales the search alone: the curve may lie anywhere.
+  // The reference only scales the search. The curve may lie anywhere.
   return fit_psychometric(
       rows, {.reference = rows.back().intensity, .free_pse = true, .guess_rate = guess_rate});
 }
@@ -26,7 +26,7 @@ std::optional<double> as_fraction(const std::optional<double>& distance_ln) {
   return distance_ln ? std::optional(std::expm1(*distance_ln)) : std::nullopt;
 }
 
-/// One block's section while it is written.
+/// Writes the section of one block.
 class IdentificationWriter {
  public:
   explicit IdentificationWriter(const BlockDesign& block)
@@ -63,7 +63,7 @@ class IdentificationWriter {
     right_[answers.participant] = ratio;
   }
 
-  /// How often each interval was chosen, whatever was right.
+  /// Adds how often each interval was chosen, right or wrong.
   void add_choices(const ParticipantData& participant) {
     std::map<std::int64_t, double> counts;
     double all = 0.0;

@@ -14,9 +14,9 @@ namespace {
 constexpr const char* kOneIntervalAlone = said_later("the test came in one interval alone");
 
 struct OrderedTrial {
-  double ratio = 0.0;  ///< Test over reference.
+  double ratio = 0.0;  ///< Test divided by reference.
   double order = 0.0;
-  bool more = false;  ///< The test was chosen.
+  bool more = false;  ///< Whether the test was chosen.
 };
 
 std::vector<OrderedTrial> ordered_trials(const ParticipantData& participant,
@@ -31,8 +31,8 @@ std::vector<OrderedTrial> ordered_trials(const ParticipantData& participant,
   return trials;
 }
 
-/// How much more often than in half of the trials the second interval is chosen, both orders
-/// weighed equally.
+/// How much more often than in half of the trials the second interval is chosen, with both
+/// orders weighted equally.
 std::optional<double> bias_of(const std::vector<OrderedTrial>& trials) {
   std::array<double, 2> num_second_chosen{};
   std::array<double, 2> num_trials{};
@@ -46,7 +46,7 @@ std::optional<double> bias_of(const std::vector<OrderedTrial>& trials) {
          0.5;
 }
 
-/// How far apart the pses of both orders lie, the pse free.
+/// The fit whose order effect says how far apart the pses of both orders lie, with a free pse.
 PsychometricFit fit_of(const std::vector<OrderedTrial>& trials) {
   std::vector<AnswerCount> rows;
   for (const OrderedTrial& trial : trials) {

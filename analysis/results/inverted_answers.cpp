@@ -33,7 +33,8 @@ std::vector<InvertedAnswers> inverted_in(const StudyData& data, const BlockDesig
   return found;
 }
 
-/// In a block whose answers are magnitudes, or intensities set for magnitudes.
+/// The participants whose answers fall in a block of magnitudes, or of intensities set for
+/// magnitudes.
 std::vector<InvertedAnswers> falling_magnitudes_in(const StudyData& data,
                                                    const BlockDesign& block) {
   std::vector<InvertedAnswers> found;
@@ -73,7 +74,7 @@ std::string left_out_words(const InvertedAnswers& one) {
   return said("left out as --inverted out asks, for {}", test_words(one));
 }
 
-/// Numbers of a block that rest on everybody's answers.
+/// Whether an estimate of a block rests on everybody's answers.
 bool has_everybody(const Estimate& estimate, const std::string& block) {
   if (estimate.name.ends_with(".without_degenerate")) return false;
   return std::ranges::any_of(
@@ -83,7 +84,8 @@ bool has_everybody(const Estimate& estimate, const std::string& block) {
       [&](const char* start) { return estimate.name.starts_with(block + start); });
 }
 
-/// "P03 and P07 answer ..."; of one or more people.
+/// A caution such as "P03 and P07, who answer the wrong way round, are in it: ...", for one or
+/// more people.
 std::string in_it_words(const std::vector<std::string>& people) {
   std::string names;
   for (std::size_t i = 0; i < people.size(); ++i) {
@@ -104,10 +106,10 @@ std::string people_of(const std::vector<InvertedAnswers>& all, const std::string
   return people.empty() ? "" : in_it_words(people);
 }
 
-/// Whether the number of a section has this person's answers in it.
+/// Whether an estimate of a section includes this person's answers.
 bool has_person(const ResultsSection& section, const Estimate& estimate,
                 const std::string& person) {
-  // Of the own exponents, which some have none of.
+  // Means of own exponents include only people who have one.
   const std::size_t at = estimate.name.find(".individual_a_");
   if (at == std::string::npos) return true;
   return std::ranges::any_of(section.participants, [&](const ParticipantEstimate& own) {
@@ -116,7 +118,8 @@ bool has_person(const ResultsSection& section, const Estimate& estimate,
   });
 }
 
-/// A block of magnitudes, whose every number but a count is a mean or a fit of everybody's.
+/// Adds cautions in a block of magnitudes, where every number except a count is a mean or a fit
+/// of everybody's answers.
 void mark_magnitudes(ResultsSection& section, const std::vector<std::string>& people) {
   for (Estimate& estimate : section.estimates) {
     if (estimate.name.ends_with(".num_zeros")) continue;
@@ -144,7 +147,8 @@ void mark_group(StudyResults& results, const std::vector<InvertedAnswers>& all,
   }
 }
 
-/// What estimation and production come to together, where both are of the same people.
+/// Adds cautions to the combination of estimation and production, which uses people who have
+/// both.
 void mark_combined(StudyResults& results, const std::vector<InvertedAnswers>& all) {
   for (ResultsSection& section : results.sections) {
     if (section.name != "combined") continue;
@@ -164,7 +168,7 @@ void mark_combined(StudyResults& results, const std::vector<InvertedAnswers>& al
     for (Estimate& estimate : section.estimates) {
       estimate.cautions.push_back(in_it_words(people));
     }
-    // Who lacks an own exponent is named among the excluded.
+    // People without an own exponent are among the excluded.
     std::erase_if(people, [&](const std::string& person) {
       return std::ranges::any_of(section.excluded, [&](const ExcludedParticipant& one) {
         return one.participant == person && one.reason.starts_with("own exponents");
@@ -177,7 +181,8 @@ void mark_combined(StudyResults& results, const std::vector<InvertedAnswers>& al
   }
 }
 
-/// The hierarchical tests; those of people's own fractions have no fraction of these.
+/// Adds cautions to the hierarchical tests. The tests of people's own fractions do not include
+/// these people, because they have no fraction.
 void mark_tests(StudyResults& results, const std::vector<InvertedAnswers>& all) {
   constexpr std::string_view kAgainst = "_against_";
   for (ResultsSection& section : results.sections) {

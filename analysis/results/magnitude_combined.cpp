@@ -13,12 +13,13 @@
 namespace jnd::analysis {
 namespace {
 
-/// Both parts of the same participants, in one order, so that a draw takes both of a person.
+/// The estimation and production of the same participants in one order, so that a draw takes
+/// both parts of a person.
 struct BothParts {
   MagnitudeBlock estimated, produced;
 };
 
-/// The curves of a draw; one without an optimum says why in place of a combination.
+/// The curves of a draw. If a curve has no optimum, its reason replaces a combination.
 struct BothCurves {
   PowerFit estimation, production;
   [[nodiscard]] bool exist() const { return estimation.k && production.k; }
@@ -39,7 +40,7 @@ BothCurves curves_of(const BothParts& parts, const std::vector<std::size_t>& dra
                          solver)};
 }
 
-/// The curves of every draw, each made once however many combinations are made of them.
+/// The curves of every draw. Each is computed once, however many combinations use it.
 class DrawnCurves {
  public:
   explicit DrawnCurves(const BothParts& parts) : parts_(parts) {}
@@ -55,7 +56,8 @@ class DrawnCurves {
   std::map<std::pair<std::vector<std::size_t>, Solver>, BothCurves> known_;
 };
 
-/// Intensities that both parts reached: presented in the one, set on average in the other.
+/// The intensities that both parts cover: presented in the estimation, and set on average in
+/// the production.
 struct SharedRange {
   double low = 0.0, high = 0.0;
 };
@@ -97,7 +99,7 @@ PowerFit geometric_mean(const BothCurves& curves) {
   return {.status = FitStatus::kOk, .k = mean.k, .a = mean.a};
 }
 
-/// What of the combined curve rests on one part alone.
+/// Adds how much of the combined curve rests on one part only.
 void add_extrapolation(ResultsSection& section, const BothParts& parts, DrawnCurves& curves,
                        const std::vector<double>& intensities, const std::string& unit,
                        const ResultsOptions& options) {
@@ -141,7 +143,7 @@ void add_extrapolation(ResultsSection& section, const BothParts& parts, DrawnCur
       options);
 }
 
-/// Each participant's own exponents, where both exist.
+/// The exponents of participants who have both.
 struct OwnExponents {
   std::vector<double> estimation, production;
 
@@ -166,9 +168,10 @@ void compare_exponents(ResultsSection& section, const OwnExponents& own,
        spearman_correlation(own.estimation, own.production)});
 }
 
-/// Whose exponents are steeper, and whether they go together. A production answers with an
-/// intensity, so primary is its regression of I on S: that of S on I takes what was asked for
-/// the answer, and the spread of the answers makes its exponent something else.
+/// Compares the exponents of estimation and production, and tests whether they correlate. A
+/// production answers with an intensity, so its primary exponent is from the regression of I on
+/// S. The regression of S on I treats the target as the answer, and the spread of the answers
+/// then changes its exponent.
 void compare_exponents(ResultsSection& section, const BothParts& parts) {
   OwnExponents primary, secondary;
   for (std::size_t i = 0; i < parts.estimated.size(); ++i) {
@@ -232,7 +235,7 @@ ResultsSection combined_results(const StudyData& data, const BlockDesign& estima
                     experiments::unit_of_quantity(estimation.quantity), options);
   add_own_power_laws(section, "combined", parts.estimated.names, [&](std::size_t i) {
     PowerFit own = between(curves_of(parts, {i}, Solver::kCeres), intensities, Solver::kCeres);
-    // Residuals between two curves say nothing of the answers' spread.
+    // Residuals between two curves do not show the spread of the answers.
     own.k_ci95 = own.a_ci95 = {};
     own.is_exact = false;
     return own;

@@ -77,7 +77,8 @@ PowerFit fit_intensity_on_magnitude(const std::vector<Produced>& rows) {
   turned.r_squared = line.r_squared;
   turned.is_exact = line.is_exact;
   turned.no_interval = line.no_interval;
-  // The upper end of d gives the lower end of a; a lower end of d at 0 or below leaves it open.
+  // The upper end of d gives the lower end of a. A lower end of d at 0 or below leaves the
+  // upper end of a open.
   turned.a_ci95 = {reciprocal(line.a_ci95.high), reciprocal(line.a_ci95.low)};
   return turned;
 }

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kZeroRule =
     said_later("answers of 0 as half the person's smallest above 0");
 
-/// How the two kinds of block differ, for what both have.
+/// The functions in which estimation and production differ.
 struct Kind {
   PowerFit (*fit)(const Means&, PowerMethod, Solver);
   PowerFit (*fit_logs)(const Means&);
@@ -24,7 +24,7 @@ struct Kind {
 constexpr Kind kEstimation = {fit_estimation, fit_log_estimation};
 constexpr Kind kProduction = {fit_production, fit_log_production};
 
-/// Who has answers but none that has a logarithm.
+/// Names participants who have answers, but none with a logarithm.
 void name_without_logarithms(ResultsSection& section, const std::string& name,
                              const MagnitudeBlock& block) {
   for (std::size_t i = 0; i < block.size(); ++i) {
@@ -35,7 +35,7 @@ void name_without_logarithms(ResultsSection& section, const std::string& name,
   }
 }
 
-/// Who has answers at intensity 0 alone.
+/// Names participants who have answers only at intensity 0.
 void name_without_intensities(ResultsSection& section, const std::string& name,
                               const MagnitudeBlock& block) {
   for (std::size_t i = 0; i < block.size(); ++i) {
@@ -45,8 +45,9 @@ void name_without_intensities(ResultsSection& section, const std::string& name,
   }
 }
 
-/// The line through the logarithms of geometric means, as magnitudes have been analysed since
-/// Stevens; and the fit of equalised moduli, with how far the moduli lie apart.
+/// Adds the line through the logarithms of geometric means, which is the customary analysis of
+/// magnitudes since Stevens. It also adds the fit after modulus equalisation, and how far the
+/// moduli differ.
 void add_geometric(ResultsSection& section, const BlockDesign& design,
                    const MagnitudeBlock& block, const Kind& kind,
                    const ResultsOptions& options) {
@@ -82,7 +83,8 @@ void add_geometric(ResultsSection& section, const BlockDesign& design,
                             : "")),
        .n = static_cast<int>(block.size())});
   name_without_logarithms(section, name, block);
-  if (!design.own_log_moduli.empty()) return;  // Every fit is of equalised moduli.
+  // Here every fit is already one of equalised moduli.
+  if (!design.own_log_moduli.empty()) return;
   const auto moduli = log_moduli(block);
   if (!moduli) {
     section.excluded.push_back(
@@ -104,7 +106,7 @@ void add_geometric(ResultsSection& section, const BlockDesign& design,
              *moduli, options);
 }
 
-/// What the participants' own exponents come to: no curve of averages stands between.
+/// Adds statistics of the participants' own exponents, which need no curve of averages.
 void add_own_exponents(ResultsSection& section, const std::string& name,
                        const ResultsOptions& options) {
   std::vector<double> exponents;
@@ -126,7 +128,7 @@ void add_own_exponents(ResultsSection& section, const std::string& name,
              options);
 }
 
-/// Participants' values at each x.
+/// The participants' values at each x.
 std::map<double, std::vector<double>> by_x(const std::vector<Means>& participants) {
   std::map<double, std::vector<double>> values;
   for (const Means& own : participants) {
@@ -135,14 +137,15 @@ std::map<double, std::vector<double>> by_x(const std::vector<Means>& participant
   return values;
 }
 
-/// What a magnitude of 1 is.
+/// What a magnitude of 1 means.
 std::string unit_words(const BlockDesign& design) {
   if (design.counts_in_water()) return said("water being 1");
   return design.counts_in_standard() ? said("the standard being 1")
                                      : said("everybody's own modulus being 1");
 }
 
-/// Who chose their own numbers says nothing by their size; how they relate is all there is.
+/// Adds the moduli. If people chose their own numbers, only the ratios between the numbers have
+/// a meaning.
 void add_moduli(ResultsSection& section, const BlockDesign& design, const MagnitudeBlock& block,
                 const ResultsOptions& options) {
   if (design.counts_in_water()) return;
@@ -167,7 +170,7 @@ void add_moduli(ResultsSection& section, const BlockDesign& design, const Magnit
   std::vector<double> moduli;
   for (const auto& [participant, log_modulus] : design.own_log_moduli) {
     if (std::ranges::find(block.names, participant) == block.names.end())
-      continue;  // Left out.
+      continue;  // This participant was left out.
     moduli.push_back(log_modulus);
     section.participants.push_back(
         {participant, design.block + ".modulus", std::exp(log_modulus), {}, ""});
@@ -209,7 +212,7 @@ void add_set_intensities(ResultsSection& section, const BlockDesign& design,
   }
 }
 
-/// Ratios of successive targets, as in fig. D.13 of the thesis.
+/// Adds ratios of successive targets, as in fig. D.13 of the thesis.
 void add_production_ratios(ResultsSection& section, const MagnitudeBlock& block,
                            const ResultsOptions& options) {
   const auto by_target = by_x(block.means);
@@ -242,7 +245,7 @@ void add_production_ratios(ResultsSection& section, const MagnitudeBlock& block,
   }
 }
 
-/// The means of those drawn as rows of the regression of I on S.
+/// The means of the drawn participants as rows of the regression of I on S.
 std::vector<Produced> produced(const Means& log_means_at_target) {
   std::vector<Produced> rows;
   for (const auto& [target_percent, log_intensity] : log_means_at_target) {

@@ -10,8 +10,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// The fits of one set of resamples, each made once however many of its numbers are asked for:
-/// the same seed draws the same participants in the same order.
+/// The fits of one set of resamples. Each is computed once, although several of its numbers are
+/// used. The same seed draws the same participants in the same order.
 class Resamples {
  public:
   Resamples(const GroupFit& fit, std::size_t num_participants, const ResultsOptions& options)
@@ -44,13 +44,13 @@ void add_reason(ResultsSection& section, const std::string& prefix, const std::s
   section.excluded.push_back({"everyone", said("{}: no power law, {}", prefix, reason)});
 }
 
-/// ", 1 at intensity 0 left out": of the means or points that a fit had.
+/// For example ", 1 at intensity 0 left out". It counts the means or points of a fit.
 std::string at_zero_words(const PowerFit& fit) {
   if (fit.num_at_zero == 0) return "";
   return said(", {} at intensity 0 left out", std::to_string(fit.num_at_zero));
 }
 
-/// Both ends are the value, but for rounding.
+/// Whether both ends equal the value, apart from rounding.
 bool has_no_width(const Interval& ci95) {
   constexpr double kRounding = 1e-9;
   return ci95.low && ci95.high &&

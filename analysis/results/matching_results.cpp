@@ -11,12 +11,12 @@
 namespace jnd::analysis {
 namespace {
 
-/// What one participant set, as logarithms.
+/// The matches of one participant, as logarithms.
 struct Matches {
   std::string participant;
   MagnitudeAnswers at_standard;      ///< ln(match) at each standard.
-  std::vector<GroupedPoint> starts;  ///< ln(match) over ln(start), standard by standard.
-  int num_zeros = 0;                 ///< Matches of 0, which have no logarithm.
+  std::vector<GroupedPoint> starts;  ///< ln(match) over ln(start), grouped by standard.
+  int num_zeros = 0;                 ///< The number of matches of 0, which have no logarithm.
 };
 
 Matches matches_of(const ParticipantData& participant, const std::string& block) {
@@ -38,7 +38,7 @@ Matches matches_of(const ParticipantData& participant, const std::string& block)
   return own;
 }
 
-/// Standard deviation about the mean of each standard, all standards pooled.
+/// The standard deviation about the mean of each standard, pooled over all standards.
 std::optional<double> pooled_sd(const MagnitudeAnswers& logs, const Means& means) {
   double squares = 0.0;
   std::size_t degrees_of_freedom = 0;
@@ -130,7 +130,8 @@ class MatchingSection {
     return design_.block + ".match_at_" + number_text(standard);
   }
 
-  /// Over all standards, each counting alike: what `jnd power` plans for.
+  /// Adds the mean over all standards, each with equal weight. `jnd power` plans for this
+  /// value.
   void add_overall() {
     std::vector<double> logs;
     for (std::size_t i = 0; i < matches_.size(); ++i) {
@@ -145,7 +146,8 @@ class MatchingSection {
                        logs, experiments::unit_of_quantity(design_.quantity));
   }
 
-  /// The constant error, as a ratio: of each participant the mean over standards in ln.
+  /// Adds the constant error as a ratio. For each participant it is the mean over standards in
+  /// ln.
   void add_ratio() {
     std::vector<double> logs;
     for (std::size_t i = 0; i < matches_.size(); ++i) {
@@ -162,8 +164,8 @@ class MatchingSection {
     add_test("ln ratio_to_standard", logs, "match");
   }
 
-  /// What feels alike over the range: its exponent is that of the standard's growth of
-  /// sensation over the comparison's.
+  /// Adds the matching function, which says what feels alike over the range. Its exponent is
+  /// that of the standard's growth of sensation divided by that of the comparison's.
   void add_matching_function() {
     const auto fit = [&](const std::vector<std::size_t>& drawn, Solver) {
       return fit_log_estimation(group_means(log_means_, drawn));
@@ -177,7 +179,7 @@ class MatchingSection {
                        [&](std::size_t i) { return fit_log_estimation(log_means_[i]); });
   }
 
-  /// One number each, and their mean.
+  /// Adds one number for each participant, and their mean.
   template <typename OfOne>
   std::vector<double> add_own(const std::string& name, const std::string& meaning,
                               const OfOne& of_one) {

@@ -4,8 +4,8 @@
 
 namespace jnd::analysis {
 
-/// Gives every estimate without a value its reason, where whoever made it gave none: that
-/// nobody has a value, or that one value has no spread. Nothing is null without a word.
+/// Gives every estimate without a value a reason if it has none: nobody has a value, or one
+/// value has no spread. So no missing number is left unexplained.
 void explain_missing(StudyResults& results);
 
 }  // namespace jnd::analysis

@@ -42,7 +42,8 @@ std::int64_t num_stimuli(const Rows& rows) {
       rows, [](const core::PresentationRow& row) { return row.interval != "free_space"; });
 }
 
-/// A device whose points move as one gives no lag, one of layout 2 neither.
+/// Whether anybody has this measure. A device whose points move as one gives no finger lag, and
+/// neither does a study whose database has layout 2.
 bool anyone_has(const StudyData& data,
                 std::optional<double> core::PresentationMeasures::*value) {
   if (value != &core::PresentationMeasures::finger_lag_s) return true;
@@ -61,7 +62,7 @@ std::string why_missing(const Quantity& quantity, const Rows& rows) {
               (num_presented == 1 ? said(" presentation") : said(" presentations")));
 }
 
-/// Everybody over all blocks.
+/// Adds everybody's values over all blocks.
 void add_whole(ResultsSection& section, const StudyData& data, const Quantity& quantity) {
   std::vector<double> whole;
   for (const ParticipantData& participant : data.participants) {
@@ -75,8 +76,8 @@ void add_whole(ResultsSection& section, const StudyData& data, const Quantity& q
   add_mean(section, quantity.name, said(quantity.meaning), whole, quantity.unit);
 }
 
-/// Mean of a participant's mean over references and mean over tests: with a mean over all
-/// presentations the interval of which more are missing would count less.
+/// The mean of a participant's mean over references and mean over tests. In a mean over all
+/// presentations, the interval with more missing presentations would count less.
 std::optional<double> equal_intervals_mean(const Rows& rows, const Quantity& quantity) {
   std::map<std::string, Rows> by_interval;
   for (const core::PresentationRow& row : rows) by_interval[row.interval].push_back(row);
@@ -102,7 +103,8 @@ bool has_both_intervals(const StudyData& data, const std::string& block) {
 
 /// How a participant's presentations of a block become one number.
 struct Weighing {
-  std::string suffix, meaning, words;  ///< Of names of estimates, of theirs, of comparisons.
+  /// What is appended to names of estimates, to their meanings, and to comparisons.
+  std::string suffix, meaning, words;
   std::optional<double> (*mean)(const Rows&, const Quantity&);
 };
 
@@ -143,7 +145,7 @@ void compare(ResultsSection& section, const Quantity& quantity, const Weighing& 
     b.push_back(other->second);
     differences.push_back(mean - other->second);
   }
-  if (differences.empty()) return;  // Blocks of different arms, or that nobody came to.
+  if (differences.empty()) return;  // The blocks are in different arms, or nobody has both.
   add_mean(section,
            std::string(quantity.name) + "." + first + "_minus_" + second + weighing.suffix,
            said("{}, difference of the two blocks{}", std::string(said(quantity.meaning)),
@@ -157,7 +159,7 @@ void compare(ResultsSection& section, const Quantity& quantity, const Weighing& 
   }
 }
 
-/// Of every block, and between each and the next.
+/// Adds the estimates of every block, and the comparisons of each block with the next.
 void add_blocks(ResultsSection& section, const StudyData& data, const Quantity& quantity,
                 const Weighing& weighing, const std::vector<std::string>& blocks) {
   std::map<std::string, ByParticipant> by_block;
@@ -191,7 +193,8 @@ std::optional<double> movement_mean(const std::vector<core::PresentationRow>& pr
 
 ResultsSection movement_results(const StudyData& data) {
   ResultsSection section{.name = "movement"};
-  if (data.blocks.empty()) return section;  // Nothing is presented that could hold no stroke.
+  // Nothing is presented in which a stroke could be missing.
+  if (data.blocks.empty()) return section;
   std::vector<std::string> blocks, with_both;
   for (const BlockDesign& block : data.blocks) {
     if (experiments::is_pressed(block.medium)) {

@@ -15,11 +15,11 @@ namespace {
 
 constexpr char kNothing[] = "\u2013";
 
-/// With a minus sign that is as wide as a plus.
+/// Uses a minus sign that is as wide as a plus sign.
 std::string typeset(std::string digits) {
   digits = with_decimal_sign(std::move(digits));
   if (!digits.starts_with('-')) return digits;
-  // Minus nothing is nothing.
+  // Minus zero is written as zero.
   if (digits.find_first_of("123456789") == std::string::npos) return digits.substr(1);
   return "\u2212" + digits.substr(1);
 }
@@ -45,7 +45,8 @@ int decimals_of(double value) {
 std::string number_words(const std::optional<double>& value) {
   if (!value || !std::isfinite(*value)) return kNothing;
   const double size = std::abs(*value);
-  if (size < 1e15 && std::trunc(size) == size) return number_words(value, 0);  // A count.
+  // A whole number is a count.
+  if (size < 1e15 && std::trunc(size) == size) return number_words(value, 0);
   if (size < 0.001) {
     return typeset(digits_of(*value, std::chars_format::general, 3));
   }
@@ -65,13 +66,13 @@ namespace {
 
 std::string words_of(const Interval& ci95, const std::optional<double>& value) {
   if (!ci95.low && !ci95.high) return kNothing;
-  // As many decimals as the value, but none that a large end has no use for.
+  // The ends have as many decimals as the value, but a large end has fewer.
   const auto end = [&value](const std::optional<double>& number) {
     int num_decimals = decimals_of(*number);
     if (value && *value != 0.0) num_decimals = std::min(num_decimals, decimals_of(*value));
     return number_words(number, num_decimals);
   };
-  // An interval stays on its line.
+  // No-break spaces keep the interval on one line.
   if (!ci95.low) return said("up\u00a0to\u00a0{}", end(ci95.high));
   if (!ci95.high) return said("from\u00a0{}", end(ci95.low));
   return said("{}\u00a0to\u00a0{}", end(ci95.low), end(ci95.high));

@@ -21,7 +21,8 @@ using Statistic = std::function<CensoredValue(const Places&)>;
 
 using core::kInfinity;
 
-/// As `percentile`, of values in any order. Only the two that it lies between are put in place.
+/// Does what `percentile` does, for values in any order. Only the two values next to the
+/// quantile are put in place.
 double quantile_of(std::vector<double> values, double probability) {
   const auto below =
       static_cast<std::ptrdiff_t>(probability * static_cast<double>(values.size() - 1));
@@ -33,8 +34,8 @@ double quantile_of(std::vector<double> values, double probability) {
   return percentile(values, probability);
 }
 
-/// Percentiles over resampled people, the lower end of what is at least so, the upper one of
-/// what is at most so; an infinite one is open.
+/// Percentiles over resampled people. The lower end comes from `at_least` and the upper end
+/// from `at_most`. An infinite end is open.
 Interval interval_of(const Statistic& statistic, std::size_t num_people,
                      const ResultsOptions& options) {
   const std::vector<ResampledInterval> ends =
@@ -47,7 +48,8 @@ Interval interval_of(const Statistic& statistic, std::size_t num_people,
   return {ends[0].ci95.low, ends[1].ci95.high};
 }
 
-/// "> 0.5: 2 of 3 lie beyond the largest stimulus": of a median that the stimuli do not tell.
+/// Words for a median that the stimuli do not determine, such as "> 0.5: 2 of 3 lie beyond the
+/// largest stimulus".
 std::string untold_words(const OwnFractions& fractions, const CensoredValue& median) {
   const auto num = fractions.people.size();
   const auto num_beyond = static_cast<std::size_t>(fractions.num_beyond());
@@ -63,13 +65,14 @@ std::string untold_words(const OwnFractions& fractions, const CensoredValue& med
   }
   std::string beyond = said("{} of {} lie beyond the largest stimulus",
                             std::to_string(num_beyond), std::to_string(num));
-  // Of an even number, the half: the median is the mean of a known one and one beyond.
+  // If exactly half of the people lie beyond, the median is the mean of a known fraction and
+  // one beyond.
   if (2 * num_beyond == num) return beyond;
   return said("> {}: {}, or have flat or inverted answers", number_words(fractions.largest),
               beyond);
 }
 
-/// Where the estimates go, and with which pse.
+/// Writes the estimates with one kind of pse.
 class OwnFractionWriter {
  public:
   OwnFractionWriter(ResultsSection& section, const std::vector<DiscriminationAnswers>& all,
@@ -122,7 +125,7 @@ class OwnFractionWriter {
     const CensoredValue found = statistic(everyone_);
     median.value = found.value();
     median.ci95 = interval_of(statistic, everyone_.size(), options_);
-    // Above 0 it is anyway.
+    // The fraction is above 0 in any case.
     if (median.ci95.low && *median.ci95.low <= 0.0) median.ci95.low.reset();
     if (median.value) return;
     median.reason = untold_words(fractions_, found);
@@ -159,8 +162,8 @@ class OwnFractionWriter {
       if (one.weber_fraction) values.push_back(*one.weber_fraction);
     }
     const Summary summary = summary_of(values);
-    // One fraction beyond the stimuli, which they cannot tell from any other, makes both
-    // meaningless.
+    // A single fraction beyond the stimuli, whose size they cannot determine, makes mean and
+    // standard deviation meaningless.
     const bool are_all_told = num_beyond == 0 && values.size() == fractions_.people.size();
     const auto add_plain = [&](const std::string& name, const std::optional<double>& value,
                                const std::string& meaning) {
@@ -199,7 +202,8 @@ int OwnFractions::num_beyond() const {
 OwnFractions own_fractions(const std::vector<DiscriminationAnswers>& all,
                            const OwnFitOptions& options) {
   OwnFractions fractions;
-  // Of everybody: where answers choose the levels, those near one's own threshold are no end.
+  // The largest stimulus of everybody is used. If answers choose the levels, a participant's
+  // own levels near the threshold are no limit.
   for (const DiscriminationAnswers& answers : all) {
     fractions.largest =
         std::max(fractions.largest, answers.levels.rbegin()->first / answers.reference - 1.0);

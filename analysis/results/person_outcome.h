@@ -9,21 +9,23 @@
 
 namespace jnd::analysis {
 
-/// One participant summed up: everything that the statistics of a publication rest on, and
-/// little enough to keep of very many simulated people.
+/// A summary of one participant with everything that the statistics of a publication need. It
+/// is small, so very many simulated people can be kept.
 struct PersonOutcome {
-  std::string cells;  ///< Counterbalancing, as a session keeps it.
-  /// Answers by block of comparisons and intensity, both orders of the intervals together.
+  std::string cells;  ///< The counterbalancing cells, as a session stores them.
+  /// Answers by block of comparisons and by intensity, with both orders of the intervals
+  /// pooled.
   std::map<std::string, std::map<double, AnswerCount>> counts;
-  /// Arithmetic means of magnitudes as ratios to water (estimation, at intensities) and of the
-  /// intensities set (production, at targets in percent), by block.
+  /// Arithmetic means by block: of magnitudes as ratios to water (estimation, by intensity),
+  /// and of the intensities that were set (production, by target in percent).
   std::map<std::string, std::map<double, double>> means;
-  /// By the names that results have: "stroke_width_m" and "stroke_width_m.BLOCK" of movement,
-  /// "trial_correlation.t1_t2", and "BLOCK.reference" of comparisons.
+  /// Numbers by the names of the results: "stroke_width_m" and "stroke_width_m.BLOCK" for
+  /// movement, "trial_correlation.t1_t2", and "BLOCK.reference" for comparisons.
   std::map<std::string, double> numbers;
 };
 
-/// Of everybody in the study, in its order. Excluded trials are left out. Not real time.
+/// The outcomes of everybody in the study, in its order. Excluded trials are left out.
+/// Not real time.
 [[nodiscard]] std::vector<PersonOutcome> person_outcomes(const StudyData& data);
 
 }  // namespace jnd::analysis

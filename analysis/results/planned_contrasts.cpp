@@ -55,7 +55,7 @@ Equivalence equivalence_of(const PlannedContrast& plan, const EffectEstimate& es
   return found;
 }
 
-/// People's weighted sums, by group, of those who have a number wherever they need one.
+/// The weighted sums by group, for people who have every number that they need.
 struct Scores {
   std::vector<std::vector<double>> by_group;
   std::vector<ExcludedParticipant> excluded;
@@ -86,7 +86,7 @@ std::string people_words(const ContrastConditions& conditions) {
 constexpr char kTooFew[] =
     "expected two or more people in each group who differ from each other, found fewer";
 
-/// The same by ranks, which rest on no distribution: of one group alone.
+/// The test by ranks, which assumes no distribution. It exists only for a single group.
 std::optional<ContrastTest> by_ranks(const PlannedContrast& plan, const Scores& scores,
                                      const std::string& numbers) {
   if (scores.by_group.size() != 1 || scores.by_group.front().empty()) return std::nullopt;
@@ -103,7 +103,7 @@ std::optional<ContrastTest> by_ranks(const PlannedContrast& plan, const Scores& 
   return test;
 }
 
-/// A contrast of the median person in all conditions at once.
+/// Tests a contrast of the median person in all conditions at once.
 class HierarchicalTest {
  public:
   HierarchicalTest(const StudyData& data, const PlannedContrast& plan,
@@ -273,7 +273,7 @@ ContrastResult result_of(const StudyData& data, const PlannedContrast& plan) {
   return result;
 }
 
-/// Adjusts p values in each family.
+/// Adjusts the p values within each family.
 void adjust(std::vector<ContrastResult>& results) {
   std::set<std::string> families;
   for (const ContrastResult& one : results) families.insert(one.plan.family);
@@ -373,7 +373,8 @@ std::vector<ContrastResult> planned_contrasts(const StudyData& data) {
     one.sentence = contrast_sentence(one);
     const bool is_of_times = one.plan.measure == ContrastMeasure::kResponseTime;
     if (!is_of_times || !data.simulated || one.sentence.empty()) continue;
-    // Wherever the test is told: simulated people take as long as a stroke does.
+    // The remark stands wherever the test is reported. The times of simulated people are the
+    // times of their strokes.
     one.sentence +=
         said(" The people are SIMULATED: how long they take says nothing about people.");
   }

@@ -6,36 +6,42 @@
 
 namespace jnd::analysis {
 
-/// A published value among what simulated studies of the same size come to, by the statistic
-/// that was published. So both the chance of the simulated people and that of the published
-/// ones are in it: the published study is taken for one more of these.
+/// A published value compared with the values of simulated studies of the same size, by the
+/// statistic that was published. The comparison includes both the sampling error of the
+/// simulated people and that of the published ones, because it treats the published study as
+/// one more simulated one.
 struct PredictiveTail {
-  /// Of each simulated study that has such a value; infinite where somebody's own is.
+  /// The values of all simulated studies that have one. A value is infinite if somebody's own
+  /// is.
   std::vector<double> values;
-  double median = 0.0, low = 0.0, high = 0.0;  ///< Of these, with the middle 95 %.
-  /// Share of the studies that come out as far on this side, rounded as it was published: the
-  /// smaller of both sides.
+  /// The median of these values, and the middle 95 %.
+  double median = 0.0, low = 0.0, high = 0.0;
+  /// The share of studies whose value is at least as far on this side, with values rounded as
+  /// the publication rounds. It is the smaller of the shares of both sides.
   double tail = 0.0;
-  bool is_below = false;        ///< The published value lies below the middle.
-  double standard_error = 0.0;  ///< Of the tail: so far do the groups of people differ.
-  double p_value = 0.0;         ///< Two-sided: twice the tail, at most 1.
+  bool is_below = false;  ///< Whether the published value lies below the middle.
+  /// The standard error of the tail, from the differences between the groups of people.
+  double standard_error = 0.0;
+  double p_value = 0.0;  ///< Two-sided: twice the tail, at most 1.
 };
 
-/// Some published values as one.
+/// The joint comparison of several published values.
 struct JointTail {
   int num_statistics = 0;
-  double p_value = 0.0;  ///< Share of the studies that are at least as far out.
+  double p_value = 0.0;  ///< The share of studies that are at least as far out.
   double standard_error = 0.0;
 };
 
-/// What simulated studies tell of everything that was published of one.
+/// The comparison of a published study with simulated studies.
 struct Predictive {
-  int num_people = 0;        ///< That studies were drawn from; 0 without any.
-  int num_studies = 0;       ///< Studies that were drawn.
-  int num_participants = 0;  ///< Participants of each study, as many as were published.
-  std::string reason;        ///< Why there are none; "" if there are some.
-  /// Of all statistics but those that follow from others; of those that the laboratory was
-  /// neither fitted to nor implies.
+  /// The number of people from whom studies were drawn; 0 without any.
+  int num_people = 0;
+  int num_studies = 0;  ///< The number of studies that were drawn.
+  /// The number of participants of each study, as in the published study.
+  int num_participants = 0;
+  std::string reason;  ///< Why there are no studies; "" if there are some.
+  /// The first is over all statistics except those that follow from others. The second is over
+  /// those to which the laboratory was not fitted and which it does not imply.
   std::optional<JointTail> joint, joint_held_out;
 };
 

@@ -18,8 +18,8 @@ namespace {
 
 using ByCell = std::map<std::string, std::vector<std::size_t>>;
 
-/// `number` of them, evenly over the cells, in random order; which cells get one more, and who
-/// in a cell, is drawn.
+/// Draws `number` people in random order, evenly over the cells. The cells that get one more,
+/// and the people within a cell, are drawn.
 std::vector<std::size_t> balanced_draw(ByCell by_cell, std::size_t number,
                                        core::RandomStream& random) {
   std::vector<std::string> cells;
@@ -41,14 +41,14 @@ std::vector<std::size_t> balanced_draw(ByCell by_cell, std::size_t number,
   return drawn;
 }
 
-/// As many decimals as were printed, so that both are as coarse.
+/// Rounds to the decimals that were printed, so that both values are equally coarse.
 double rounded(double value, const std::optional<int>& num_decimals) {
   if (!num_decimals || !std::isfinite(value)) return value;
   const double scale = std::pow(10.0, *num_decimals);
   return std::round(value * scale) / scale;
 }
 
-/// Of ranks with ties sharing their mean, by (rank - 1/2) / number.
+/// Normal scores of midranks at (rank - 1/2) / number.
 Eigen::VectorXd normal_scores(const std::vector<double>& values) {
   const std::size_t num = values.size();
   std::vector<std::size_t> order(num);
@@ -67,8 +67,8 @@ Eigen::VectorXd normal_scores(const std::vector<double>& values) {
   return scores;
 }
 
-/// Mahalanobis' distance of each row from the middle, squared. Directions in which nothing
-/// varies count for nothing.
+/// The squared Mahalanobis distance of each row from the mean. Directions without variation are
+/// ignored.
 Eigen::VectorXd distances(Eigen::MatrixXd scores) {
   scores.rowwise() -= scores.colwise().mean().eval();
   const Eigen::MatrixXd covariance =
@@ -201,7 +201,7 @@ std::optional<JointTail> PredictiveStudies::joint_tail(
   for (std::size_t i = 0; i < drawn_.size(); ++i) {
     as_far.push_back(is_whole[i] && squared[row++] >= squared[num_whole]);
   }
-  // The published study is one of them: a share of none would say more than is known.
+  // The published study counts as one of them, because a share of 0 would claim too much.
   const auto num_as_far = static_cast<double>(std::ranges::count(as_far, true));
   return JointTail{.num_statistics = static_cast<int>(columns.size()),
                    .p_value = (num_as_far + 1.0) / (static_cast<double>(num_whole) + 1.0),

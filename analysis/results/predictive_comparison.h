@@ -11,41 +11,41 @@
 
 namespace jnd::analysis {
 
-/// Draws studies from simulated people and holds published values against them. A draw takes
-/// its people from one group, nobody twice, evenly over the cells of the counterbalancing; a
-/// statistic that rests on fewer participants than the published study had takes the first of
-/// them. Not real time; one thread a time.
+/// Draws studies from simulated people and compares published values with them. A draw takes
+/// its people from one group, nobody twice, evenly over the cells of the counterbalancing. A
+/// statistic that rests on fewer participants than the published study had uses the first of
+/// them. Not real time. Only one thread may use it at a time.
 class PredictiveStudies {
  public:
-  /// `people` must outlive it. `num_participants` of each study: at least one, and no more than
-  /// a group has; throws `core::Error` otherwise.
+  /// `people` must outlive the object. `num_participants` is the size of each study: at least
+  /// one, and at most the size of a group. Throws `core::Error` otherwise.
   PredictiveStudies(const PredictivePeople& people, int num_participants, int num_studies);
   PredictiveStudies(const PredictiveStudies&) = delete;
   PredictiveStudies& operator=(const PredictiveStudies&) = delete;
 
   [[nodiscard]] int num_studies() const noexcept { return static_cast<int>(drawn_.size()); }
 
-  /// Nothing for a value without a number or a statistic, or that fewer than half the studies
-  /// have.
+  /// Absent for a value without a number or a statistic, and if fewer than half the studies
+  /// have the statistic.
   [[nodiscard]] std::optional<PredictiveTail> tail_of(const PublishedValue& published) const;
 
-  /// How far out all of these lie together: Mahalanobis' distance of their normal scores (the
-  /// published study ranked among the simulated ones), whose correlations those of the studies
-  /// are. Values without a statistic, and those that follow from others, are left out; nothing
-  /// without any.
+  /// How far out all of these values lie together: the Mahalanobis distance of their normal
+  /// scores, with the correlations between studies. The published study is ranked among the
+  /// simulated ones. Values without a statistic, and values that follow from others, are left
+  /// out. The result is absent if none is left.
   [[nodiscard]] std::optional<JointTail> joint_tail(
       const std::vector<PublishedValue>& published) const;
 
  private:
   struct Draw {
     std::size_t group = 0;
-    std::vector<std::size_t> places;  ///< In `everybody_`.
+    std::vector<std::size_t> places;  ///< Indices into `everybody_`.
   };
-  using Values = std::vector<std::optional<double>>;  ///< One a study.
+  using Values = std::vector<std::optional<double>>;  ///< One value for each study.
 
-  /// Computed once of each statistic and number of participants.
+  /// Each combination of statistic and number of participants is computed once.
   [[nodiscard]] const Values& values_of(const PublishedValue& published) const;
-  /// Of the mean over all studies of what is 0 or 1 in each.
+  /// The standard error of the mean over all studies of a variable that is 0 or 1 in each.
   [[nodiscard]] double standard_error(const std::vector<bool>& counted) const;
 
   std::vector<PersonOutcome> everybody_;

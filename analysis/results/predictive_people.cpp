@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 constexpr int kFormat = 1;
 constexpr std::string_view kYes = "num_yes.", kTrials = "num_trials.", kMean = "mean.";
 
-/// One person as values by column; what is not a whole number has six digits.
+/// One person's values by column. Values that are not whole have six digits.
 std::map<std::string, double> columns_of(const PersonOutcome& person) {
   std::map<std::string, double> values = person.numbers;
   for (const auto& [block, levels] : person.counts) {
@@ -43,7 +43,7 @@ ordered_json six_digits(double value) {
   return rounded;
 }
 
-/// "group_d@1.093" of a column behind its prefix.
+/// The block and x in a column's name after its prefix, such as "group_d@1.093".
 struct Place {
   std::string block;
   double x = 0.0;
@@ -140,7 +140,8 @@ std::string to_text(const PredictivePeople& people) {
     }
   }
   std::string text = header_of(people).dump(2);
-  text.resize(text.size() - 2);  // Its "\n}": two more keys follow.
+  // The final "\n}" is removed, because two more keys follow.
+  text.resize(text.size() - 2);
   return text + ",\n  \"columns\": " + columns.dump() + ",\n  \"people\": [" + rows +
          "\n  ]\n}\n";
 }

@@ -8,8 +8,8 @@
 
 namespace jnd::analysis {
 
-/// What simulated people rest on: of another study file, laboratory or device they would be
-/// other people.
+/// What simulated people depend on. With another study file, laboratory or device they would be
+/// different.
 struct PredictiveKey {
   std::string study, study_sha256;
   std::string laboratory, laboratory_sha256;
@@ -18,9 +18,9 @@ struct PredictiveKey {
   bool operator==(const PredictiveKey&) const = default;
 };
 
-/// Very many simulated people, from whom studies are drawn. The groups have nobody in common
-/// and were simulated from seeds of their own, so that the differences between what they come
-/// to say how far any of it is known.
+/// Very many simulated people from whom studies are drawn. The groups have no common people and
+/// were simulated from different seeds, so the differences between them show how accurate a
+/// result is.
 struct PredictivePeople {
   PredictiveKey key;
   std::uint64_t seed = 1;
@@ -29,11 +29,11 @@ struct PredictivePeople {
   [[nodiscard]] int num_people() const noexcept;
 };
 
-/// A JSON document with a line a person; means and movement to six digits.
+/// A JSON document with one line for each person. Means and movement have six digits.
 [[nodiscard]] std::string to_text(const PredictivePeople& people);
 
-/// Throws `core::Error` that begins with `place` for a text that is no such document, or of
-/// another format.
+/// Throws `core::Error` that begins with `place` if the text is no such document or has another
+/// format.
 [[nodiscard]] PredictivePeople predictive_people_from(const std::string& text,
                                                       const std::string& place);
 

@@ -7,10 +7,10 @@
 namespace jnd::analysis {
 namespace {
 
-/// Ends of names, after the block's.
+/// The endings of names, after the block's name.
 std::vector<std::string> primary_names(const BlockDesign& block) {
   if (block.estimates()) {
-    // Everybody's own numbers: their size means nothing.
+    // With everybody's own numbers, their size has no meaning.
     if (block.counts_in_own_numbers()) return {".a"};
     return {".k", ".a"};
   }
@@ -41,7 +41,8 @@ bool is_primary(const std::string& name, const StudyData& data) {
   });
 }
 
-/// Names of participants' own values that stand for the primary ones, after the block's.
+/// The endings of names of the participants' own values that correspond to the primary ones,
+/// after the block's name.
 std::vector<std::string> own_primary_names(const BlockDesign& block, bool free_pse) {
   std::vector<std::string> names = primary_names(block);
   std::ranges::replace(names, std::string(".weber_fraction_median_person"),

@@ -4,10 +4,10 @@
 
 namespace jnd::analysis {
 
-/// Marks what answers the question that each block was asked, one or two numbers a block, and
-/// of blocks that are compared the test by these numbers: what a reader looks for first.
-/// Everything else is beside it: other estimators, sensitivity. A primary test need not be a
-/// planned one: its family says what it is.
+/// Marks the primary estimates: the one or two numbers of each block that answer its question,
+/// and for compared blocks the test by these numbers. A reader looks for them first. Everything
+/// else is supplementary: other estimators, sensitivity analyses. A primary test need not be
+/// planned; its family says whether it is.
 void mark_primary(StudyResults& results, const StudyData& data);
 
 }  // namespace jnd::analysis

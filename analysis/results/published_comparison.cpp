@@ -12,7 +12,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// What `results` has an estimate of already is not computed again.
+/// Adds published statistics for which `results` has no estimate yet.
 void add_own_statistics(StudyResults& results, const StudyData& data,
                         const Published& published, const ResultsOptions& options) {
   const std::vector<PersonOutcome> people = person_outcomes(data);
@@ -45,7 +45,7 @@ void add_own_statistics(StudyResults& results, const StudyData& data,
   if (!section.estimates.empty()) results.sections.push_back(std::move(section));
 }
 
-/// Difference of two means over both standard errors.
+/// The difference of two means divided by their joint standard error.
 std::optional<double> published_z(const std::vector<double>& ours,
                                   const PublishedValue& value) {
   if (!value.standard_deviation || !value.n || *value.n < 1) return std::nullopt;
@@ -77,7 +77,8 @@ void add_published(StudyResults& results, const StudyData& data, const Published
   const std::vector<PersonOutcome> people = person_outcomes(data);
   PublishedStatistics statistics(people);
   for (ResultsSection& section : results.sections) {
-    // Numbers of a modulus of their own, or of another standard, are no percent of water.
+    // Numbers relative to a participant's own modulus, or to another standard, are not percent
+    // of water.
     const bool counts_alike = std::ranges::all_of(data.blocks, [&](const BlockDesign& block) {
       return block.block != section.name || block.counts_in_water();
     });

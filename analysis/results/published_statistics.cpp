@@ -14,8 +14,8 @@ namespace {
 using Kind = PublishedStatistic::Kind;
 using Levels = std::map<double, AnswerCount>;
 
-/// Least squares on proportions with the pse at the reference; a curve without an optimum is
-/// its limit.
+/// Least squares on proportions with the pse at the reference. Without an optimum it is the
+/// limit of the curve.
 std::optional<double> least_squares_or_limit(LeastSquaresFractions& fractions,
                                              const Levels& levels, double reference) {
   std::vector<AnswerCount> rows;

@@ -11,20 +11,21 @@
 
 namespace jnd::analysis {
 
-/// What the statistics of a publication come to for some of these people. Nothing published
-/// goes into them but which statistic it is. One thread a time.
+/// Computes the statistics of a publication for a selection of these people. From the
+/// publication it uses only the kind of statistic. Only one thread may use it at a time.
 class PublishedStatistics {
  public:
-  /// `people` must outlive it.
+  /// `people` must outlive the object.
   explicit PublishedStatistics(const std::vector<PersonOutcome>& people);
 
-  /// Of the people at these places; nothing where there is no such statistic. An own Weber
-  /// fraction without an optimum counts as its limit, 0 for perfectly separated answers and
-  /// infinite for flat or falling ones, so a mean may be infinite.
+  /// The value for the people at these indices; absent if there is no such statistic. An own
+  /// Weber fraction without an optimum counts as its limit: 0 for perfectly separated answers,
+  /// and infinite for flat or falling ones. A mean may therefore be infinite.
   [[nodiscard]] std::optional<double> value(const PublishedStatistic& statistic,
                                             const std::vector<std::size_t>& drawn);
 
-  /// One number a person of what a mean is of; empty for a statistic that is no mean of such.
+  /// The numbers, one for each person, of which a mean is taken; empty for a statistic that is
+  /// not such a mean.
   [[nodiscard]] std::vector<double> averaged(const PublishedStatistic& statistic,
                                              const std::vector<std::size_t>& drawn);
 
@@ -41,7 +42,8 @@ class PublishedStatistics {
   const std::vector<PersonOutcome>& people_;
   std::map<std::string, std::vector<std::optional<double>>> own_fractions_;
   LeastSquaresFractions fractions_;
-  Places laws_drawn_;  ///< Whom the laws below are of: several statistics share them.
+  /// The people to whom the laws below belong. Several statistics share them.
+  Places laws_drawn_;
   std::map<std::string, Law> laws_;
 };
 

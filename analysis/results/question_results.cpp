@@ -15,7 +15,7 @@ namespace {
 
 using Item = experiments::QuestionnaireItem;
 
-/// The trials of a block that a participant answered, catch trials among them.
+/// The trials of a block that a participant answered, including catch trials.
 std::vector<const core::TrialRow*> trials_of(const ParticipantData& participant,
                                              const std::string& block) {
   std::vector<const core::TrialRow*> trials;
@@ -38,7 +38,8 @@ RatedAnswer rated(const BlockDesign& block, const core::TrialRow& trial, double 
   return answer;
 }
 
-/// What a step means: "step from 1, “I guessed”, to 5, “wholly sure”: How sure are you?"
+/// The meaning of a step, such as "step from 1, “I guessed”, to 5, “wholly sure”: How sure are
+/// you?".
 std::string words_of(const Item& item) {
   std::string question = in_spoken_language(item.question);
   if (item.kind == "yes_no") return said("1 being yes and 0 no: {}", question);
@@ -110,7 +111,7 @@ class QuestionSection {
     }
   }
 
-  /// How often each answer was given: the mean over participants of their shares.
+  /// Adds how often each answer was given, as the mean over participants of their shares.
   void add_shares(const Item& item) {
     std::vector<std::string> options = {"yes", "no"};
     if (item.kind == "choice") {

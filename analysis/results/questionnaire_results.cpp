@@ -47,8 +47,8 @@ std::optional<double> number_of(const std::string& text) {
 
 std::string prefix_of(const QuestionnaireItem& item) { return "questionnaire." + item.name; }
 
-/// What its steps mean: "rating from 1, the worst, to 10, the best: "; of a scale without a
-/// favourable end what stands at its ends.
+/// The meaning of the steps, such as "rating from 1, the worst, to 10, the best: ". For a scale
+/// without a favourable end, it gives the labels of its ends.
 std::string steps_words(const QuestionnaireItem& item) {
   const std::string last = std::to_string(item.num_steps);
   if (item.high_is_good) {
@@ -63,7 +63,8 @@ std::string steps_words(const QuestionnaireItem& item) {
   return said("step from {}, to {}: ", end("1", item.low_label), end(last, item.high_label));
 }
 
-/// Everybody's own number; a scale's with 1 as the worst step, where one is.
+/// Adds everybody's own number. Scales are turned so that 1 is the worst step, if there is a
+/// worst one.
 std::vector<double> add_own_numbers(ResultsSection& section, const QuestionnaireItem& item,
                                     const ItemAnswers& answers) {
   std::vector<double> values;
@@ -127,7 +128,7 @@ void add_counts(ResultsSection& section, const QuestionnaireItem& item,
   std::vector<std::string> options = item.options;
   if (item.kind != "choice") options = {"yes", "no"};
   for (const auto& [participant, text] : answers) {
-    // An answer of an earlier version of the study, which its last one no longer offers.
+    // An earlier version of the study offered this answer, but the last one does not.
     const std::string given = counted_answer(item, text);
     if (std::ranges::find(options, given) == options.end()) options.push_back(given);
   }
@@ -159,7 +160,7 @@ void add_item(ResultsSection& section, const QuestionnaireItem& item,
   if (!counted || item.kind == "yes_no_which") add_free_answers(section, item, answers);
 }
 
-/// Who answered nothing in a stage with questions.
+/// Names the participants who answered nothing in a stage with questions.
 void name_missing(ResultsSection& section, const StudyData& data) {
   std::vector<std::string> stages;
   for (const QuestionnaireItem& item : data.items) {

@@ -22,7 +22,8 @@ std::vector<double> values_of(const std::vector<RatedAnswer>& answers) {
   return values;
 }
 
-/// Rank correlation with what `of` says of an answer; answers without it are left out.
+/// The rank correlation of the answers with the value that `of` returns. Answers without such a
+/// value are left out.
 std::optional<double> correlation_with(
     const std::vector<RatedAnswer>& answers,
     const std::function<std::optional<double>(const RatedAnswer&)>& of) {
@@ -106,7 +107,8 @@ class RatedWriter {
     }
   }
 
-  /// The mean of what everybody's own answers come to, tested against `nothing`.
+  /// Adds the mean of everybody's own relation, tested against the value `nothing` of no
+  /// relation.
   void add_relation(const std::string& ending, const std::string& meaning,
                     const std::string& unit, const OwnRelation& relation, double nothing,
                     const std::string& why_none) {
@@ -217,7 +219,7 @@ std::optional<double> rank_correlation(const std::vector<double>& a,
   constexpr std::size_t kFewest = 3;
   if (a.size() < kFewest) return std::nullopt;
   const Ranks ranks_a = ranks_of(a), ranks_b = ranks_of(b);
-  // Doubled ranks have the mean n + 1, whatever the ties.
+  // The mean of doubled ranks is n + 1, whatever the ties are.
   const double mean = static_cast<double>(a.size()) + 1.0;
   double aa = 0.0, bb = 0.0, ab = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -9,48 +9,58 @@
 
 namespace jnd::analysis {
 
-/// One answer that has an order: the step of a rating, the step or number of a question.
+/// One answer that has an order: the step of a rating, or the step or number of a question.
 struct RatedAnswer {
   double value = 0.0;
-  std::optional<double> level;        ///< Test stimulus; none of a catch trial.
-  std::optional<double> distance_ln;  ///< |ln(test / reference)|, where both are above 0.
-  std::optional<bool> was_right;      ///< The answer to the trial, where one can be right.
+  std::optional<double> level;        ///< The test stimulus; absent for a catch trial.
+  std::optional<double> distance_ln;  ///<     ln(test / reference)|, if both are above 0.
+  /// Whether the answer to the trial was right; absent if no answer can be right.
+  std::optional<bool> was_right;
 };
 
-/// By participant.
+/// The answers by participant.
 using RatedAnswers = std::map<std::string, std::vector<RatedAnswer>>;
 
-/// How an estimate of such answers is named and told.
+/// The name and meaning of an estimate from such answers.
 struct RatedName {
-  std::string prefix;  ///< "group_d.question.confidence"
+  std::string prefix;  ///< For example "group_d.question.confidence".
   std::string
-      words;  ///< "step from 1, \"I guessed\", to 5, \"wholly sure\": How sure are you?"
+      /// For example "step from 1, \"I guessed\", to 5, \"wholly sure\": How sure are you?".
+      words;
   std::string unit = "1";
-  bool has_fixed_levels = false;  ///< So that there is a mean at each.
+  /// Whether the levels are fixed, so that there is a mean at each.
+  bool has_fixed_levels = false;
 };
 
-/// Spearman's rank correlation, ties sharing the mean of their ranks; none of fewer than three
-/// pairs, or where all of one side are equal.
+/// Spearman's rank correlation with midranks. It is absent for fewer than three pairs, or if
+/// all values on one side are equal.
 [[nodiscard]] std::optional<double> rank_correlation(const std::vector<double>& a,
                                                      const std::vector<double>& b);
 
-/// The area under the type 2 ROC (Fleming and Lau 2014): the probability that a right answer,
-/// drawn at random, was given with more confidence than a wrong one, ties counting half. None
-/// without a right or without a wrong one.
+/// The area under the type 2 ROC (Fleming and Lau 2014): the probability that a randomly drawn
+/// right answer was given with more confidence than a wrong one, where ties count half. It is
+/// absent without right or without wrong answers.
 [[nodiscard]] std::optional<double> type_2_auroc(const std::vector<RatedAnswer>& answers);
 
-/// Adds the mean over participants of their means with Student's interval, PREFIX; the standard
-/// deviation between participants (.sd); the median of their medians (.median); how the answers
-/// go with the stimulus, as the mean of the participants' own rank correlations
-/// (.rank_correlation), in blocks with a reference also with how far the two are apart
-/// (.rank_correlation_with_difference); where levels are fixed, mean and median at each
-/// (.mean_at_X, .median_at_X); where an answer can be right, means of right and of wrong ones
-/// (.when_right, .when_wrong), their difference, and the area under the type 2 ROC
-/// (.type_2_auroc). Those of relations have a t test each, family `kQuestionsFamily`.
+/// Adds these estimates:
+///
+/// - PREFIX: the mean over participants of their means, with Student's interval;
+/// - .sd: the standard deviation between participants;
+/// - .median: the median of their medians;
+/// - .rank_correlation: the relation of the answers with the stimulus, as the mean of the
+///   participants' own rank correlations;
+/// - .rank_correlation_with_difference: in blocks with a reference, the relation with the
+///   distance between test and reference;
+/// - .mean_at_X and .median_at_X: mean and median at each level, if levels are fixed;
+/// - .when_right and .when_wrong: if an answer can be right, the means of right and of wrong
+///   answers, with their difference;
+/// - .type_2_auroc: the area under the type 2 ROC.
+///
+/// Each relation has a t test in the family `kQuestionsFamily`.
 void add_rated(ResultsSection& section, const RatedName& name, const RatedAnswers& answers);
 
-/// The relation of the answers with the stimulus in steps, too: the mean over participants of
-/// the slope of the answer over log2 of the stimulus, PREFIX.per_doubling. Stimuli of 0 have no
+/// Also adds PREFIX.per_doubling, the relation with the stimulus in steps: the mean over
+/// participants of the slope of the answer over log2 of the stimulus. Stimuli of 0 have no
 /// logarithm and are left out.
 void add_trend_per_doubling(ResultsSection& section, const RatedName& name,
                             const RatedAnswers& answers);

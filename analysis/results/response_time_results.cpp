@@ -9,7 +9,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Median time of a participant's answers in a block; none without any.
+/// The median time of a participant's answers in a block; absent without any.
 std::optional<double> median_time_s(const ParticipantData& participant,
                                     const std::string& block) {
   std::vector<double> times_s;

@@ -15,7 +15,8 @@ SameDifferentFit fit_of(const ThresholdAnswers& answers, bool corrected) {
   return fit_same_different(rows, answers.reference);
 }
 
-/// Everybody's own Weber fractions, with half an answer added to those who have none.
+/// Everybody's own Weber fractions. `mended` includes people who have one only with half an
+/// answer added.
 struct Fractions {
   OwnNumbers plain, mended;
 };

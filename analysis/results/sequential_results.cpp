@@ -32,7 +32,8 @@ std::vector<std::vector<std::string>> people_of(const std::vector<TakenLook>& lo
   return people;
 }
 
-/// As the looks were told, whatever today's data say: they ended the study or did not.
+/// The outcome as the looks reported it. Whether the study ended does not depend on today's
+/// data.
 SequentialOutcome told_outcome(const StudyData& data, const SequentialBoundaries& boundaries) {
   if (data.looks.empty()) return {};
   SequentialOutcome outcome{.estimates = estimates_at_looks(data, people_of(data.looks)),
@@ -67,7 +68,7 @@ Equivalence adjusted_equivalence(const PlannedContrast& plan,
   return found;
 }
 
-/// What the study came to by the rule, in place of what it would have been without looks.
+/// Replaces the result without looks by the result under the rule.
 void put_adjusted(ContrastResult& result, const StudyData& data,
                   const SequentialBoundaries& boundaries, const SequentialOutcome& outcome) {
   result.otherwise.insert(result.otherwise.begin(), std::move(result.test));
@@ -109,7 +110,7 @@ std::string ended_words(const SequentialResult& result) {
               std::to_string(result.looks.back()));
 }
 
-/// People of the data that no look rests on.
+/// The number of people in the data on whom no look rests.
 std::int64_t num_beyond(const StudyData& data) {
   std::int64_t num = std::ssize(data.participants);
   for (const TakenLook& look : data.looks) num -= std::ssize(look.participants);

@@ -26,7 +26,7 @@ std::vector<BlockDesign> blocks_that(bool (BlockDesign::*measure)() const,
   return found;
 }
 
-/// What a block has beside a psychometric function over comparisons.
+/// Adds the sections of a block that are not about a psychometric function over comparisons.
 void add_threshold_sections(std::vector<ResultsSection>& sections, const StudyData& data,
                             const BlockDesign& block, const ResultsOptions& options) {
   if (block.detects()) sections.push_back(detection_results(data, block, options));
@@ -36,21 +36,21 @@ void add_threshold_sections(std::vector<ResultsSection>& sections, const StudyDa
   if (block.compares() && has_intervals(data, block)) {
     sections.push_back(interval_results(data, block));
   }
-  // Of three equal intervals none is a false alarm; which are chosen is told anyway.
+  // In three equal intervals no choice is a false alarm. The choices are reported anyway.
   if (!block.identifies() && has_catch_trials(data, block))
     sections.push_back(catch_results(data, block));
 }
 
-/// The laboratory names an estimate alone, or with its study before a slash where two studies
-/// share the name.
+/// Whether the laboratory's list names the estimate. If two studies share the name, the list
+/// has the study before a slash.
 bool is_named(const std::vector<std::string>& list, const StudyData& data,
               const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end() ||
          std::find(list.begin(), list.end(), data.study + "/" + name) != list.end();
 }
 
-/// A block of which every answer was set aside has no numbers, but is not passed over in
-/// silence.
+/// Adds a section for each block whose answers were all set aside. It has no numbers but says
+/// why.
 void add_blocks_set_aside(std::vector<ResultsSection>& sections, const StudyData& data) {
   for (const BlockDesign& block : data.blocks) {
     int num_standing = 0, num_set_aside = 0;
@@ -74,8 +74,7 @@ void add_blocks_set_aside(std::vector<ResultsSection>& sections, const StudyData
   }
 }
 
-/// How many people have an answer that counts; somebody whose answers are all set aside has
-/// none.
+/// The number of people, without those whose answers were all set aside.
 int num_heard(const StudyData& data) {
   return static_cast<int>(std::ranges::count_if(data.participants, [](const auto& participant) {
     return !participant.trials.empty() || participant.excluded_trials.empty();
@@ -122,7 +121,7 @@ StudyResults results_of(const StudyData& data, const Published& published,
       estimations[0].quantity == productions[0].quantity && estimations[0].counts_in_water()) {
     results.sections.push_back(combined_results(data, estimations[0], productions[0], options));
   }
-  // The fits of groups and of everybody in them take nearly all of the time.
+  // The fits of groups and of all participants take nearly all of the time.
   const std::vector<ComparedBlocks> pairs = compared_blocks(discriminations, options.compared);
   const auto num_parts = static_cast<double>(2 * discriminations.size() + pairs.size() + 1);
   double num_done = 0.0;

@@ -7,14 +7,15 @@
 
 namespace jnd::analysis {
 
-/// Families of tests: each answers one question, over the whole study.
+/// Families of tests. Each family answers one question about the whole study.
 inline constexpr char kEffectsFamily[] = "exploratory, effects within and between people";
 inline constexpr char kTrialTrendsFamily[] = "exploratory, changes over the trials";
-/// Pairs of blocks that nobody chose, and those that somebody chose when the results were
-/// computed. What is planned stands in the study file as a contrast, so neither is.
+/// The first is for pairs of blocks that nobody chose, and the second for pairs chosen when the
+/// results were computed. Planned tests stand in the study file as contrasts, so neither family
+/// is planned.
 inline constexpr char kPairsFamily[] = "exploratory, every two blocks";
 inline constexpr char kAskedFamily[] = "asked for with --compare, not planned in the study";
-/// What that means for their p values, a sentence each, for who reads the numbers.
+/// Sentences for readers on what this means for the p values.
 inline constexpr char kPairsNote[] =
     "Nobody planned a comparison of blocks before the study: all of one quantity are compared, "
     "and their p values are exploratory.";
@@ -23,34 +24,34 @@ inline constexpr char kAskedNote[] =
     "study file plans none, so their p values are those of planned tests only if the choice "
     "was "
     "made before anybody saw the data.";
-/// Pairs of blocks of a study that plans contrasts, and not these.
+/// Pairs of blocks in a study that plans contrasts, but not these pairs.
 inline constexpr char kBesidePlanFamily[] = "exploratory, beside the planned contrasts";
 inline constexpr char kBesidePlanNote[] =
     "The study file plans contrasts, which stand first; comparisons of every two blocks beside "
     "them are exploratory.";
 inline constexpr char kMovementFamily[] = "exploratory, movement";
-/// What ratings and answers to questions go with.
+/// What ratings and answers to questions are related to.
 inline constexpr char kQuestionsFamily[] = "exploratory, ratings and questions";
 
-/// Puts the paired tests of how people moved into one family; the unpaired ones, of the same
-/// hypotheses, are named sensitivity.
+/// Puts the paired tests of movement into one family. The unpaired tests have the same
+/// hypotheses, and are marked as sensitivity analyses.
 void mark_movement_family(std::vector<ResultsSection>& sections);
 
-/// The primary tests between blocks are one family, `kAskedFamily` if they were asked for, else
-/// `kPairsFamily`.
+/// Puts the primary tests between blocks into one family: `kAskedFamily` if they were asked
+/// for, and `kPairsFamily` otherwise.
 void mark_pairs_family(std::vector<ResultsSection>& sections, bool were_asked_for);
 
-/// The same tests of a study that plans contrasts: none of them is primary, and they are a
-/// family of their own.
+/// Puts the same tests of a study that plans contrasts into a family of their own. None of them
+/// is primary.
 void mark_pairs_beside_plan(std::vector<ResultsSection>& sections);
 
-/// `kPairsNote`, `kAskedNote` or `kBesidePlanNote`, whichever belongs to the comparison; "" for
+/// `kPairsNote`, `kAskedNote` or `kBesidePlanNote`, whichever applies to the comparison; "" for
 /// all others.
 [[nodiscard]] std::string family_note(const NamedComparison& named);
 
-/// Adjusts the tests of each family by Holm (1979), whichever sections they stand in. One test
-/// a hypothesis belongs to a family, the parametric one: a rank test beside it shows how much
-/// the result rests on the normal distribution, and gives no second chance.
+/// Adjusts the tests of each family by Holm (1979), over all sections. For each hypothesis only
+/// the parametric test belongs to a family. A rank test beside it shows how much the result
+/// depends on the normal distribution; it is no second chance.
 void adjust_by_family(std::vector<ResultsSection>& sections);
 
 }  // namespace jnd::analysis

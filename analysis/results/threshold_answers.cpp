@@ -85,7 +85,7 @@ PsychometricFit own_detection_fit(const ThresholdAnswers& answers, bool correcte
                                   int num_goodness, std::uint64_t seed) {
   std::vector<AnswerCount> rows = answers.rows();
   if (corrected) rows = with_half_an_answer(std::move(rows));
-  // The reference scales the search alone: the curve may lie anywhere.
+  // The reference only scales the search. The curve may lie anywhere.
   return fit_psychometric(rows, {.reference = rows.back().intensity,
                                  .free_pse = true,
                                  .diagnostics = num_goodness > 0,

@@ -18,7 +18,7 @@ Summary summary_in(const OwnNumbers& values, const Scale& to) {
   return summary_of(scaled);
 }
 
-/// Mean and interval taken in a scale, and given back from it.
+/// The mean and interval, computed on a scale and transformed back by `from`.
 Estimate mean_estimate(const GroupName& group, const Summary& summary, const Scale& from) {
   const auto back = [&](const std::optional<double>& value) {
     return value ? std::optional(from(*value)) : std::nullopt;

@@ -9,7 +9,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// One participant's answers of one repetition, by intensity.
+/// One participant's answers in one repetition, by intensity.
 Means repetition_curve(const std::vector<core::TrialRow>& trials, std::int64_t repetition) {
   Means curve;
   for (const core::TrialRow& trial : trials) {
@@ -20,7 +20,7 @@ Means repetition_curve(const std::vector<core::TrialRow>& trials, std::int64_t r
   return curve;
 }
 
-/// Of the intensities that both repetitions have.
+/// The correlation over the intensities that both repetitions have.
 Comparison correlation_of(const Means& first, const Means& second) {
   std::vector<double> a;
   std::vector<double> b;
@@ -45,7 +45,7 @@ std::string name_of(std::int64_t first, std::int64_t second) {
   return "trial_correlation.t" + std::to_string(first) + "_t" + std::to_string(second);
 }
 
-/// Median of the correlations of all pairs and participants.
+/// Adds the median of the correlations of all pairs and participants.
 void add_median(ResultsSection& section, const std::vector<std::vector<double>>& by_participant,
                 const ResultsOptions& options) {
   const auto median = [&](const std::vector<std::size_t>& drawn) -> std::optional<double> {
@@ -96,7 +96,8 @@ void add_trial_correlations(ResultsSection& section, const StudyData& data,
       section.estimates.push_back(
           {.name = name,
            .value = summary.mean,
-           // Over resampled participants: Student's t would leave [-1, 1].
+           // The interval is over resampled participants, because Student's t would leave
+           // [-1, 1].
            .ci95 = resampled(correlations, options,
                              [](const Summary& sample) { return sample.mean; }),
            .unit = "1",

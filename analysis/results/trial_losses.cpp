@@ -12,7 +12,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Beyond that a block's levels are set or follow from answers rather than being designed.
+/// With more levels, a block's levels are set or follow from answers, and were not designed.
 constexpr std::size_t kMostLevels = 32;
 
 void add(LevelLoss& loss, const TrialRecord& record) {
@@ -27,7 +27,7 @@ void add(LevelLoss& loss, const TrialRecord& record) {
   loss.num_affected += record.is_affected() ? 1 : 0;
 }
 
-/// Counted trials that answers are drawn from: those without an answer are not among them.
+/// The affected trials with a valid answer.
 std::set<std::pair<std::int64_t, std::int64_t>> affected_trials(
     const ParticipantData& participant, const std::set<std::string>& blocks) {
   std::set<std::pair<std::int64_t, std::int64_t>> trials;
@@ -39,7 +39,7 @@ std::set<std::pair<std::int64_t, std::int64_t>> affected_trials(
   return trials;
 }
 
-/// The section that holds the block's primary values, as far as they rest on its answers alone.
+/// The section with the block's primary values, as far as they depend on its answers alone.
 ResultsSection section_of(const StudyData& data, const BlockDesign& block,
                           const ResultsOptions& options) {
   if (block.estimates()) return estimation_results(data, block, options);
@@ -56,7 +56,7 @@ ResultsSection section_of(const StudyData& data, const BlockDesign& block,
   return block.tells_apart() ? same_different_results(data, block) : section;
 }
 
-/// "5.3 % of the answers were repeated, discarded ..."
+/// For example "5.3 % of the answers come from trials that were repeated, faulted, ...".
 std::string affected_words(double ratio) {
   return said(
       "{} % of the answers come from trials that were repeated, faulted, limited in force or "
@@ -68,7 +68,7 @@ bool is_outside(double value, const Interval& ci95) {
   return (ci95.low && value < *ci95.low) || (ci95.high && value > *ci95.high);
 }
 
-/// Adds what is left of the primary values of `section` without the affected trials.
+/// Adds the primary values of `section` without the affected trials.
 void compare(ResultsSection& section, const std::string& prefix, const ResultsSection& without,
              double ratio) {
   constexpr char kSuffix[] = ".without_affected_trials";

@@ -8,24 +8,26 @@
 
 namespace jnd::analysis {
 
-/// More than this share of a block's answers affected is enough to be asked what they did.
+/// If more than this share of a block's answers is affected, the results are also computed
+/// without them.
 inline constexpr double kMostAffected = 0.02;
 
-/// Counts of every level of every block but practice; catch trials are a level of their own.
-/// Blocks in which the answers or people set more than 32 levels are counted as a whole.
+/// Counts for every level of every block except practice. Catch trials are a level of their
+/// own. A block with more than 32 levels, which the answers or the people set, is counted as a
+/// whole.
 [[nodiscard]] std::vector<LevelLoss> level_losses(const StudyData& data);
 
-/// Share of a block's answers that are `TrialRecord::is_affected`; 0 without answers.
+/// The share of a block's answers that are `TrialRecord::is_affected`; 0 without answers.
 [[nodiscard]] double affected_ratio(const StudyData& data, const std::string& block);
 
-/// The same data without those answers of these blocks.
+/// The same data without the affected answers of these blocks.
 [[nodiscard]] StudyData without_affected(const StudyData& data,
                                          const std::set<std::string>& blocks);
 
-/// Beside every primary value of a block with more than `kMostAffected`, the same without these
-/// trials: NAME.without_affected_trials; and a caution at the primary value where that lies
-/// outside of its interval. Where a rule chose the stimuli by its answers there is none, with
-/// the reason. Estimates have to be marked primary. Not real time.
+/// For each block with more than `kMostAffected`, adds NAME.without_affected_trials for every
+/// primary value: the same value without these trials. The primary value gets a caution if that
+/// lies outside its interval. If a rule chose the stimuli from the answers, there is no such
+/// value, and the reason says so. Estimates must be marked as primary before. Not real time.
 void add_without_affected(StudyResults& results, const StudyData& data,
                           const ResultsOptions& options);
 

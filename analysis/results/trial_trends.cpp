@@ -15,12 +15,12 @@
 namespace jnd::analysis {
 namespace {
 
-/// Squares of z; absent where the answers vary nowhere within a level.
+/// Squared z. They are absent if the answers do not vary within any level.
 struct Squares {
   std::optional<double> drift, learning;
 };
 
-/// One person's trials, made ready to be answered over and over.
+/// One person's trials, prepared for repeated redraws.
 class Person {
  public:
   explicit Person(const DiscriminationAnswers& answers) {
@@ -59,9 +59,9 @@ class Person {
     return squares();
   }
 
-  /// Until both are defined that are in the data.
+  /// Redraws until every value that is defined in the data is defined.
   [[nodiscard]] Squares redrawn(core::RandomStream& random, const Squares& observed) {
-    // Whoever varied at all does so again in a few draws.
+    // A person whose answers varied does so again within a few draws.
     constexpr int kMostDraws = 1000;
     Squares found;
     for (int draw = 0; draw < kMostDraws; ++draw) {
@@ -82,11 +82,13 @@ class Person {
   struct Level {
     double side = 0.0;  ///< 1 above the reference, -1 below.
     double num = 0.0, mean_time = 0.0, squares = 0.0;
-    double num_yes = 0.0, covariance = 0.0;  ///< Of the answers at hand.
+    double num_yes = 0.0, covariance = 0.0;  ///< These belong to the present answers.
   };
   struct Trial {
     std::size_t level = 0;
-    double time = 0.0;  ///< Less the mean of its level, the last trial being 1 after the first.
+    /// The time minus the mean of its level, on a scale on which the last trial is 1 after the
+    /// first.
+    double time = 0.0;
     bool yes = false;
     double probability = 0.0;
   };
@@ -177,7 +179,7 @@ TrendDispersions trend_dispersions(const std::vector<DiscriminationAnswers>& all
   for (std::size_t i = 0; i < all.size(); ++i) {
     Person person(all[i]);
     const Squares observed = person.observed();
-    if (!observed.drift) continue;  // Then learning is not defined, either.
+    if (!observed.drift) continue;  // Learning is then not defined either.
     add(result.drift, observed.drift);
     add(result.learning, observed.learning);
     core::RandomStream random(seed, said("trial trends"), {static_cast<std::int64_t>(i)});

@@ -12,19 +12,20 @@
 namespace jnd::analysis {
 namespace {
 
-/// Beyond that what is left of somebody's answers is doubtful: a tenth, by convention.
+/// If a larger share is missing, the remaining answers of a participant are doubtful. A tenth
+/// is a convention.
 constexpr double kOften = 0.1;
 
-/// What one participant left open in one block.
+/// The answers that one participant left open in one block.
 struct Unanswered {
   std::int64_t num_answers = 0;
-  std::int64_t num_cannot_tell = 0;  ///< Of them.
-  std::int64_t num_missed = 0;       ///< Answers that missed their deadline.
+  std::int64_t num_cannot_tell = 0;  ///< The number of answers "cannot tell".
+  std::int64_t num_missed = 0;       ///< The number of answers that missed their deadline.
 
   [[nodiscard]] double cannot_tell_ratio() const {
     return static_cast<double>(num_cannot_tell) / static_cast<double>(num_answers);
   }
-  /// Of all that were asked for: each missed one was asked for once more.
+  /// The share of all requested answers. Each missed answer was asked for again.
   [[nodiscard]] double missed_ratio() const {
     return static_cast<double>(num_missed) / static_cast<double>(num_answers + num_missed);
   }

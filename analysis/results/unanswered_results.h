@@ -5,8 +5,8 @@
 
 namespace jnd::analysis {
 
-/// Says in the sections of blocks whose answers were often "cannot tell", or often missed their
-/// deadline: more than a tenth of somebody's. Not real time.
+/// Adds cautions to the sections of blocks in which more than a tenth of a participant's
+/// answers were "cannot tell" or missed their deadline. Not real time.
 void caution_of_unanswered(StudyResults& results, const StudyData& data);
 
 }  // namespace jnd::analysis

@@ -21,8 +21,8 @@ void require_pairs(const std::vector<double>& a, const std::vector<double>& b) {
                 static_cast<double>(b.size()));
 }
 
-/// Exponent of the power of two that brings values as large as `largest` to about 1. Dividing
-/// by it is exact, and keeps squares within the range of numbers.
+/// The exponent of the power of two that scales values up to `largest` to about 1. Dividing by
+/// it is exact, and keeps squares within the range of numbers.
 int exponent_of(double largest) { return largest > 0.0 ? std::ilogb(largest) : 0; }
 
 std::vector<double> shrunk(const std::vector<double>& values, int exponent) {
@@ -40,7 +40,7 @@ std::vector<double> shrunk_differences(const std::vector<double>& a,
   return result;
 }
 
-/// Back to the unit of the values, absent where that is past the range of numbers.
+/// Scales a value back to its own unit. It is absent if it leaves the range of numbers.
 std::optional<double> grown(const std::optional<double>& value, int exponent) {
   const double number = std::ldexp(value.value_or(0.0), exponent);
   return value && std::isfinite(number) ? std::optional(number) : std::nullopt;
@@ -50,7 +50,7 @@ Interval grown(const Interval& interval, int exponent) {
   return {.low = grown(interval.low, exponent), .high = grown(interval.high, exponent)};
 }
 
-/// Rounding of values as large as `largest` leaves a spread of this where there is none.
+/// The standard deviation that rounding may cause among equal values as large as `largest`.
 double rounding_of(double largest) {
   return 8.0 * std::numeric_limits<double>::epsilon() * largest;
 }
@@ -72,8 +72,9 @@ void fill_t(Comparison& result, double standard_error, double degrees_of_freedom
   result.status = FitStatus::kOk;
 }
 
-/// Student's t of differences whose unit is 2^exponent; nothing but the mean where a reason
-/// stands already. `largest` is that of the values they were made of.
+/// Student's t test of differences whose unit is 2^exponent. It fills in only the mean if
+/// `result` already has a reason. `largest` is the largest magnitude of the values from which
+/// the differences were made.
 void test_differences(Comparison& result, const std::vector<double>& differences, int exponent,
                       double largest, EffectSizes effects = EffectSizes::kComputed) {
   const Summary summary = summary_of(differences);
@@ -220,7 +221,7 @@ Comparison pearson_correlation(const std::vector<double>& a, const std::vector<d
     result.reason = "too few pairs: a correlation needs three";
     return result;
   }
-  // Each column in a unit of its own, which leaves r as it is.
+  // Each column gets its own unit, which does not change r.
   const std::vector<double> own_a = shrunk(a, exponent_of(largest_magnitude(a, {})));
   const std::vector<double> own_b = shrunk(b, exponent_of(largest_magnitude(b, {})));
   const Summary of_a = summary_of(own_a), of_b = summary_of(own_b);
@@ -229,7 +230,8 @@ Comparison pearson_correlation(const std::vector<double>& a, const std::vector<d
     result.reason = "a column is constant: the correlation is undefined";
     return result;
   }
-  // 1 - r and 1 + r from the standardised columns: no cancellation however near 1.
+  // 1 - r and 1 + r come from the standardised columns, so nothing cancels however close r is
+  // to 1.
   const double n = static_cast<double>(a.size());
   double difference = 0.0, sum = 0.0, product = 0.0;
   for (std::size_t pair = 0; pair < a.size(); ++pair) {
@@ -271,7 +273,7 @@ Comparison wilcoxon_test(const std::vector<double>& a, const std::vector<double>
   const int exponent = exponent_of(largest_magnitude(a, b));
   const std::vector<double> difference = shrunk_differences(a, b, exponent);
   result.estimate = grown(summary_of(difference).mean, exponent);
-  // Each difference is as exact as its own pair, whatever the others measure.
+  // The accuracy of each difference depends on its own pair only.
   std::vector<double> roundings;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double larger = std::max(std::fabs(a[i]), std::fabs(b[i]));

@@ -16,7 +16,7 @@ namespace {
 
 namespace math = boost::math;
 
-/// What cannot be computed is not a number, never an exception.
+/// A policy under which a value that cannot be computed is NaN, and no exception is thrown.
 using Quiet =
     math::policies::policy<math::policies::domain_error<math::policies::ignore_error>,
                            math::policies::pole_error<math::policies::ignore_error>,

@@ -2,14 +2,15 @@
 
 namespace jnd::analysis {
 
-// Tails and quantiles of the distributions that tests and intervals stand on, in double
-// precision. Degrees of freedom are numbers > 0, not necessarily whole. A probability of 0 or 1
-// has no finite quantile and throws std::overflow_error; what is out of range throws
-// std::domain_error. Not real time.
+// Tails and quantiles of the distributions that tests and intervals need, in double precision.
+// Degrees of freedom are > 0 and need not be whole. A probability of 0 or 1 has no finite
+// quantile and throws std::overflow_error. Arguments out of range throw std::domain_error.
+// Not real time.
 
-/// The z below which a standard normal number lies with this probability.
+/// The z with P(Z < z) = probability for a standard normal Z.
 [[nodiscard]] double normal_quantile(double probability);
-/// The z that a standard normal number exceeds with this probability, exact for the smallest.
+/// The z with P(Z > z) = probability for a standard normal Z. It is accurate for the smallest
+/// probabilities.
 [[nodiscard]] double normal_quantile_above(double probability);
 
 /// P(T > t) of Student's t.
@@ -18,8 +19,8 @@ namespace jnd::analysis {
 /// The t that is exceeded with this probability.
 [[nodiscard]] double student_t_quantile_above(double probability, double degrees_of_freedom);
 
-/// P(T <= t) and P(T > t) of the noncentral t. Where its series do not converge, what they came
-/// to, or no number; never an exception.
+/// P(T <= t) and P(T > t) of the noncentral t. If a series does not converge, the result is its
+/// last value or NaN. They never throw.
 [[nodiscard]] double noncentral_t_below(double t, double degrees_of_freedom,
                                         double noncentrality);
 [[nodiscard]] double noncentral_t_above(double t, double degrees_of_freedom,
@@ -38,7 +39,7 @@ namespace jnd::analysis {
 /// P(X > value) of the gamma distribution with this shape and scale.
 [[nodiscard]] double gamma_above(double value, double shape, double scale);
 
-/// P(X >= successes) in this many fair trials; `successes` is at least 1.
+/// P(X >= successes) in `trials` fair trials. `successes` is at least 1.
 [[nodiscard]] double fair_trials_at_least(double successes, double trials);
 
 /// ln Gamma(x) and its first two derivatives, for x > 0.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLargestT = 1000.0;
 
-/// The noncentrality at which P(T <= t) is `probability`: it falls as the noncentrality grows.
+/// The noncentrality at which P(T <= t) is `probability`. P falls as the noncentrality grows.
 std::optional<double> noncentrality_at(double t, double degrees_of_freedom,
                                        double probability) {
   const auto excess = [&](double noncentrality) {
@@ -76,7 +76,7 @@ void add_effect_of_groups(Comparison& comparison, const PublishedGroup& a,
   const double degrees_of_freedom =
       (n_a - 1.0) * (n_b - 1.0) * sum * sum /
       ((n_b - 1.0) * variance_a * variance_a + (n_a - 1.0) * variance_b * variance_b);
-  // Two values, and a group that does not vary: nothing tells the bias.
+  // If a group has two values and the other does not vary, the bias is unknown.
   constexpr double kTooFew = 1.0 + 1e-9;
   if (!(degrees_of_freedom > kTooFew)) return;
   const double of_test = error * error /

@@ -39,7 +39,8 @@ double equivalence_p_value(const EffectEstimate& estimate, double margin) {
   core::require(margin > 0.0, "margin", "a number > 0", margin);
   const EffectEstimate turned{-estimate.effect, estimate.standard_error,
                               estimate.degrees_of_freedom};
-  // That it is not above -margin, and that it is not below the margin.
+  // The two tests are that the effect is not at or below -margin, and that it is not at or
+  // above the margin.
   return std::max(above(estimate, -margin), above(turned, -margin));
 }
 

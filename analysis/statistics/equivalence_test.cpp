@@ -24,7 +24,7 @@ std::vector<double> logarithms_of(const std::vector<double>& values) {
   return logarithms;
 }
 
-/// Of a - b.
+/// The estimate of a - b.
 std::optional<EffectEstimate> difference_of(const std::vector<double>& a,
                                             const std::vector<double>& b, bool is_paired) {
   if (!is_paired) {

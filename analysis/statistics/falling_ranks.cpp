@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostExact = 14;
 
-/// Sum of the squared distances of ranks from their mean, which is n + 1 when doubled.
+/// The sum of squared distances of doubled ranks from their mean, n + 1.
 double squares_of(const std::vector<std::int64_t>& doubled_ranks) {
   const auto mean = static_cast<double>(doubled_ranks.size()) + 1.0;
   double squares = 0.0;

@@ -5,11 +5,11 @@
 
 namespace jnd::analysis {
 
-/// Whether y falls as x grows: Spearman's rank correlation, one-sided. The p value is the
-/// probability of a sum of products of the ranks as low or lower, were every pairing of x and y
-/// equally likely, ties being ranks as they are: exact up to 14 pairs, beyond that of the
-/// normal distribution with the exact mean and variance. Absent where nothing can fall: all x
-/// alike, or all y. As many x as y, finite. Not real time.
+/// Tests whether y falls as x grows, by Spearman's rank correlation, one-sided. The p value is
+/// the probability that the sum of products of the ranks is as low or lower if every pairing of
+/// x and y is equally likely. Ties are midranks. It is exact up to 14 pairs. For more it uses
+/// the normal distribution with the exact mean and variance. It is absent if nothing can fall
+/// because all x or all y are equal. x and y are finite and equally many. Not real time.
 [[nodiscard]] std::optional<double> falling_ranks_p_value(const std::vector<double>& x,
                                                           const std::vector<double>& y);
 

@@ -5,15 +5,15 @@
 
 namespace jnd::analysis {
 
-/// What came of a fit or a test. Not finding a value is an outcome, not an error.
+/// The outcome of a fit or a test. A missing value is an outcome, not an error.
 enum class FitStatus {
   kNotRun,
   kOk,
-  kDegenerate,    ///< The value asked for does not exist for these data; the reason says why.
-  kNotConverged,  ///< It exists, but the search did not reach it.
+  kDegenerate,    ///< The requested value does not exist for these data. The reason says why.
+  kNotConverged,  ///< The value exists, but the search did not reach it.
 };
 
-/// "not_run", "ok", "degenerate", "not_converged": the words of the JSON output.
+/// The words of the JSON output: "not_run", "ok", "degenerate", "not_converged".
 [[nodiscard]] constexpr std::string_view to_string(FitStatus status) noexcept {
   switch (status) {
     case FitStatus::kNotRun:
@@ -28,10 +28,12 @@ enum class FitStatus {
   return "not_run";
 }
 
-/// The method that searches for the optimum. Both methods come to the same one.
+/// The method that searches for the optimum. Both methods find the same optimum.
 enum class Solver {
-  kCeres,   ///< For a fit that is reported; Newton's method mends its last digits and agrees.
-  kNewton,  ///< For the many fits of data drawn anew: a tenth of the time.
+  /// For fits that are reported. Newton's method improves the last digits and confirms the
+  /// result.
+  kCeres,
+  kNewton,  ///< For the many fits of redrawn data. It takes a tenth of the time.
 };
 
 /// A confidence interval. An absent end is open: the data do not bound the value on that side.

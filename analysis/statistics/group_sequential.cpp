@@ -18,10 +18,10 @@ double density(double z) {
 
 double tail_above(double z) { return 0.5 * std::erfc(z / std::sqrt(2.0)); }
 
-/// Beyond so many standard deviations nothing is left that a double could tell.
+/// Beyond this many standard deviations a double cannot represent what is left.
 constexpr double kReach = 8.0;
 
-/// Where a falling function comes down to the value wanted, within [0, 38].
+/// The place in [0, 38] where a falling function reaches the wanted value.
 template <typename Falling>
 double falls_to(double wanted, Falling falling) {
   double low = 0.0, high = 38.0;
@@ -86,8 +86,8 @@ void SequentialPaths::go_on(double lower, double upper) {
   const double high = std::min(upper * root, drift_ * information + kReach * root);
   std::vector<Node> next;
   if (low < high) {
-    // Panels four times as wide as the narrower of the two steps that meet here: 20 points see
-    // each bump of such a width to more digits than are ever told.
+    // A panel is four times as wide as the narrower of the two steps that meet here. Its 20
+    // points integrate bumps of that width to more digits than are ever reported.
     double narrow = width;
     if (num_taken_ + 1 < information_.size()) {
       narrow = std::min(narrow, std::sqrt(information_[num_taken_ + 1] - information));

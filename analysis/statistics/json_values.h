@@ -7,22 +7,22 @@
 
 #include "analysis/statistics/fit_status.h"
 
-/// What numbers and words of fits are in JSON.
+/// Converts numbers and words of fits to JSON.
 namespace jnd::analysis::json_values {
 
 using Json = nlohmann::ordered_json;
 
-/// null for none and for what is not finite.
+/// The number, or null if it is absent or not finite.
 inline Json number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
 }
 
-/// [low, high], null where an end is open.
+/// [low, high], with null for an open end.
 inline Json interval(const Interval& ends) {
   return Json::array({number(ends.low), number(ends.high)});
 }
 
-/// null for an empty text.
+/// The text, or null if it is empty.
 inline Json sentence(const std::string& text) {
   return text.empty() ? Json(nullptr) : Json(text);
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostExactOrders = 50;
 
-/// How often a value occurs, over all values that occur more than once.
+/// The counts of all values that occur more than once.
 std::vector<double> ties_of(const std::vector<double>& values) {
   std::map<double, double> counts;
   for (const double value : values) counts[value] += 1.0;
@@ -30,8 +30,9 @@ double sum_over(const std::vector<double>& ties, const Term& term) {
   return sum;
 }
 
-/// Twice the smaller tail of the number of concordant pairs, every order being as likely. An
-/// element more adds 0 to all of those before it, each as likely (Kendall 1938).
+/// Twice the smaller tail of the number of concordant pairs, if every order is equally likely.
+/// Each added element is concordant with 0 to all of the elements before it, with equal
+/// probability (Kendall 1938).
 double exact_p(double num_concordant, std::size_t num_values) {
   std::vector<double> shares = {1.0};
   for (std::size_t added = 1; added < num_values; ++added) {
@@ -52,7 +53,7 @@ double exact_p(double num_concordant, std::size_t num_values) {
   return std::min(1.0, 2.0 * std::min(up_to, from));
 }
 
-/// The variance of concordant less discordant pairs under independence, corrected for ties
+/// The variance of concordant minus discordant pairs under independence, corrected for ties
 /// (Kendall 1970, equation 4.3).
 double variance_with_ties(double n, const std::vector<double>& of_a,
                           const std::vector<double>& of_b) {

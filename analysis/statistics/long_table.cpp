@@ -26,7 +26,7 @@ std::vector<std::string> in_order(const std::vector<Row>& rows, std::string Row:
   return found;
 }
 
-/// Who has a value under each of these conditions, by the mean of their values.
+/// Fills in the people who have a value under each condition, with the mean of their values.
 void complete_people(LongGroup& group, const std::vector<Row>& rows) {
   std::map<std::pair<std::string, std::string>, std::vector<double>> cells;
   for (const Row& row : rows) cells[{row.person, row.condition}].push_back(row.value);
@@ -51,7 +51,7 @@ void complete_people(LongGroup& group, const std::vector<Row>& rows) {
   }
 }
 
-/// `conditions`: of the whole table, so that a and b are the same in every group.
+/// `conditions` are those of the whole table, so that a and b are the same in every group.
 LongGroup group_of(std::vector<std::pair<std::string, std::string>> key,
                    const std::vector<Row>& rows, const std::vector<std::string>& conditions,
                    const LongColumns& columns) {
@@ -79,7 +79,7 @@ std::string listed(const std::vector<std::string>& words) {
   return list;
 }
 
-/// Takes the rows of each group as they are read.
+/// Collects the rows of each group as they are read.
 class LongCollector : public RowSink {
  public:
   LongCollector(std::string name, const LongColumns& columns)
@@ -151,7 +151,7 @@ class LongCollector : public RowSink {
   std::size_t value_ = 0, by_ = 0;
   std::optional<std::size_t> pair_;
   std::vector<std::size_t> group_by_;
-  std::vector<std::string> known_;  ///< Conditions, in the order of their first rows.
+  std::vector<std::string> known_;  ///< The conditions in the order of their first rows.
   std::vector<std::pair<Key, std::vector<Row>>> groups_;
   std::int64_t num_missing_ = 0;
 };

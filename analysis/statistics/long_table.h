@@ -12,44 +12,52 @@
 
 namespace jnd::analysis {
 
-/// Which columns of a table in long format, one value a row, say what.
+/// The roles of the columns of a table in long format, which has one value in each row.
 struct LongColumns {
-  std::string value;  ///< The number that is compared.
-  std::string by;     ///< The condition that it belongs to.
-  std::string pair;   ///< Whose it is; "" where the conditions are groups of different people.
+  std::string value;  ///< The column of the number that is compared.
+  std::string by;     ///< The column of the condition to which the value belongs.
+  /// The column of the person to whom the value belongs; "" if the conditions are groups of
+  /// different people.
+  std::string pair;
   std::vector<std::string> group_by;
-  /// The conditions that are compared, in this order; all, in that of their first rows, if
-  /// empty.
+  /// The conditions that are compared, in this order. If it is empty, all conditions are, in
+  /// the order of their first rows.
   std::vector<std::string> levels;
 };
 
 /// The rows that agree in the grouping columns.
 struct LongGroup {
-  std::vector<std::pair<std::string, std::string>> key;  ///< Column and value; empty for all.
+  /// Columns and their values. It is empty if there are no grouping columns.
+  std::vector<std::pair<std::string, std::string>> key;
   std::vector<std::string> conditions;
-  std::vector<std::vector<double>> values;  ///< Of each condition, in the order of the rows.
-  /// With `pair`: who has a value under every condition; several are averaged.
+  /// The values of each condition, in the order of the rows.
+  std::vector<std::vector<double>> values;
+  /// With `pair`: the people who have a value under every condition. Several values are
+  /// averaged.
   RepeatedMeasures complete;
-  std::vector<std::string> incomplete;  ///< Who has not, and is left out.
-  int num_averaged = 0;  ///< Cells of a person and condition with several values.
+  std::vector<std::string> incomplete;  ///< The people who do not, and are left out.
+  /// The number of cells (a person and a condition) with several values.
+  int num_averaged = 0;
 };
 
 struct LongTable {
   std::vector<LongGroup> groups;  ///< In the order of their first rows.
-  std::int64_t num_missing = 0;   ///< Rows left out: a cell is empty, NA, null, NaN or None.
+  /// The number of rows left out because a cell is empty, NA, null, NaN or None.
+  std::int64_t num_missing = 0;
 };
 
-/// Reads the file as `read_rows`: commas, semicolons or tabs, decimal commas, JSON. Throws
-/// `core::Error` with the problems, each "FILE:LINE: column: expected this, found that".
+/// Reads the file as `read_rows` does: commas, semicolons or tabs, decimal commas, JSON. Throws
+/// `core::Error` with the problems in the form "FILE:LINE: column: expected this, found that".
 [[nodiscard]] LongTable read_long(const std::filesystem::path& file,
                                   const LongColumns& columns);
 
-/// The same of a text; `name` is what messages call it.
+/// Reads a text in the same way. `name` is its name in messages.
 [[nodiscard]] LongTable parse_long(std::string_view text, const std::string& name,
                                    const LongColumns& columns);
 
-/// Two conditions as the columns a and b; with `are_paired`, of the people who have a value
-/// under both. Throws `core::Error` that begins with `name` where there are not two.
+/// Two conditions as the columns a and b. With `are_paired` they hold only people who have a
+/// value under both. Throws `core::Error` that begins with `name` if there are not two
+/// conditions.
 [[nodiscard]] ComparedColumns two_conditions(const LongGroup& group, bool are_paired,
                                              const std::string& name);
 

@@ -12,7 +12,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// Rows are people, columns conditions.
+/// A matrix with people as rows and conditions as columns.
 Eigen::MatrixXd table_of(const RepeatedMeasures& data) {
   const std::size_t width = data.values.empty() ? 0 : data.values.front().size();
   Eigen::MatrixXd table(data.values.size(), width);
@@ -40,7 +40,7 @@ OmnibusTest started(const char* method, const char* statistic, const Eigen::Matr
   return test;
 }
 
-/// Each person's values less their mean, and the rest less the mean of its condition.
+/// Subtracts from each value its person's mean, and from the result its condition's mean.
 Eigen::MatrixXd residuals_of(const Eigen::MatrixXd& table) {
   Eigen::MatrixXd rest = table.colwise() - table.rowwise().mean();
   rest.rowwise() -= rest.colwise().mean().eval();
@@ -54,7 +54,8 @@ SphericityCorrection corrected(double epsilon, const OmnibusTest& test) {
 }
 
 void correct_for_sphericity(OmnibusTest& test, const Eigen::MatrixXd& rest) {
-  // Rows and columns of this covariance sum to 0: it is that of all contrasts of conditions.
+  // Rows and columns of this covariance sum to 0, so it is the covariance of all contrasts of
+  // conditions.
   const Eigen::MatrixXd covariance = rest.transpose() * rest;
   const double trace = covariance.trace();
   const double n = test.num_people, contrasts = *test.degrees_of_freedom;
@@ -63,7 +64,8 @@ void correct_for_sphericity(OmnibusTest& test, const Eigen::MatrixXd& rest) {
   test.greenhouse_geisser = corrected(epsilon, test);
   const double above = n * contrasts * epsilon - 2.0;
   const double below = contrasts * (n - 1.0 - contrasts * epsilon);
-  // With as few people as conditions the correction runs away; it is never below the other.
+  // With no more people than conditions the Huynh-Feldt correction diverges. It is never below
+  // the other correction.
   test.huynh_feldt =
       corrected(below > 0.0 ? std::clamp(above / below, epsilon, 1.0) : 1.0, test);
 }

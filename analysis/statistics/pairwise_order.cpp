@@ -11,7 +11,7 @@ namespace {
 
 using core::kInfinity;
 
-/// Numbers as integers in the same order, so that halving an interval ends after 64 steps.
+/// Maps numbers to integers in the same order, so that halving an interval ends after 64 steps.
 std::int64_t ordinal_of(double value) {
   const auto bits = std::bit_cast<std::int64_t>(value);
   return bits >= 0 ? bits : std::numeric_limits<std::int64_t>::min() - bits;
@@ -22,7 +22,7 @@ double number_at(std::int64_t ordinal) {
       ordinal >= 0 ? ordinal : std::numeric_limits<std::int64_t>::min() - ordinal);
 }
 
-/// The smallest number that more than `place` pairs do not exceed.
+/// The smallest number that is at least as large as more than `place` of the pairs.
 template <typename CountUpTo>
 double smallest_with(std::size_t place, const CountUpTo& count_up_to) {
   std::int64_t low = ordinal_of(-kInfinity), high = ordinal_of(kInfinity);
@@ -34,14 +34,14 @@ double smallest_with(std::size_t place, const CountUpTo& count_up_to) {
       low = middle + 1;
     }
   }
-  return number_at(low) + 0.0;  // No -0.
+  return number_at(low) + 0.0;  // Adding 0 turns -0 into 0.
 }
 
 }  // namespace
 
 double walsh_average_at(const std::vector<double>& ascending, std::size_t place) {
   return smallest_with(place, [&](double most) {
-    // Of the ordered pairs every one but those of a value with itself counts twice.
+    // Among the ordered pairs, each counts twice except those of a value with itself.
     std::size_t pairs = 0, own = 0;
     std::size_t end = ascending.size();
     for (const double x : ascending) {

@@ -18,7 +18,8 @@ namespace {
 constexpr double kMostArrangements = 1 << 20;
 constexpr int kNumDrawn = 99999;
 
-/// Arrangements whose sum is as far out as the observed, but for rounding.
+/// Counts arrangements whose sum is at least as far from 0 as the observed one, apart from
+/// rounding.
 class AsFarOut {
  public:
   AsFarOut(double observed, double rounding) : least_(std::fabs(observed) - rounding) {}
@@ -28,7 +29,7 @@ class AsFarOut {
     all_ += 1.0;
   }
   [[nodiscard]] double share() const { return num_ / all_; }
-  /// The observed arrangement is one of those that could have been drawn.
+  /// The observed arrangement counts as one of those that could have been drawn.
   [[nodiscard]] double share_of_drawn() const { return (num_ + 1.0) / (all_ + 1.0); }
 
  private:
@@ -42,7 +43,7 @@ double rounding_of(const std::vector<double>& values) {
   return 1e-12 * sum;
 }
 
-/// Every combination of signs, from one to the next by turning one of them (Gray code).
+/// Visits every combination of signs. Each step changes one sign (Gray code).
 double exact_of_signs(std::vector<double> values) {
   double sum = std::accumulate(values.begin(), values.end(), 0.0);
   AsFarOut far(sum, rounding_of(values));
@@ -76,8 +77,8 @@ double num_ways(std::size_t num_a, std::size_t num) {
   return ways;
 }
 
-/// Every choice of the first group's members; `values` have mean 0, so that the sum over one
-/// group tells the difference of the means.
+/// Visits every choice of the first group's members. `values` have mean 0, so the sum over one
+/// group determines the difference of the means.
 double exact_of_groups(const std::vector<double>& values, std::size_t num_a) {
   const double observed =
       std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(num_a), 0.0);
@@ -97,7 +98,7 @@ double drawn_of_groups(std::vector<double> values, std::size_t num_a) {
   AsFarOut far(std::accumulate(values.begin(), middle, 0.0), rounding_of(values));
   core::RandomStream random(1, "permutations");
   for (int draw = 0; draw < kNumDrawn; ++draw) {
-    // The first so many of a shuffle are a random choice.
+    // After a partial shuffle the first `num_a` values are a random choice.
     for (std::size_t i = 0; i < num_a; ++i) {
       std::swap(values[i],
                 values[i + static_cast<std::size_t>(random.below(values.size() - i))]);
@@ -109,8 +110,8 @@ double drawn_of_groups(std::vector<double> values, std::size_t num_a) {
 
 std::string drawn_words() { return ", " + std::to_string(kNumDrawn) + " arrangements drawn"; }
 
-/// A t test with its estimate and effect sizes, and nothing yet of its distribution: that of
-/// the arrangements takes its place.
+/// Turns a t test into a permutation test. It keeps the estimate and effect sizes and removes
+/// what depends on the distribution, which that of the arrangements replaces.
 Comparison of_arrangements(Comparison result, Comparison::Kind kind, const char* method) {
   result.kind = kind;
   result.method = method;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLargestExactPairs = 14;
 
-/// Of everybody's ranks in the smallest whole numbers: doubled only where there are ties.
+/// The ranks as the smallest possible whole numbers. They stay doubled only if there are ties.
 std::vector<std::int64_t> whole(const Ranks& ranks, bool doubled) {
   std::vector<std::int64_t> numbers = ranks.doubled;
   for (std::int64_t& rank : numbers) rank /= doubled ? 1 : 2;
@@ -35,8 +35,8 @@ std::optional<double> finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Median of the differences a - b, and those of them that the test without ties keeps: none
-/// of two constants, whose differences are all alike.
+/// Fills in the median of the differences a - b, and the interval that the test without ties
+/// keeps. There is no interval for two constants, whose differences are all equal.
 void fill_shift(Comparison& result, std::vector<double> a, std::vector<double> b, bool exact) {
   std::sort(a.begin(), a.end());
   std::sort(b.begin(), b.end());
@@ -57,8 +57,8 @@ void fill_shift(Comparison& result, std::vector<double> a, std::vector<double> b
   }
 }
 
-/// Spearman's p where the distribution is counted, or the ranks agree wholly, of which there is
-/// but one pairing besides those that exchange ties.
+/// The exact p of Spearman's correlation, if the distribution can be counted or if the ranks
+/// agree completely. Only one pairing agrees completely, apart from exchanges of ties.
 std::optional<double> exact_spearman_p(const Ranks& a, const Ranks& b, double r) {
   const std::size_t num = a.doubled.size();
   if (num <= kLargestExactPairs) {

@@ -16,12 +16,12 @@ void require_at_most(std::size_t num, std::size_t most) {
                 static_cast<double>(num));
 }
 
-/// Ways to reach a sum, from `lowest` on.
+/// The number of ways to reach each sum, from `lowest` on.
 struct Ways {
   std::int64_t lowest = 0;
   std::vector<double> num;
 
-  /// Every way of `other`, with `step` added to its sum.
+  /// Adds every way of `other`, with `step` added to its sum.
   void add(const Ways& other, std::int64_t step) {
     const std::int64_t first = other.lowest + step;
     const std::int64_t end = first + std::ssize(other.num);
@@ -81,7 +81,7 @@ RankDistribution rank_sum_distribution(const std::vector<std::int64_t>& ranks,
   require_at_most(ranks.size(), kMostRanks);
   core::require(num_a <= ranks.size(), "num_a", "no more than there are ranks",
                 static_cast<double>(num_a));
-  // By how many ranks were taken so far.
+  // Indexed by the number of ranks taken so far.
   std::vector<Ways> ways(num_a + 1);
   ways[0] = {.lowest = 0, .num = {1.0}};
   for (const std::int64_t rank : ranks) {
@@ -97,7 +97,8 @@ RankDistribution rank_product_distribution(const std::vector<std::int64_t>& rank
   require_at_most(ranks_a.size(), kMostPaired);
   core::require(ranks_a.size() == ranks_b.size(), "ranks_b", "as many ranks as of a",
                 static_cast<double>(ranks_b.size()));
-  // By which ranks of b are taken, bit by bit; one layer for each rank of a.
+  // The keys say, bit by bit, which ranks of b are taken. There is one layer for each rank of
+  // a.
   std::map<std::uint32_t, Ways> layer = {{0U, {.lowest = 0, .num = {1.0}}}};
   for (const std::int64_t rank : ranks_a) {
     std::map<std::uint32_t, Ways> next;

@@ -12,33 +12,33 @@
 namespace jnd::analysis {
 namespace {
 
-/// The z that is exceeded with this probability; finite.
+/// The z that is exceeded with this probability. It is always finite.
 double z_above(double probability) {
   constexpr double kSmallest = std::numeric_limits<double>::min();
-  // Of the smaller tail, where the digits are.
+  // The smaller tail has more accurate digits.
   if (probability > 0.5) return -z_above(1.0 - probability);
   return normal_quantile_above(std::max(probability, kSmallest));
 }
 
-/// The z that is exceeded as often as this t.
+/// The z that is exceeded with the same probability as this t.
 double z_of_t(double t, double degrees_of_freedom) {
   return std::copysign(z_above(student_t_above(std::fabs(t), degrees_of_freedom)), t);
 }
 
-/// Where a statistic with mean `mean` and sd 1 is beyond the boundary as often as a noncentral
-/// t is beyond that of t: at mean 0 it is the boundary of z itself.
+/// The boundary that a normal statistic with mean `mean` and standard deviation 1 exceeds as
+/// often as a noncentral t exceeds the boundary of t. At mean 0 it is the boundary of z itself.
 double boundary_under(double z_boundary, double degrees_of_freedom, double mean) {
   if (!std::isfinite(z_boundary)) return z_boundary;
   const double tail = 0.5 * std::erfc(z_boundary / std::sqrt(2.0));
   const double t_boundary = student_t_quantile_above(tail, degrees_of_freedom);
-  // So far out that nearly all or none of it is beyond: the approximation of Johnson and Welch
-  // (1940) says which.
+  // Here almost all or nothing lies beyond the boundary. The approximation of Johnson and Welch
+  // (1940) decides which.
   constexpr double kFar = 30.0;
   if (std::fabs(mean) > kFar) {
     const double spread = std::sqrt(1.0 + 0.5 * t_boundary * t_boundary / degrees_of_freedom);
     return z_boundary + mean * (1.0 - 1.0 / spread);
   }
-  // Where the series do not converge, what they came to is near enough 0 or 1.
+  // If a series does not converge, its last value is close enough to 0 or 1.
   const double above =
       std::clamp(noncentral_t_above(t_boundary, degrees_of_freedom, mean), 0.0, 1.0);
   const double below =
@@ -60,7 +60,7 @@ double SequentialEstimate::probability_above(double effect) const {
   const std::vector<int>& looks = boundaries_.rule.looks;
   const std::size_t num_taken = outcome_.estimates.size();
   const EffectEstimate& last = *outcome_.estimates.back();
-  // One-sided, the whole is turned so that its boundary is above.
+  // If the test is one-sided, signs are turned so that the boundary is above.
   const bool is_turned = boundaries_.rule.tail == Tail::kLess;
   const double sign = is_turned ? -1.0 : 1.0;
   const double people = looks[num_taken - 1];
@@ -107,7 +107,7 @@ double SequentialEstimate::p_value() const {
 std::optional<double> SequentialEstimate::effect_at(double probability) const {
   const EffectEstimate& last = *outcome_.estimates.back();
   double low = last.effect, high = low, reach = last.standard_error;
-  // The larger the effect, the likelier an outcome further up.
+  // The larger the effect, the more likely is a higher outcome.
   constexpr int kDoublings = 12;
   for (int i = 0; i < kDoublings && probability_above(low) >= probability; ++i) {
     low -= reach;

@@ -9,8 +9,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// How many of the ordered differences lie outside the interval of the median at either end:
-/// the most of which chance puts at most 2.5 % below it.
+/// The number of ordered differences that lie outside the interval of the median at each end.
+/// It is the largest number for which the tail probability is at most 2.5 %.
 std::size_t num_outside(std::size_t num_values) {
   const auto n = static_cast<double>(num_values);
   std::size_t outside = 0;

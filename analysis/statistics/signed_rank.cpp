@@ -11,11 +11,11 @@
 namespace jnd::analysis {
 namespace {
 
-constexpr double kNormalQuantile = 1.959963984540054;  ///< 97.5 %
+constexpr double kNormalQuantile = 1.959963984540054;  ///< The 97.5 % quantile.
 constexpr double kContinuity = 0.5;
 
-/// Median of the Walsh averages, and those of them that the test without ties keeps: none of
-/// differences that are all alike.
+/// Fills in the median of the Walsh averages, and the interval that the test without ties
+/// keeps. There is no interval if all differences are equal.
 void fill_median(SignedRanks& result, std::vector<double> nonzero) {
   std::sort(nonzero.begin(), nonzero.end());
   const std::size_t num = nonzero.size(), num_means = num * (num + 1) / 2;

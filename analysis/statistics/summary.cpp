@@ -11,12 +11,12 @@
 namespace jnd::analysis {
 namespace {
 
-/// Fewer draw too few different resamples: two persons give three.
+/// Fewer participants give too few different resamples: two give three.
 constexpr std::size_t kFewestParticipants = 5;
 
-/// The tail that gives a bootstrap of n values the reach of Student's t: plain percentiles are
-/// too narrow by sqrt((n-1)/n) and by the normal's shorter tails (Hesterberg 2015, expanded
-/// percentiles).
+/// The tail probability that gives a bootstrap of n values the reach of Student's t. Plain
+/// percentiles are too narrow, by sqrt((n-1)/n) and by the shorter tails of the normal
+/// distribution (Hesterberg 2015, expanded percentiles).
 double expanded_tail(std::size_t num_values) {
   if (num_values < 2) return 0.025;
   const auto n = static_cast<double>(num_values);
@@ -69,7 +69,8 @@ Summary summary_of(const std::vector<double>& values) {
 
 namespace {
 
-/// Statistics of resamples, ascending, and how many had none.
+/// The values of a statistic over all resamples, ascending, and the number of resamples without
+/// a value.
 struct Resamples {
   std::vector<double> values;
   int num_undefined = 0;
@@ -136,7 +137,7 @@ ResampledInterval factor_interval(const Resamples& all, std::size_t num_particip
           .num_undefined = all.num_undefined};
 }
 
-/// One as several.
+/// Wraps one statistic as a list of statistics.
 ResampledStatistics only(
     const std::function<std::optional<double>(const std::vector<std::size_t>&)>& statistic) {
   return [&statistic](const std::vector<std::size_t>& drawn,

@@ -8,8 +8,8 @@
 namespace jnd::analysis {
 namespace {
 
-// Nouns that are counted, and words of lower layers and of names, which `said_of` gets: here
-// for the catalogue.
+// This lists counted nouns, and words of lower layers and of names, which go through `said_of`.
+// It puts them into the catalogue.
 [[maybe_unused]] constexpr const char* kWordsOfOthers[] = {
     said_later("participant"),
     said_later("participants"),
