@@ -12,10 +12,11 @@
 
 namespace jnd::app::gui {
 
-/// Where a study stands: how many are done, who comes next, whether the sessions went well.
+/// Where a study stands: how many participants are done, who comes next, and whether the
+/// sessions went well.
 class OverviewScreen final : public Screen {
  public:
-  /// `request`: the seed that the command line asks for. All outlive it.
+  /// `request` holds the seed that the command line asks for. All arguments outlive the screen.
   OverviewScreen(ScreenHost& host, OpenStudy& study, const WindowRequest& request)
       : host_(host), study_(study), request_(request) {}
   [[nodiscard]] const char* name() const noexcept override { return "overview"; }
@@ -27,15 +28,15 @@ class OverviewScreen final : public Screen {
   void forget_study() override;
 
  private:
-  /// Writes something down, and reads the study anew; why it does not work stands in the
-  /// dialog, which stays open.
+  /// Stores something by `work`, and reads the study again. If it fails, the dialog stays open
+  /// and shows the reason.
   void write(OverviewState::Dialog dialog, const std::function<void()>& work);
 
   ScreenHost& host_;
   OpenStudy& study_;
   const WindowRequest& request_;
   std::unique_ptr<BackgroundTask<StudyOverview>> task_;
-  std::optional<StudyOverview> overview_;  ///< As it was read last.
+  std::optional<StudyOverview> overview_;  ///< The overview that was read last.
   std::string problem_;
   bool was_working_ = false;
   OverviewState state_;

@@ -9,7 +9,7 @@
 
 namespace jnd::app::gui {
 
-/// The results of a study, computed beside the window whenever it is shown.
+/// The results of a study. They are computed in the background whenever the screen is shown.
 class ResultsScreen final : public Screen {
  public:
   ResultsScreen(ScreenHost& host, OpenStudy& study) : host_(host), study_(study) {}

@@ -6,7 +6,7 @@
 
 namespace jnd::app::gui {
 
-/// The sessions of a study: what was run, what can be resumed, whether all of it is safe.
+/// The sessions of a study: what was run, what can be resumed, and whether all of it is safe.
 class SessionsScreen final : public Screen {
  public:
   SessionsScreen(ScreenHost& host, OpenStudy& study) : host_(host), study_(study) {}

@@ -9,7 +9,7 @@
 
 namespace jnd::app::gui {
 
-// The parts of the run view, a file each.
+// The parts of the run view, each in a file of its own.
 
 inline constexpr float kRunHeader = 56;
 
@@ -22,12 +22,13 @@ void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewSta
 void draw_live_panel(Ui& ui, const Rect& place, const SessionView& view,
                      const std::vector<TracePoint>& trace);
 void draw_correct_dialog(Ui& ui, RunViewState& run, RunViewResult& result);
-/// Over everything while it waits: the answer is stored or not, by S and F2.
+/// Draws the dialog about an answer that seems doubtful. It lies over everything else while the
+/// session waits; S stores the answer, and F2 goes back.
 void draw_doubt_dialog(Ui& ui, const DoubtView& doubt, RunViewResult& result);
 void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
                      RunViewResult& result);
 
-/// The card in the middle, by what the session waits for.
+/// Draws the card in the middle, which depends on what the session waits for.
 void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
                    const std::vector<TracePoint>& trace, AfterSession& after,
                    RunViewState& state, RunViewResult& result);
@@ -38,34 +39,35 @@ void draw_item_card(Ui& ui, const Rect& place, const SessionView& view, RunViewS
                     RunViewResult& result);
 void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSession& after,
                      RunViewState& state, RunViewResult& result);
-/// How high the pad is above that much else on a card: half of it wherever the rest has room,
-/// so that it stays where it is from step to step.
+/// The height of the pad on a card with `below` logical pixels of other things. It is half of
+/// the card if the rest has room, so that the pad keeps its size from step to step.
 [[nodiscard]] float pad_height(const Rect& card, float below) noexcept;
-/// Where the mouse moves the hand.
+/// Draws the pad on which the mouse moves the hand.
 void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
               const std::vector<TracePoint>& trace, RunViewState& state);
 
-/// A scale as on paper: a row of steps from 1 between two words. The keys are the numbers
-/// themselves, 0 for ten. `selected`: the step that stands; 0 for none. `name`: what the names
-/// of its buttons begin with. Returns the step that was chosen in this frame, or 0.
+/// Draws a scale as on paper: a row of steps, counted from 1, between two words. The keys are
+/// the numbers themselves, with 0 for ten. `name` begins the names of the buttons. `selected`
+/// is the step chosen so far, or 0 for none. Returns the step that was chosen in this frame, or
+/// 0.
 [[nodiscard]] int draw_scale(Ui& ui, const Rect& place, const std::string& name, int num_steps,
                              const std::string& low_label, const std::string& high_label,
                              int selected = 0);
 
-/// How high the row is that "Store as adverse event" needs of its own above the buttons of a
-/// dialog with so much room: 0 where it stands beside them.
+/// The height of an extra row for "Store as adverse event" above the buttons of a dialog with
+/// this width of `room`; 0 if the button fits beside them.
 [[nodiscard]] float adverse_row(const Ui& ui, float room, std::string_view verb,
                                 std::string_view adverse);
 
 void open_dialog(RunViewState& state, RunViewState::Dialog dialog);
-/// Why, once the pause that was asked for here holds.
+/// Asks for the reason once the pause that was requested here has begun.
 void ask_why_paused(const SessionView& view, RunViewState& state);
 
-/// "41:07"
+/// Minutes and seconds, such as "41:07"; with hours, such as "1:02:03".
 [[nodiscard]] std::string clock_words(double seconds);
-/// "18 min", "40 s"
+/// A duration in round words: "18 min", "40 s".
 [[nodiscard]] std::string about_words(double seconds);
-/// In typographic quotes; "" for nothing.
+/// The words in typographic quotes; "" if there are none.
 [[nodiscard]] std::string in_quotes(std::string_view words);
 
 }  // namespace jnd::app::gui
