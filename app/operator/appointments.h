@@ -23,7 +23,7 @@ struct ScheduleLine {
   State state = State::kComing;
 };
 
-/// The appointments in the order of their times. Somebody who is up to ten minutes late has not
+/// The appointments in the order of their times. Somebody who is up to 15 minutes late has not
 /// missed theirs.
 [[nodiscard]] std::vector<ScheduleLine> schedule_of(
     const std::vector<core::AppointmentRow>& appointments, const StudyFolder& study,
