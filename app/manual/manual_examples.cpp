@@ -11,7 +11,7 @@ struct ExampleRow {
   std::string_view command, call, meaning;
 };
 
-// A test holds each call against the tree: its command, and every option in it.
+// A test compares each call with the tree: its command, and every option in it.
 constexpr std::array kExampleRows = {
     ExampleRow{"jnd", "jnd", "opens the window"},
     ExampleRow{"jnd", "jnd demo --fast", "runs both studies of the thesis in a few seconds"},

@@ -9,17 +9,17 @@ namespace jnd::app {
 
 /// A call that shows what a command is for.
 struct ManualExample {
-  std::string call;     ///< "jnd validate my_study.json"
+  std::string call;     ///< Such as "jnd validate my_study.json".
   std::string meaning;  ///< One phrase.
 };
 
-/// Those of the command of this name, "jnd fit weber"; none if it has none.
+/// The examples of the command with this name, such as "jnd fit weber"; empty if it has none.
 [[nodiscard]] std::vector<ManualExample> manual_examples(const std::string& name);
 
-/// "jnd-fit-weber.1"
+/// The name of the command's page, such as "jnd-fit-weber.1".
 [[nodiscard]] std::string manual_file_name(const ManualCommand& command);
 
-/// The page of the command, in the macros of man(7). `root`: the whole tree.
+/// The command's page in the macros of man(7). `root` is the whole tree.
 [[nodiscard]] std::string manual_page(const ManualCommand& command, const ManualCommand& root,
                                       const std::string& version);
 
