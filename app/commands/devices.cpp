@@ -24,11 +24,11 @@ namespace {
 constexpr double kUsualRateHz = 1000.0;
 
 struct DevicesOptions {
-  std::string device;  ///< "plugin:PATH"; "": all.
+  std::string device;  ///< "plugin:PATH", or "" for all devices.
   bool json = false;
 };
 
-/// What was measured of the device; null: nothing is found.
+/// What was measured of the device; null if no profile is found.
 nlohmann::ordered_json profile_json(const FoundProfile& found) {
   if (!found.known) return nullptr;
   const experiments::DeviceProfile& profile = found.known->profile;
@@ -47,7 +47,7 @@ std::string profile_words(const FoundProfile& found) {
   return found.problem.empty() ? words : found.problem;
 }
 
-/// What a driver of somebody else's says of its device.
+/// Prints what somebody else's driver says about its device.
 int describe_plugin(const DevicesOptions& options) {
   if (device::kind_of(options.device) != "plugin") {
     throw UsageError("--device: expected plugin:PATH, found `" +

@@ -31,7 +31,7 @@ int write_man_pages(const CLI::App& program, const std::filesystem::path& folder
 
 }  // namespace
 
-/// For whoever makes a package: `--help` does not list it.
+/// This command is for people who make packages, so `--help` does not list it.
 void add_man_pages(CLI::App& program, Invocation& invocation) {
   CLI::App* command =
       program.add_subcommand("man-pages", "Writes a manual page for each command")->group("");

@@ -22,8 +22,9 @@ namespace {
 
 struct ValidateOptions {
   std::vector<std::string> files;
-  std::string device;   ///< "": a study by itself.
-  std::string profile;  ///< Of the device, a file; "": a real device's own is looked for.
+  std::string device;  ///< "" checks the study alone.
+  /// The file of the device's profile; if "", a real device's own is looked for.
+  std::string profile;
   double speed_m_per_s = 0.5;
   bool json = false;
 };
@@ -41,7 +42,7 @@ std::vector<experiments::StudyProblem> problems_of(const std::filesystem::path& 
   return device_problems(file, options.device, profile, options.speed_m_per_s);
 }
 
-/// What is said of a file without a problem.
+/// What is said about a file without problems.
 std::string praise(const std::filesystem::path& file, const ValidateOptions& options) {
   if (is_profile(file)) {
     const experiments::DeviceProfile profile = experiments::read_device_profile(file);
