@@ -108,7 +108,7 @@ bool is_of(const experiments::DeviceProfile& profile, const CommissioningResults
 
 /// Adds attempts that failed after what counts, because whoever signs has to know of them.
 void add_failures(const CommissioningRecord& record, std::vector<std::string>& lacks) {
-  std::map<std::string, const RecordedEntry*> last;  // By step.
+  std::map<std::string, const RecordedEntry*> last;  // The last attempt at each step.
   for (const RecordedEntry& entry : record.entries) last[entry.step] = &entry;
   for (const auto& [step, entry] : last) {
     if (entry->fate != RecordedFate::kFailed) continue;

@@ -11,7 +11,7 @@ struct SceneCamera {
   double azimuth_rad = 0.0;
   /// Within a right angle of level; a negative value looks down.
   double elevation_rad = 0.0;
-  double distance_m = 1.0;  ///< In [0.25, 5].
+  double distance_m = 1.0;  ///< The distance from `look_at_m`, in [0.25, 5].
   std::array<double, 3> look_at_m{};
 
   friend bool operator==(const SceneCamera&, const SceneCamera&) = default;

@@ -352,7 +352,7 @@ class RecordReader {
   SessionState state_;
   double told_ = 0.0;  ///< The time of the last event, as in `RecordSpan`.
   bool pause_is_open_ = false;
-  std::map<std::int64_t, Past> past_;  ///< By trial.
+  std::map<std::int64_t, Past> past_;  ///< The answers so far, by trial number.
   std::vector<std::int64_t> fault_ticks_;
   std::map<std::string, std::int64_t> num_warnings_;
 };

@@ -27,7 +27,7 @@ struct RecordAnswer {
   int in_block = 1;
   /// Such as "1.65 Pa s, reference 1.85 Pa s"; "" where it is hidden.
   std::string stimulus;
-  std::string answer;  ///< In words.
+  std::string answer;  ///< The answer in words.
   AnswerForm form;
   std::optional<double> response_time_s;
   /// When it was given, in the time of `RecordSpan`.

@@ -21,7 +21,7 @@ enum class Step {
   kItem,
   kMedium,      ///< A medium waits to be felt outside of any trial.
   kFeeling,     ///< Such a medium is being felt.
-  kBreak,       ///< A break.
+  kBreak,       ///< The participant has a break.
   kRest,        ///< The free space before a trial is not over yet.
   kReady,       ///< The trial waits for its first presentation.
   kPresenting,  ///< A stimulus of a trial, or free space in it, is being felt.

@@ -24,8 +24,8 @@ struct InterruptedSession {
   int num_trials = 0;
   /// The answers decide how many trials there are.
   bool num_is_expected = false;
-  std::int64_t num_answers = 0;  ///< On disk.
-  double recorded_min = 0.0;     ///< On disk.
+  std::int64_t num_answers = 0;  ///< The answers that are on disk.
+  double recorded_min = 0.0;     ///< The length of the recording on disk.
   /// Such as "today"; "" for a simulated session, which has no date.
   std::string when;
   bool pilot = false, simulated = false;

@@ -35,7 +35,7 @@ struct OutlineStage {
 struct StudyOutline {
   std::filesystem::path file;
   std::string name, title, description;
-  std::string authors, languages, blinding, device, sound;  ///< In words.
+  std::string authors, languages, blinding, device, sound;  ///< Each is in words.
   std::string citation;  ///< The publication that the study follows; may be empty.
   bool hides_levels = false;
   std::vector<OutlineStage> stages;

@@ -83,7 +83,7 @@ Spread spread_of(const std::vector<double>& values) {
 PlanStatistics plan_statistics(const Study& study, const std::vector<ParticipantPlan>& plans,
                                const Laboratory& laboratory, std::uint64_t seed) {
   PlanStatistics statistics{.orders = order_statistics(plans)};
-  std::map<std::string, std::vector<double>> num_trials;  // By adaptive block.
+  std::map<std::string, std::vector<double>> num_trials;  // By the name of an adaptive block.
   std::map<std::string, std::vector<double>> felt_s;      // The time of a trial, by block.
   for (const ParticipantPlan& plan : plans) {
     for (const PlannedBlock& block : plan.blocks) {

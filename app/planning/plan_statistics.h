@@ -31,8 +31,8 @@ struct TrialLength {
 /// How often an adaptive block reaches the ends of its levels. A participant who is often there
 /// has a threshold beyond.
 struct LevelEnds {
-  double lowest_ratio = 0.0,
-         highest_ratio = 0.0;  ///< The shares of all trials that are at either end.
+  /// The shares of all trials that are at the lowest and at the highest level.
+  double lowest_ratio = 0.0, highest_ratio = 0.0;
 };
 
 /// The numbers of a plan over all of its participants.

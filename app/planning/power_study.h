@@ -40,7 +40,7 @@ struct PowerDesign {
   std::string program_version;
   PowerRequest request;  ///< With `compare` as it was chosen.
   analysis::PlannedAnalysis analysis;
-  std::vector<PlannedDuration> durations;  ///< By size.
+  std::vector<PlannedDuration> durations;  ///< One for each of `request.sizes`.
   /// Blocks that count for durations only, such as "threshold (staircase, yes_no)".
   std::vector<std::string> left_out;
 };

@@ -33,8 +33,8 @@ class RunningSession {
     /// Device, real time and exchange. What the study and the session's log decide is filled
     /// in.
     Apparatus::Parameters apparatus;
-    const experiments::Laboratory* laboratory =
-        nullptr;  ///< The laboratory of a simulated hand, if any.
+    /// The laboratory of a simulated hand, if any.
+    const experiments::Laboratory* laboratory = nullptr;
     /// Called after the event's commit; may be empty.
     std::function<void(const core::EventRow&)> on_event;
     /// The session is resumed only to be ended, so nothing more is felt.

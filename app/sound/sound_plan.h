@@ -29,7 +29,8 @@ struct SoundPlan {
   struct Part {
     experiments::Sound sound;
     int noise = core::SoundMixer::kNoNoise;
-    std::array<std::optional<std::size_t>, 3> cues{};  ///< By moment.
+    /// The index in the plan's `cues` for each `CueMoment`; empty if that moment has no cue.
+    std::array<std::optional<std::size_t>, 3> cues{};
   };
   std::vector<core::LevelledNoise> noises;
   std::vector<core::Tone> cues;
