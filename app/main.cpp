@@ -30,13 +30,13 @@ int failed(int code, const char* sentence) {
   return code;
 }
 
-/// Whoever read our output has closed it, like `head` that has seen enough.
+/// True if the reader of our output has closed it, as `head` does when it has seen enough.
 bool reader_is_gone() {
   pollfd out{.fd = STDOUT_FILENO, .events = 0, .revents = 0};
   return ::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
 }
 
-/// A result that could not be printed is none, unless nobody wants it any more.
+/// A result that could not be printed counts as an error, unless nobody wants it any more.
 int printed(int code) {
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (written || code != jnd::app::kDone || reader_is_gone()) return code;
@@ -63,7 +63,8 @@ int invoke(int argc, char** argv) {
     if (invocation.run) return invocation.run();
     return app::open_window({});
   } catch (const CLI::ParseError& error) {
-    // CLI11 has codes of its own: asking for help is 0, everything else is wrong usage.
+    // CLI11 has exit codes of its own: asking for help is 0, and everything else is wrong
+    // usage.
     if (error.get_exit_code() == 0) return program.exit(error);
     return failed(app::kWrongUsage, app::usage_message(program, error).c_str());
   } catch (const app::EnvironmentError& error) {
@@ -84,7 +85,8 @@ int invoke(int argc, char** argv) {
     if (asks_for_json(argc, argv)) std::puts(app::error_json(told).c_str());
     return failed(app::kHasProblems, told.what());
   } catch (const std::exception& error) {
-    if (std::ferror(stdout) != 0) return app::kDone;  // `printed` tells.
+    // `printed` tells about it.
+    if (std::ferror(stdout) != 0) return app::kDone;
     return failed(app::kOwnFault, error.what());
   }
 }
@@ -92,9 +94,10 @@ int invoke(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A reader of ours that goes away must not take a session with it.
+  // If a reader of our output disappears, the session must not end.
   std::signal(SIGPIPE, SIG_IGN);
-  // Whatever it writes, exports and reports too, tells of persons: for its owner only.
+  // Everything that the program writes, including exports and reports, contains personal data,
+  // so only its owner may read it.
   ::umask(S_IRWXG | S_IRWXO);
   return printed(invoke(argc, argv));
 }

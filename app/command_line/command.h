@@ -13,16 +13,17 @@ class App;
 
 namespace jnd::app {
 
-/// Exit codes of the program, a contract.
+/// The program's exit codes, on which others rely.
 enum ExitCode : int {
   kDone = 0,
-  kHasProblems = 1,  ///< The thing asked about has problems.
+  kHasProblems = 1,  ///< What the command was asked about has problems.
   kWrongUsage = 2,
-  kEnvironmentLacks = 3,  ///< A display, a device, a right is missing.
+  /// A display, a device or a right is missing.
+  kEnvironmentLacks = 3,
   kOwnFault = 4,
 };
 
-/// A wrong use that only shows after parsing: the sentence goes to stderr, exit 2.
+/// A wrong use that shows only after parsing. The sentence goes to stderr, with exit code 2.
 class UsageError : public std::exception {
  public:
   explicit UsageError(std::string message) : message_(std::move(message)) {}
@@ -32,7 +33,7 @@ class UsageError : public std::exception {
   std::string message_;
 };
 
-/// Something of this machine is missing: the sentence goes to stderr, exit 3.
+/// This machine lacks something. The sentence goes to stderr, with exit code 3.
 class EnvironmentError : public UsageError {
  public:
   using UsageError::UsageError;

@@ -21,7 +21,8 @@ CLI::Validator whole_number(std::uint64_t lowest, std::uint64_t highest) {
       return fmt::format("expected a whole number from {} to {}, found `{}`", lowest, highest,
                          text);
     }
-    text = std::to_string(value);  // CLI11 would read leading zeros as octal.
+    // CLI11 would read leading zeros as octal.
+    text = std::to_string(value);
     return "";
   };
   return {check, fmt::format("{} to {}", lowest, highest), "whole number"};

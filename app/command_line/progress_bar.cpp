@@ -13,7 +13,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr int kWidth = 32;
-/// Of what is over by then nothing is said.
+/// Nothing is shown about work that is over by then.
 constexpr seconds kSoon(2);
 constexpr milliseconds kBetweenDrawings(100);
 constexpr seconds kBetweenLines(60);

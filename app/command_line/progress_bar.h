@@ -6,9 +6,9 @@
 
 namespace jnd::app {
 
-/// Progress with time left on stderr, of work that takes more than two seconds: on a terminal
-/// one line that is drawn anew and goes at the end, elsewhere a line a minute. Safe from
-/// several threads.
+/// Shows on stderr the progress and the time left of work that takes more than two seconds: on
+/// a terminal as one line that is drawn again and disappears at the end, elsewhere as a line a
+/// minute. Several threads may use it.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string title);
@@ -16,7 +16,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `done` of 1.
+  /// `done` is the part that is done, from 0 to 1.
   void show(double done);
 
  private:

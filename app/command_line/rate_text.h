@@ -5,8 +5,8 @@
 
 namespace jnd::app {
 
-/// A number from 0 to below 1, also as a fraction of whole numbers such as 1/3; nothing for
-/// another text.
+/// A number from 0 to below 1, also from a fraction of whole numbers such as 1/3; none for any
+/// other text.
 [[nodiscard]] std::optional<double> rate_of(std::string_view text) noexcept;
 
 }  // namespace jnd::app

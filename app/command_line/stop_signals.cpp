@@ -9,7 +9,7 @@ namespace {
 std::atomic<bool> requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 
-/// Only sets the flag: it may come at any moment.
+/// Only sets the flag, because a signal may come at any moment.
 void request_stop(int) { requested = true; }
 
 }  // namespace

@@ -2,11 +2,11 @@
 
 namespace jnd::app {
 
-/// From now on Ctrl-C, SIGTERM and a closed terminal (unless under nohup) ask to stop instead
-/// of ending the program, so that work stops with what is on disk rather than dies with it.
+/// From now on Ctrl-C, SIGTERM and a closed terminal (except under nohup) ask the program to
+/// stop instead of ending it, so that work stops in order with everything on disk.
 void stop_on_signals();
 
-/// Whether one of them came. Any thread.
+/// Whether one of these signals came. Any thread may call it.
 [[nodiscard]] bool stop_requested() noexcept;
 
 }  // namespace jnd::app

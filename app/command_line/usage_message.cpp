@@ -15,7 +15,7 @@
 namespace jnd::app {
 namespace {
 
-/// The subcommand that was asked for, and its words: "fit weber".
+/// The subcommand that was asked for, and its words, such as "fit weber".
 struct Asked {
   const CLI::App* app = nullptr;
   std::string words;
@@ -30,7 +30,7 @@ Asked asked_of(const CLI::App& program) {
   return asked;
 }
 
-/// With every other separator than the last as it is: "a, b or c".
+/// The words as alternatives, such as "a, b or c".
 std::string alternatives(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -71,7 +71,7 @@ std::string unknown_word(const CLI::App& app, const std::string& word) {
                      experiments::did_you_mean(word, known));
 }
 
-/// "an integer" where the option takes one.
+/// What kind of value the option takes, such as "a whole number".
 std::string kind_of(const CLI::App& app, const std::string& name) {
   const CLI::Option* option = app.get_option_no_throw(name);
   if (option == nullptr) return "a number";
@@ -88,10 +88,10 @@ std::string range(const std::string& low, const std::string& high) {
   return fmt::format("from {:.10g} to {:.10g}", from, to);
 }
 
-/// The part after "--name: " in words of ours; none if CLI11 has a form that is not known here.
+/// The part after "--name: " in our words; none if CLI11's form is not known here.
 std::optional<std::string> translated(const CLI::App& app, const std::string& name,
                                       const std::string& detail) {
-  // CLI11 tells the reason as text only. [^] is any character, an end of line too.
+  // CLI11 tells the reason only as text. [^] matches any character, including a line end.
   static const std::regex kRange("Value ([^]*) not in range (\\S+) to (\\S+)");
   static const std::regex kMember("([^]*) not in \\{([^}]*)\\}");
   static const std::regex kAbsent("(Directory|File) does not exist: ([^]*)");
@@ -157,7 +157,7 @@ std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
 
 std::string usage_message(const CLI::App& program, const CLI::ParseError& error) {
   const Asked asked = asked_of(program);
-  // A misspelt option is also a missing one: the misspelling is the cause.
+  // A misspelt option is also a missing one; the misspelling is the cause.
   const std::vector<std::string> unknown = program.remaining(true);
   std::string message = asked.words.empty() ? "" : asked.words + ": ";
   message +=

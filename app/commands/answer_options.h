@@ -8,10 +8,10 @@ class App;
 
 namespace jnd::app {
 
-/// --csv, --yes, --yes-value, --trials and --where.
+/// Adds --csv, --yes, --yes-value, --trials and --where.
 void add_answer_columns(CLI::App& command, AnswerRequest& options);
 
-/// The same with --intensity and --group-by.
+/// Adds the same options, --intensity and --group-by.
 void add_answer_options(CLI::App& command, AnswerRequest& options);
 
 }  // namespace jnd::app

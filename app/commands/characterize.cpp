@@ -61,10 +61,11 @@ int point_named(const std::string& finger) {
                                fmt::join(core::kContactPointNames, ", "), finger));
 }
 
-/// The samples of the next `duration_s`.
+/// Takes the samples of the next `duration_s`.
 void measure(DeviceRun& run, double duration_s,
              const std::function<void(const core::Sample&)>& take) {
-  run.take([](const core::Sample&) {});  // From before.
+  // Drops samples from before.
+  run.take([](const core::Sample&) {});
   const auto wanted = static_cast<std::int64_t>(duration_s * kRate_hz);
   for (std::int64_t taken = 0; taken < wanted;) {
     stop_if_requested();

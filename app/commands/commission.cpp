@@ -61,7 +61,7 @@ CommissioningStep step_of(const std::string& option, const std::string& name) {
   throw UsageError(fmt::format("{}: expected one of {}, found {}", option, known, name));
 }
 
-/// A mark a line: x, y and z in metres, commas between.
+/// Reads one mark from each line: x, y and z in metres, separated by commas.
 std::vector<Eigen::Vector3d> marks_in(const std::string& file) {
   std::vector<Eigen::Vector3d> marks_m;
   if (file.empty()) return marks_m;
@@ -85,7 +85,7 @@ std::vector<Eigen::Vector3d> marks_in(const std::string& file) {
   return marks_m;
 }
 
-/// Says what is to do and waits for Enter.
+/// Says what has to be done, and waits for Enter.
 void ask_in_terminal(const std::string& to_do) {
   std::cerr << to_do << " Then press Enter. " << std::flush;
   std::string line;
@@ -121,12 +121,12 @@ nlohmann::ordered_json check_json(const CheckedQuantity& quantity) {
           {"passed", quantity.passed()}};
 }
 
-/// Compares the device with its profile, and writes what came of it into that.
+/// Compares the device with its profile, and stores the result in the profile.
 int run_daily(const CommissionOptions& options, const MeasuringPlan& plan,
               device::HapticDevice& device, device::Bench& bench) {
   const bool is_simulated = device.capabilities().simulated;
   std::vector<fs::path> folders = profile_folders();
-  // Where the profile of a simulated device was written.
+  // The profile of a simulated device was written to this folder.
   if (is_simulated || !options.out.empty()) {
     folders.insert(folders.begin(),
                    folder_for_profile(options.out, options.record, is_simulated));

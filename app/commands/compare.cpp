@@ -35,7 +35,8 @@ using Json = nlohmann::ordered_json;
 struct CompareOptions {
   std::string csv, test;
   std::vector<std::string> group_by;
-  std::string value, by, pair;  ///< Long format: one value a row; "" for the columns a and b.
+  /// Columns of the long format, with one value in each row; "" for the columns a and b.
+  std::string value, by, pair;
   std::vector<std::string> levels;
   std::optional<double> margin, margin_ratio;
   std::string figure;     ///< "" for none.
@@ -51,7 +52,7 @@ bool is_correlation(const std::string& test) {
   return test == "pearson" || test == "spearman" || test == "kendall";
 }
 
-/// Of several conditions at once.
+/// True for tests that compare several conditions at once.
 bool is_omnibus(const std::string& test) { return test == "anova" || test == "friedman"; }
 
 Comparison compared(const std::string& test, const analysis::ComparedColumns& columns) {
@@ -83,7 +84,7 @@ std::optional<analysis::EquivalenceMargin> margin_of(const CompareOptions& optio
   return analysis::EquivalenceMargin{Scale::kDifference, *options.margin};
 }
 
-/// What was left out of a group in long format, or averaged.
+/// Prints what was left out of a group in long format, or averaged.
 void print_rows(const analysis::LongGroup& group) {
   if (!group.incomplete.empty()) {
     fmt::print("  left out, for they lack a condition: {}\n",
@@ -100,13 +101,14 @@ void print_missing(const analysis::LongTable& table) {
   fmt::print("rows left out, for a cell is empty or NA: {}\n", table.num_missing);
 }
 
-/// The groups of a table with their tests, and the p values adjusted for there being several.
+/// The groups of a table with their tests, and the p values adjusted for the number of tests.
 struct Tests {
   std::vector<analysis::ComparedColumns> columns;
   std::vector<Comparison> results;
   std::vector<std::optional<double>> p_values_holm;
-  std::vector<analysis::EquivalenceTest> equivalences;  ///< Where a margin is given.
-  analysis::LongTable long_table;  ///< Its groups are those above; none of columns a and b.
+  std::vector<analysis::EquivalenceTest> equivalences;  ///< Computed if a margin is given.
+  /// Its groups are those above; it has none if the table has columns a and b.
+  analysis::LongTable long_table;
 };
 
 analysis::LongColumns long_columns(const CompareOptions& options) {
@@ -117,7 +119,7 @@ analysis::LongColumns long_columns(const CompareOptions& options) {
           .levels = options.levels};
 }
 
-/// Throws `UsageError` where the options of long format do not fit the test.
+/// Throws `UsageError` if the options of the long format do not fit the test.
 void require_long_format(const CompareOptions& options) {
   const bool needs_pair = is_paired(options.test);
   if (options.pairwise && !is_omnibus(options.test)) {
@@ -147,7 +149,7 @@ void require_long_format(const CompareOptions& options) {
   }
 }
 
-/// Throws `core::Error` where the table has problems.
+/// Throws `core::Error` if the table has problems.
 Tests tests_of(const CompareOptions& options) {
   Tests tests;
   if (options.value.empty()) {
@@ -217,7 +219,7 @@ void print_group(const std::vector<std::pair<std::string, std::string>>& key) {
   if (!heading.empty()) fmt::print("{}\n", heading);
 }
 
-/// Name of the numbers in a figure.
+/// The name of the numbers in a figure.
 std::string value_name(const CompareOptions& options) {
   return options.value.empty() ? "Value" : options.value;
 }
@@ -278,7 +280,7 @@ void print_for_people(const Tests& tests) {
   }
 }
 
-/// Of several conditions at once, a test for each group.
+/// Runs a test of several conditions at once for each group.
 int run_omnibus(const CompareOptions& options) {
   const analysis::LongTable table = analysis::read_long(options.csv, long_columns(options));
   std::vector<analysis::OmnibusTest> tests;

@@ -8,7 +8,7 @@
 
 namespace jnd::app {
 
-/// "group_d,group_e". Throws `UsageError` for anything but two names.
+/// Reads two names, such as "group_d,group_e". Throws `UsageError` for anything else.
 [[nodiscard]] analysis::BlockNames compared_names(const std::string& text);
 
 /// Adds `--compare FIRST,SECOND`, which may be given several times.

@@ -11,10 +11,11 @@
 
 namespace jnd::app {
 
-/// "0.031"; a p value may be less than any number there is.
+/// A p value as a number, such as "0.031". It may be too small for a double, and is then "<
+/// 1e-300".
 [[nodiscard]] std::string p_words(const std::optional<double>& p_value);
 
-// Tests as people read them, printed to the standard output.
+// These print tests, as people read them, to the standard output.
 
 void print_comparison(const analysis::Comparison& result);
 void print_equivalence(const analysis::EquivalenceTest& test);

@@ -16,7 +16,7 @@
 namespace jnd::app {
 namespace {
 
-/// Names of the shipped files of a folder, sorted: NAME.json, but no schema.
+/// The names of the shipped files in a folder, sorted: NAME.json, but no schemas.
 std::vector<std::string> shipped_names(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   std::error_code ignored;

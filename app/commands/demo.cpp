@@ -33,15 +33,16 @@ struct DemoOptions {
   bool fast = false;
   std::string out;
   std::uint64_t seed = 1;
-  std::string laboratory;  ///< "": the default of the device.
+  std::string laboratory;  ///< "" for the default of the device.
   int jobs = 2;
   std::string device = "lumped";
-  std::string profile;  ///< A file; "": none.
+  std::string profile;  ///< A profile's file; "" for none.
   PredictiveOption predictive;
   bool json = false;
 };
 
-/// Results of a folder beside the simulated people that were asked for, or those shipped.
+/// The results of a folder, compared with the simulated people that were asked for, or with the
+/// shipped ones.
 analysis::StudyResults compared_results(const fs::path& folder,
                                         const PredictiveOption& predictive) {
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);

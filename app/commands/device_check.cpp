@@ -109,8 +109,8 @@ class Outcomes {
   nlohmann::ordered_json rules_ = nlohmann::ordered_json::array();
 };
 
-/// Of the options behind the address, but a device that calls itself simulated need not be
-/// believed.
+/// Follows the options behind the address, but does not believe a device that calls itself
+/// simulated.
 int check_network(const DeviceCheckOptions& options, Outcomes& outcomes) {
   device::NetworkOptions network;
   std::optional<device::DeviceKey> key;
@@ -158,7 +158,7 @@ int check_local(const DeviceCheckOptions& options, const device::RealtimeReport&
     throw UsageError(error.what());
   }
   try {
-    // Opening it may switch its motors on.
+    // Opening the device may turn its motors on.
     device::require_realtime(*device, report,
                              /*allow_no_realtime=*/device->capabilities().simulated);
   } catch (const core::Error& error) {

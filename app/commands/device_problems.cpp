@@ -41,7 +41,7 @@ std::string unstable(const StabilityCheck& check, const std::string& device) {
       words_of(check.attached.stiffness_n_per_m, "N/m"));
 }
 
-/// Twice the 30 N in all that the simulated devices give.
+/// Twice the total force of 30 N that the simulated devices give.
 constexpr double kHardlyMeant_n = 60.0;
 
 }  // namespace

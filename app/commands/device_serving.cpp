@@ -35,9 +35,9 @@ namespace {
 
 constexpr std::int64_t kNsPerS = 1'000'000'000;
 
-/// A device that was used is opened anew for the next program. One that does not open, because
-/// it was unplugged, is tried again once a second: the program at the other end sees that it
-/// cannot be read.
+/// Opens a device again after it was used, for the next program. If that fails, because the
+/// device was unplugged, it is tried again once a second; the program at the other end sees
+/// that the device cannot be read.
 class Renewal {
  public:
   void look(device::DeviceServer& server, std::int64_t now_ns) {
@@ -61,7 +61,8 @@ class Renewal {
 };
 
 /// Steps a server by absolute time until it is told to stop. Returns how many steps were left
-/// out because the machine held this program up: a device's own time goes on by its steps.
+/// out because the machine delayed this program; the device's own time goes on only by its
+/// steps.
 std::int64_t serve(device::DeviceServer& server, device::UdpPort& port,
                    const DeviceServing& options) {
   const std::int64_t period_ns = std::llround(1e9 / options.rate_hz);
@@ -76,7 +77,7 @@ std::int64_t serve(device::DeviceServer& server, device::UdpPort& port,
   while (due_ns < end_ns && !stop_requested()) {
     const timespec due{.tv_sec = static_cast<time_t>(due_ns / kNsPerS),
                        .tv_nsec = static_cast<long>(due_ns % kNsPerS)};
-    // A signal wakes it early: then it ends.
+    // A signal wakes the thread early; then the loop ends.
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) != 0 &&
            !stop_requested()) {
     }
@@ -143,7 +144,8 @@ std::unique_ptr<device::HapticDevice> served_device(const DeviceServing& options
                    "; see `jnd devices`, and `jnd device-server` for a real one");
 }
 
-/// Whoever can send to an address that is not this machine's own could command the device.
+/// An address that others can reach needs a key, because whoever can send to it could command
+/// the device.
 std::optional<device::DeviceKey> key_for(const DeviceServing& options,
                                          const device::Address& address) {
   if (!options.key.empty()) {
@@ -167,7 +169,8 @@ std::vector<device::Address> allowed_hosts(const DeviceServing& options) {
   return hosts;
 }
 
-/// Nobody can be hurt by a simulation, and a busy machine may hold either program up for long.
+/// A simulation gets long timeouts, because it can hurt nobody, and a busy machine may delay
+/// either program for long.
 device::DeviceServer::Parameters parameters_for(bool is_simulated,
                                                 const std::optional<device::DeviceKey>& key) {
   std::random_device draw;
@@ -202,7 +205,7 @@ int serve_device(const DeviceServing& options) {
     key = key_for(options, address);
     port = std::make_unique<device::UdpPort>(address);
     port->accept_only_from(allowed_hosts(options));
-    // Of a simulation, what is not given costs punctuality alone.
+    // For a simulation, missing rights cost only punctuality.
     device::require_realtime(*device, report, /*allow_no_realtime=*/is_simulated);
     device->open();
   } catch (const core::Error& error) {

@@ -37,7 +37,7 @@ struct DevicesOptions {
   bool json = false;
 };
 
-/// What was measured of the device; null: nothing is found.
+/// What was measured of the device; null if no profile is found.
 nlohmann::ordered_json profile_json(const FoundProfile& found) {
   if (!found.known) return nullptr;
   const experiments::DeviceProfile& profile = found.known->profile;

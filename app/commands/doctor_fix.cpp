@@ -25,7 +25,7 @@ std::string name_of_user(uid_t number) {
   return entry == nullptr ? "" : entry->pw_name;
 }
 
-/// Who is going to run sessions: root does so for somebody else.
+/// The user who is going to run sessions, because root sets the machine up for somebody else.
 std::string default_user() {
   if (::geteuid() != 0) return name_of_user(::getuid());
   if (const char* user = std::getenv("SUDO_USER"); user != nullptr) {
@@ -37,7 +37,7 @@ std::string default_user() {
   return "";
 }
 
-/// What a command says goes to stderr, and what it makes can be read by everybody.
+/// Runs a command. Its output goes to stderr, and everybody can read the files that it makes.
 int exit_code_of(const std::string& command) {
   std::fflush(stdout);
   const int status = std::system(("umask 022; { " + command + "; } >&2").c_str());
@@ -67,7 +67,7 @@ void print_fixes(const std::vector<MachineFix>& fixes, const char* before_comman
   }
 }
 
-/// Runs them all, one after the other, and stops at the first that fails.
+/// Runs all commands in turn, and stops at the first one that fails.
 void mend(const std::vector<MachineFix>& fixes) {
   for (const MachineFix& fix : fixes) {
     for (const std::string& command : fix.commands) {

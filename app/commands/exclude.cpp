@@ -22,7 +22,7 @@ struct ExcludeOptions {
   bool include = false;
 };
 
-/// The one session that is meant: trials are counted within a session.
+/// The one session that is meant, because trials are counted within a session.
 core::SessionRow session_meant(const core::StudyStore& store, const ExcludeOptions& options) {
   std::vector<core::SessionRow> meant;
   for (const core::SessionRow& row : store.sessions()) {
@@ -42,7 +42,7 @@ core::SessionRow session_meant(const core::StudyStore& store, const ExcludeOptio
       (options.participant.empty() ? "" : " of " + options.participant) + ", found none");
 }
 
-/// All of them can be, before the first one is.
+/// Checks all trials before the first one is changed.
 void require_trials(const experiments::SessionState& state, const ExcludeOptions& options) {
   const auto num_trials = static_cast<std::int64_t>(state.trials.size());
   for (const std::int64_t trial : options.trials) {

@@ -21,7 +21,7 @@ struct ExportOptions {
   analysis::ExportOptions data;
 };
 
-/// Only where it takes a while and much of a disk.
+/// Tells the size if the export takes a while and much of a disk.
 void tell_size(const ExportOptions& options, const core::StudyStore& store) {
   constexpr double kWorthTelling = 50e6, kTooLargeForMost = 500e6;
   const bool is_text = options.format == "csv" || options.format == "bids";
@@ -37,7 +37,7 @@ void tell_size(const ExportOptions& options, const core::StudyStore& store) {
   std::fflush(stdout);
 }
 
-/// A file of streams holds all of a session, tick by tick.
+/// A file of streams holds the whole session, tick by tick.
 void require_whole_sessions(const ExportOptions& options) {
   if (options.format != "xdf") return;
   const analysis::ExportSelection& selection = options.data.selection;

@@ -32,14 +32,15 @@ using Json = nlohmann::ordered_json;
 struct FitOptions : TableOptions {
   std::string power_method = "nls";
   bool says_method = false;
-  std::string participant;  ///< Column of whose the rows are; "": of nobody in particular.
-  std::string shift;        ///< "": the plain law with standard errors.
+  /// The column that says whose a row is; "" for nobody in particular.
+  std::string participant;
+  std::string shift;  ///< "" for the plain law with standard errors.
   double k1 = 0.0, a1 = 0.0, k2 = 0.0, a2 = 0.0;
   std::vector<double> intensities;
 };
 
-/// "95 % 0.32 to 1.6, standard error 0.3", or why there is no interval. k depends on the units
-/// of its table, and a on none, so no end is too far off to be one.
+/// Such as "95 % 0.32 to 1.6, standard error 0.3", or why there is no interval. k depends on
+/// the units of its table, and a is a pure number, so no end of an interval is too far away.
 std::string uncertainty_of(const analysis::PowerFit& fit, const analysis::Interval& ci95,
                            const std::optional<double>& standard_error) {
   const std::string error =
@@ -101,7 +102,7 @@ void draw_laws(const std::vector<analysis::DrawnPowerLaw>& laws, const FitOption
   analysis::write_single_figure(analysis::power_law_figure(laws), options.figure);
 }
 
-/// With intervals by the profile of the squares.
+/// Fits with intervals by the profile of the sum of squares.
 int fit_shifted(const FitOptions& options, analysis::PowerMethod method) {
   const auto shift = options.shift == "threshold" ? analysis::PowerShift::kThreshold
                      : options.shift == "offset"  ? analysis::PowerShift::kOffset

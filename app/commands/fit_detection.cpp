@@ -31,7 +31,7 @@ constexpr char kCorrection[] =
     "log-linear (Hautus 1995): half an answer is added to every number of yes, one trial to "
     "every number of trials";
 
-/// One group's answers, and what comes of them.
+/// One group's answers, and their results.
 struct DetectionResult {
   FitStatus status = FitStatus::kDegenerate;
   std::string reason;
@@ -203,8 +203,8 @@ struct SameDifferentOptions : DetectionOptions {
   double reference = 0.0;
 };
 
-/// Fits each group, and says whether every one has a value; `what` is what may be lacking.
-/// `draw` makes a curve of a group's name, rows and result.
+/// Fits each group, and tells whether each of them has a value. `what` names the value that may
+/// be missing. `draw` makes a curve from a group's name, rows and result.
 template <typename Fit, typename Draw>
 int tell_groups(const DetectionOptions& options, const char* what, const Fit& fit,
                 const Draw& draw) {

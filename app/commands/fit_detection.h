@@ -4,7 +4,7 @@
 
 namespace jnd::app {
 
-/// `jnd fit detection` and `jnd fit same-different`, below `fit`.
+/// Adds `jnd fit detection` and `jnd fit same-different`, below `fit`.
 void add_fit_detection(CLI::App& fit, Invocation& invocation);
 
 }  // namespace jnd::app

@@ -18,7 +18,7 @@ namespace jnd::app {
 /// Adds `--figure FILE` to a command that draws what it computes.
 void add_figure_option(CLI::App& command, std::string& figure);
 
-/// Answers added up at each intensity, ascending.
+/// The answers added up at each intensity, in ascending order.
 [[nodiscard]] std::vector<analysis::CurvePoint> points_of(
     const std::vector<analysis::AnswerCount>& rows);
 
@@ -30,13 +30,13 @@ void add_figure_option(CLI::App& command, std::string& figure);
 [[nodiscard]] analysis::DrawnCurve drawn_curve(const std::string& name,
                                                const std::vector<analysis::AnswerCount>& rows,
                                                const analysis::DetectionFit& fit);
-/// `reference`: the other stimulus of every pair.
+/// `reference` is the other stimulus of every pair.
 [[nodiscard]] analysis::DrawnCurve drawn_curve(const std::string& name,
                                                const std::vector<analysis::AnswerCount>& rows,
                                                const analysis::SameDifferentFit& fit,
                                                double reference);
 
-/// Throws `core::Error` as `write_single_figure`.
+/// Throws `core::Error` as `write_single_figure` does.
 void draw_glmm(const FitGlmmOptions& options, const GlmmResult& result,
                const std::string& figure);
 

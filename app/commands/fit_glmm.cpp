@@ -50,7 +50,7 @@ analysis::MixedFormulas formulas_of(const FitGlmmOptions& options, const std::st
   return formulas;
 }
 
-/// A name as a formula reads it.
+/// A name in the form in which a formula reads it.
 std::string in_formula(const std::string& name) {
   const bool is_plain = std::ranges::all_of(name, [](char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' ||
@@ -61,7 +61,7 @@ std::string in_formula(const std::string& name) {
 
 bool has_history(const FitGlmmOptions& options) { return options.terms == "history"; }
 
-/// The fixed effects with those of the trial before.
+/// The fixed effects, together with those of the previous trial.
 std::string whole_fixed(const FitGlmmOptions& options) {
   if (!has_history(options)) return options.fixed;
   return options.fixed + " + " + in_formula(analysis::previous_stimulus(options.stimulus)) +
@@ -124,7 +124,7 @@ void require_glmm_options(const FitGlmmOptions& options) {
   }
 }
 
-/// Throws `UsageError` where a column is grouped by and in a formula as well.
+/// Throws `UsageError` if a formula contains a column by which rows are grouped.
 void require_group_columns(const FitGlmmOptions& options,
                            const std::vector<std::string>& of_formulas) {
   for (const std::string& column : options.group_by) {
@@ -136,7 +136,7 @@ void require_group_columns(const FitGlmmOptions& options,
   }
 }
 
-/// The table with the columns that the formulas name and that are grouped by.
+/// The table with the columns that the formulas name, and those by which rows are grouped.
 analysis::TrialTable read_glmm_table(const FitGlmmOptions& options,
                                      const analysis::MixedFormulas& formulas) {
   analysis::TrialColumns columns{.answers = answer_words(options),
@@ -167,7 +167,7 @@ analysis::TrialTable read_glmm_table(const FitGlmmOptions& options,
   }
 }
 
-/// What was left out of the whole file, a sentence each.
+/// What was left out of the whole file, one sentence each.
 std::vector<std::string> notes_of_file(const analysis::TrialTable& table) {
   std::vector<std::string> notes;
   if (table.num_elsewhere > 0) {
@@ -222,7 +222,7 @@ void add_derived(const FitGlmmOptions& options, const analysis::MixedOptions& ho
   }
 }
 
-/// What makes standard errors too small, whatever the fit.
+/// Adds cautions about what makes standard errors too small in any fit.
 void add_cautions(GlmmResult& result) {
   std::map<std::string, std::vector<std::string>> same_for_all;
   for (const analysis::EffectOfAll& one :
@@ -290,7 +290,7 @@ void fit_glmm_table(const FitGlmmOptions& options, GlmmResult& result) {
   }
 }
 
-/// The same of one group among several, of which what cannot be fitted says why.
+/// Fits one group among several. If it cannot be fitted, its result says why.
 void fit_glmm_group(const FitGlmmOptions& options, GlmmResult& result) {
   const auto fail = [&](const std::string& why) {
     const std::string file = options.csv + ": ";
@@ -302,14 +302,16 @@ void fit_glmm_group(const FitGlmmOptions& options, GlmmResult& result) {
     fit_glmm_table(options, result);
   } catch (const core::Error& error) {
     fail(error.what());
-  } catch (const UsageError& error) {  // A factor with one level in this group, say.
+  } catch (const UsageError& error) {
+    // For example, a factor has only one level in this group.
     fail(error.what());
   }
 }
 
-/// All fits, and the notes of the file.
+/// All fits, and the notes about the file.
 struct GlmmResults {
-  analysis::TrialTable table;  ///< The whole one, where there is --group-by.
+  /// The whole table, if there is --group-by.
+  analysis::TrialTable table;
   std::vector<std::string> notes;
   std::vector<GlmmResult> groups;
 };
@@ -373,7 +375,7 @@ nlohmann::ordered_json document_of(const FitGlmmOptions& options, const GlmmResu
   return json;
 }
 
-/// Of one fit, or of all groups under `fits`, with what was left out of the file.
+/// The JSON of one fit, or of all groups under `fits`, with what was left out of the file.
 nlohmann::ordered_json document_of(const FitGlmmOptions& options, const GlmmResults& results) {
   using Json = nlohmann::ordered_json;
   Json json;

@@ -4,7 +4,7 @@
 
 namespace jnd::app {
 
-/// `jnd fit glmm`, below `fit`.
+/// Adds `jnd fit glmm`, below `fit`.
 void add_fit_glmm(CLI::App& fit, Invocation& invocation);
 
 }  // namespace jnd::app

@@ -49,13 +49,14 @@ void require_reference(const FitGroupOptions& options) {
   }
 }
 
-/// Of which lapse rates an interval of the Weber fraction holds; "" where that is one.
+/// The range of lapse rates for which an interval of the Weber fraction holds; "" if there is a
+/// single rate.
 std::string interval_basis(const analysis::HierarchicalFit& fit) {
   if (!fit.lapse_rate_without_prior && !fit.own_lapses) return "";
   return ", over lapse rates of " + range(fit.lapse_rate_with_prior_ci95, fit.lapse_rate);
 }
 
-/// With how far its prior moves the fractions.
+/// Prints the lapse rate, and how far its prior changes the fractions.
 void print_lapses(const analysis::HierarchicalFit& fit) {
   if (!fit.lapse_rate) return;
   if (fit.own_lapses) return print_own_lapses(fit);
@@ -85,7 +86,8 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
   fmt::print("  {}; {} participants\n", fit.method, fit.num_participants);
   for (const analysis::HierarchicalCondition& one : fit.conditions) {
     if (!one.condition.empty()) fmt::print("{}\n", one.condition);
-    if (!one.weber_fraction) continue;  // The note says why.
+    // The note says why.
+    if (!one.weber_fraction) continue;
     fmt::print("  Weber fraction  {:<8}  95 % {}, of the median person{}\n",
                number(one.weber_fraction), range(one.weber_fraction_ci95, one.weber_fraction),
                interval_basis(fit));
@@ -113,7 +115,7 @@ void print_for_people(const analysis::HierarchicalFit& fit) {
 
 double guess_of(const FitGroupOptions& options) { return std::stod(options.guess); }
 
-/// None where it is free.
+/// None if the lapse rate is free.
 std::optional<double> lapse_of(const FitGroupOptions& options) {
   if (options.lapse == "free") return std::nullopt;
   if (options.lapse == "none") return 0.0;
@@ -135,7 +137,7 @@ void require_lapses(const FitGroupOptions& options) {
       options.guess, options.lapse));
 }
 
-/// Whether somebody's answers to one condition hold both orders of the intervals.
+/// True if somebody's answers to one condition contain both orders of the intervals.
 bool adds_up_orders(const analysis::CsvTable& table) {
   std::vector<std::string> group_by = {"participant"};
   if (table.find("condition")) group_by.emplace_back("condition");
@@ -145,7 +147,7 @@ bool adds_up_orders(const analysis::CsvTable& table) {
       });
 }
 
-/// The median person's curve in each condition, over everybody's answers.
+/// Draws the median person's curve in each condition, over everybody's answers.
 void draw_hierarchical(const FitGroupOptions& options, const analysis::HierarchicalFit& fit,
                        const std::vector<analysis::ParticipantAnswers>& answers) {
   std::vector<analysis::DrawnCurve> curves;
@@ -231,7 +233,7 @@ int fit_hierarchical(const FitGroupOptions& options) {
   return kHasProblems;
 }
 
-/// The rows with what else the table knows of each.
+/// Reads the rows, with what else the table says about each.
 std::vector<analysis::OrderedAnswers> read_ordered_answers(const analysis::CsvTable& table) {
   std::vector<analysis::OrderedAnswers> rows;
   for (const auto& group : analysis::read_answer_counts(table)) {

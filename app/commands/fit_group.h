@@ -4,7 +4,7 @@
 
 namespace jnd::app {
 
-/// `jnd fit hierarchical` and `jnd fit effects`, below `fit`.
+/// Adds `jnd fit hierarchical` and `jnd fit effects`, below `fit`.
 void add_fit_group(CLI::App& fit, Invocation& invocation);
 
 }  // namespace jnd::app

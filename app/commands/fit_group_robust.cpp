@@ -13,7 +13,8 @@
 namespace jnd::app {
 namespace {
 
-/// "0.31 (+1.2 %)", of several conditions each with its name.
+/// Fractions with their change, such as "0.31 (+1.2 %)"; if there are several conditions, each
+/// with its name.
 std::string fractions_words(const analysis::HierarchicalFit& fit,
                             const std::vector<std::optional<double>>& fractions) {
   std::string words;
@@ -27,7 +28,7 @@ std::string fractions_words(const analysis::HierarchicalFit& fit,
   return words.empty() ? "none" : words;
 }
 
-/// "likelihood ratio 12.3, p = 0.0002, half of chi-squared's"
+/// Such as "likelihood ratio 12.3, p = 0.0002 (half of chi-squared's)".
 std::string boundary_words(const std::optional<double>& statistic,
                            const std::optional<double>& p_value) {
   return fmt::format("likelihood ratio {}, {}{}", number(statistic), p_value_words(p_value),

@@ -11,21 +11,22 @@ class App;
 
 namespace jnd::app {
 
-/// What `jnd fit hierarchical` has for answers that scatter, people who lapse, and other
-/// priors.
+/// The options of `jnd fit hierarchical` for answers that scatter, for people who lapse, and
+/// for other priors.
 struct RobustGroupOptions {
   std::string overdispersion = "none", lapses_by = "common";
-  std::optional<std::string> lapse_prior;  ///< "A,B"
+  std::optional<std::string> lapse_prior;  ///< Such as "A,B".
 };
 
 void add_robust_options(CLI::App& command, RobustGroupOptions& options);
 
-/// `lapse`: as told by --lapse. Throws `UsageError` for a prior that is none, and for what
-/// needs a lapse rate that is free beside one that is not.
+/// `lapse` is the value of --lapse. Throws `UsageError` for an invalid prior, and if an option
+/// needs a free lapse rate but the rate is not free.
 void apply(const RobustGroupOptions& options, const std::string& lapse,
            analysis::HierarchicalOptions& how);
 
-/// For people: own lapse rates where people have them, and what else was asked for.
+/// These print for people their own lapse rates, if they have any, and whatever else was asked
+/// for.
 void print_own_lapses(const analysis::HierarchicalFit& fit);
 void print_robust(const analysis::HierarchicalFit& fit);
 

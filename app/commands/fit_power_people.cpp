@@ -11,7 +11,7 @@
 namespace jnd::app {
 namespace {
 
-/// Whose each row of the table is, by the line it starts on.
+/// The participant of each row of the table, by the line on which the row begins.
 std::map<int, std::string> participants_by_line(const analysis::CsvTable& table,
                                                 const std::string& participant) {
   std::map<int, std::string> participants;

@@ -8,11 +8,13 @@
 
 namespace jnd::app {
 
-/// "left out line 4: ...", or all lines with one reason at once. `lines`: of each row.
+/// Prints "left out line 4: ...", with all lines of the same reason together. `lines` are the
+/// lines of the rows.
 void print_excluded(const std::vector<analysis::PowerFit::Excluded>& excluded,
                     const std::vector<int>& lines);
 
-/// `jnd fit power --participant COLUMN`: the power law of a group of people, and everybody's.
+/// Runs `jnd fit power --participant COLUMN`: the power law of a group of people, and of
+/// everybody in it.
 int fit_power_people(const TableOptions& options, const std::string& participant);
 
 }  // namespace jnd::app

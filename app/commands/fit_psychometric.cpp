@@ -35,7 +35,7 @@ struct FitPsychometricOptions : CurveRequest {
   bool as_csv = false;
 };
 
-/// Asks what the task was where the answers look like right ones, and nobody said.
+/// Asks what the task was if the answers look like right answers and nobody said it.
 void ask_for_task(const CurveAnalysis& curves) {
   if (!curves.suspected_chance) return;
   const ExportedAnswers exported = exported_answers(curves.file.columns, curves.request.yes);

@@ -4,7 +4,7 @@
 
 namespace jnd::app {
 
-/// `jnd fit psychometric`, below `fit`.
+/// Adds `jnd fit psychometric`, below `fit`.
 void add_fit_psychometric(CLI::App& fit, Invocation& invocation);
 
 }  // namespace jnd::app

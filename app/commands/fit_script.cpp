@@ -20,7 +20,8 @@ std::string list_of(const std::vector<std::string>& words, const char* open,
   return text + close;
 }
 
-/// "name: location 1.2, scale 3.4", a comment a group.
+/// Comments that say what was found here, one line for each group, such as "#   location 1.2,
+/// scale 3.4, ...".
 std::string found_here(const std::vector<analysis::CurveFit>& fits) {
   std::string text;
   for (const analysis::CurveFit& fit : fits) {
@@ -41,7 +42,7 @@ struct FormulaInLanguage {
   CurveFamily family;
   const char* r;
   const char* python;
-  const char* r_link;  ///< Of glm; "" for none.
+  const char* r_link;  ///< The link of glm; "" for none.
 };
 
 constexpr FormulaInLanguage kFormulas[] = {
@@ -63,7 +64,7 @@ const FormulaInLanguage& formula_of(CurveFamily family) {
   return *std::ranges::find(kFormulas, family, &FormulaInLanguage::family);
 }
 
-/// "g + (1 - g - l) * s"
+/// The curve with its ends, such as "guess + (1 - guess - lapse) * s".
 std::string ends_words(const analysis::CurveModel& model) {
   const std::string s = model.falling ? "(1 - s)" : "s";
   return model.symmetric ? "guess + lapse + (1 - guess - 2 * lapse) * " + s

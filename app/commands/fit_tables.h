@@ -18,7 +18,7 @@
 #include "app/command_line/json_text.h"
 #include "app/curves/fit_words.h"
 
-/// What `jnd fit weber` and `jnd fit power` share: a table, of which each group is fitted.
+/// What `jnd fit weber` and `jnd fit power` share: a table, each group of which is fitted.
 namespace jnd::app {
 
 struct TableOptions {
@@ -28,7 +28,7 @@ struct TableOptions {
   bool json = false;
 };
 
-/// "participant 3, condition A"; "" for a group of all rows.
+/// Such as "participant 3, condition A"; "" for a group of all rows.
 [[nodiscard]] inline std::string heading_of(
     const std::vector<std::pair<std::string, std::string>>& key) {
   std::string heading;
@@ -38,7 +38,7 @@ struct TableOptions {
   return heading;
 }
 
-/// What stderr is told of fits without a value: one sentence, whatever stdout shows.
+/// Tells on stderr, in one sentence, that fits have no value, whatever stdout shows.
 inline void print_lacking(const TableOptions& options, const char* what,
                           std::size_t num_lacking, std::size_t num_groups,
                           const std::string& reason) {
@@ -53,13 +53,13 @@ inline void print_lacking(const TableOptions& options, const char* what,
   }
 }
 
-/// Fits every group, prints them all, and says whether each has a value. `fit` makes a result
-/// of a group, `print` shows it to people.
+/// Fits and prints every group, and tells whether each of them has a value. `fit` makes a
+/// result from a group, and `print` shows it to people.
 template <typename Group, typename Fit, typename Print>
 int fit_groups(const std::vector<Group>& groups, const TableOptions& options, const char* what,
                const Fit& fit, const Print& print) {
   std::size_t num_lacking = 0;
-  std::string reason;  // Of the first that has no value.
+  std::string reason;  // The reason of the first group that has no value.
   using Json = nlohmann::ordered_json;
   Json results = Json::array();
   for (const Group& group : groups) {
@@ -86,13 +86,15 @@ int fit_groups(const std::vector<Group>& groups, const TableOptions& options, co
   return kHasProblems;
 }
 
-/// The rows of the file. What is wrong with it is a `core::Error`: the data have problems.
+/// The rows of the file. Throws `core::Error` if something is wrong with the file, because then
+/// the data have problems.
 template <typename Read>
 auto read_groups(const TableOptions& options, const Read& read) {
   return read(analysis::CsvTable::read(options.csv), options.group_by);
 }
 
-/// How many different values of a column are added up in a group that is not one of each.
+/// How many different values of a column a group adds up; 0 if the groups are separated by that
+/// column.
 template <typename Row>
 std::size_t num_pooled(const analysis::CsvTable& table, const analysis::DataGroup<Row>& group,
                        const TableOptions& options, const char* column) {
@@ -101,7 +103,7 @@ std::size_t num_pooled(const analysis::CsvTable& table, const analysis::DataGrou
   return is_grouped ? 0 : analysis::different_cells(table, column, group).size();
 }
 
-/// "--group-by condition,participant"
+/// Such as "--group-by condition,participant".
 inline std::string grouped_also_by(const TableOptions& options, const char* column) {
   return fmt::format("--group-by {}{}{}", fmt::join(options.group_by, ","),
                      options.group_by.empty() ? "" : ",", column);

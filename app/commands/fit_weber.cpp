@@ -28,7 +28,8 @@ using analysis::FitStatus;
 
 struct FitWeberOptions : TableOptions {
   std::string method = "ml", family = "weber", bootstrap_kind = "parametric";
-  std::string guess, lapse;  ///< A rate; of lapses also "free"; "" where not told.
+  /// A rate; `lapse` may also be "free"; "" if not given.
+  std::string guess, lapse;
   std::string overdispersion = "none";
   bool symmetric = false;
   int num_goodness = 0;
@@ -64,7 +65,7 @@ void print_posterior(const analysis::PsychometricPosterior& posterior) {
   if (!posterior.note.empty()) fmt::print("    note: {}\n", posterior.note);
 }
 
-/// What goes beyond the curve itself.
+/// Prints everything except the curve itself.
 void print_details(const analysis::PsychometricFit& fit) {
   for (const analysis::PsychometricFit::Parameter& one : fit.parameters) {
     fmt::print("  {:<18} {}\n", one.name, number(one.value));
@@ -157,8 +158,8 @@ void print_for_people(const analysis::PsychometricFit& fit, const FitWeberOption
 
 double rate_of(const std::string& text) { return text.empty() ? 0.0 : std::stod(text); }
 
-/// Of --lapse at the upper end, unless told otherwise; of --free lapse, and of yes and no, at
-/// both.
+/// True if lapses occur at both ends. With --lapse, they occur at the upper end unless asked
+/// for otherwise; with --free lapse, and for yes and no, at both.
 bool has_lapses_at_both_ends(const FitWeberOptions& options) {
   if (!options.lapse.empty()) return options.symmetric;
   return options.frees("lapse") || rate_of(options.guess) == 0.0;
@@ -214,7 +215,7 @@ analysis::BetaPrior rate_prior_of(const FitWeberOptions& options) {
                   *options.lapse_prior));
 }
 
-/// What the options of guesses and lapses say together.
+/// Checks that the options of guesses and lapses go together.
 void require_rates(const FitWeberOptions& options) {
   if (options.frees("lapse") && !options.lapse.empty()) {
     throw UsageError(
@@ -234,7 +235,7 @@ void require_rates(const FitWeberOptions& options) {
   }
 }
 
-/// That one curve is fitted to the answers of several people, or of several conditions.
+/// Warns if one curve is fitted to the answers of several people or conditions.
 std::vector<std::string> pooling_warnings(
     const analysis::CsvTable& table, const analysis::DataGroup<analysis::AnswerCount>& group,
     const FitWeberOptions& options) {
@@ -262,7 +263,7 @@ std::vector<std::string> pooling_warnings(
   return warnings;
 }
 
-/// That the table has other references than the one that the fit is told.
+/// Warns if the table has other references than the one given to the fit.
 std::vector<std::string> reference_warnings(
     const analysis::CsvTable& table, const analysis::DataGroup<analysis::AnswerCount>& group,
     double reference) {

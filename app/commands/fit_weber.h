@@ -4,7 +4,7 @@
 
 namespace jnd::app {
 
-/// `jnd fit weber`, below `fit`.
+/// Adds `jnd fit weber`, below `fit`.
 void add_fit_weber(CLI::App& fit, Invocation& invocation);
 
 }  // namespace jnd::app

@@ -24,7 +24,7 @@
 namespace jnd::app {
 namespace {
 
-// Of the thesis's drag equation: water, and the hand that moves through it.
+// Constants of the thesis's drag equation: water, and the hand that moves through it.
 constexpr double kDensityKgPerM3 = 1000.0;
 constexpr double kWaterViscosityPaS = 0.001;
 constexpr double kHandLengthM = 0.1;
@@ -36,7 +36,8 @@ struct ForceOptions {
   double scale = 1.0;
   std::string velocity_m_per_s = "1,0,0";
   double angle_of_attack_rad = std::numbers::pi / 2.0;
-  std::string force_map;  ///< "": the thesis's fit; for lift the shipped plate.
+  /// "" for the fit of the thesis, or for lift the shipped flat plate.
+  std::string force_map;
   bool json = false;
 };
 
@@ -100,7 +101,8 @@ std::optional<core::ForceMap> map_of(const ForceOptions& options) {
   return experiments::read_force_map(user_or_shipped("flat_plate.csv", "data/force_maps"));
 }
 
-/// A stiff hand, deep in the medium, turned about its fingers: edge on it moves across them.
+/// A stiff hand, deep in the medium and turned about its fingers; edge on, it moves across
+/// them.
 core::HapticState hand_turned(const Eigen::Vector3d& velocity_m_per_s, double angle_rad) {
   core::HapticState state;
   state.tip_velocity_m_per_s.fill(velocity_m_per_s);
@@ -130,7 +132,7 @@ LawForce force_of(const ForceOptions& options, const Vector& velocity) {
   const core::ForceMap* const map_used = map ? &*map : nullptr;
   const core::MediumAmounts medium = medium_of(options);
   core::PointVectors points = core::zero_vectors();
-  // No share fades at low speed: it is the law that is asked for.
+  // No share fades at low speed, because the law itself is asked for.
   core::add_up_fluid_force(medium, map_used, motion, core::kAreaShareRatio,
                            hand_turned(velocity_m_per_s, options.angle_of_attack_rad), 0b11111,
                            0.0, 1e-150, points);
@@ -138,7 +140,7 @@ LawForce force_of(const ForceOptions& options, const Vector& velocity) {
   Eigen::Vector3d total = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : points) {
     total += point;
-    // The sum with zero turns -0 into 0.
+    // Adding zero turns -0 into 0.
     force.points_n.push_back({point.x() + 0.0, point.y() + 0.0, point.z() + 0.0});
   }
   force.total_n = total.norm();
@@ -150,13 +152,14 @@ LawForce force_of(const ForceOptions& options, const Vector& velocity) {
   const double viscosity_pa_s =
       is_like_water(options.law) ? kWaterViscosityPaS : options.viscosity_pa_s;
   const double reynolds = kDensityKgPerM3 * speed * kHandLengthM / viscosity_pa_s;
-  // Any drag written as a coefficient: for the flat plate in creeping flow 24 / Re.
+  // Any drag can be written as a coefficient; for the flat plate in creeping flow it is 24 /
+  // Re.
   const double coefficient =
       options.law == "water" || options.law == "map"
           ? core::mapped_drag_coefficient(motion, map_used)
           : -total.dot(velocity_m_per_s) /
                 (0.5 * kDensityKgPerM3 * kHandAreaM2 * speed * speed * speed);
-  // A fluid without viscosity has neither; lift has no drag.
+  // A fluid without viscosity has neither number, and lift has no drag.
   if (std::isfinite(reynolds) && std::isfinite(coefficient)) {
     force.reynolds_number = reynolds;
     if (options.law != "lift") force.drag_coefficient = coefficient;
@@ -164,7 +167,8 @@ LawForce force_of(const ForceOptions& options, const Vector& velocity) {
   return force;
 }
 
-/// Beyond it the law is no better than a guess; the number is printed nevertheless.
+/// Warns if the Reynolds number is so high that the law is no better than a guess. The force is
+/// printed nevertheless.
 void warn_of_reynolds(const ForceOptions& options, const LawForce& force) {
   if (options.law != "viscous-schiller-naumann" || !force.reynolds_number) return;
   if (*force.reynolds_number <= core::InertialDrag::kMaxReynolds) return;

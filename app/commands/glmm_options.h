@@ -23,22 +23,24 @@ struct FitGlmmOptions : AnswerRequest {
   std::uint64_t seed = 1;
 };
 
-/// A mixed model that was fitted, and what it was fitted to.
+/// A mixed model that was fitted, and the data to which it was fitted.
 struct GlmmResult {
-  std::vector<std::pair<std::string, std::string>> group;  ///< Of --group-by; empty for all.
-  analysis::MixedFormulas formulas;                        ///< With the terms of the history.
-  analysis::TrialTable table;                              ///< Of the group.
-  std::optional<analysis::Design> design;                  ///< Of the fixed effects.
+  /// The cells of --group-by; empty if all rows form one group.
+  std::vector<std::pair<std::string, std::string>> group;
+  analysis::MixedFormulas formulas;        ///< Include the terms of the history.
+  analysis::TrialTable table;              ///< The table of the group.
+  std::optional<analysis::Design> design;  ///< The design of the fixed effects.
   analysis::MixedFit fit;
   analysis::StimulusLines lines;
   std::vector<analysis::DerivedQuantity> derived;
-  /// Groups of each random term, by the name of the grouping.
+  /// The number of groups of each random term, by the name of the grouping.
   std::vector<std::pair<std::string, std::size_t>> groups;
-  int num_without_fit = 0;         ///< Of the bootstrap.
-  std::vector<std::string> notes;  ///< Of the group; of the file where there is one group.
+  int num_without_fit = 0;  ///< How many refits of the bootstrap failed.
+  /// The group's notes; if there is one group only, those of the file.
+  std::vector<std::string> notes;
 };
 
-/// For people, on stdout.
+/// Prints the result for people, on stdout.
 void print_glmm(const FitGlmmOptions& options, const GlmmResult& result);
 
 /// A script that repeats the fit by lme4 in R.

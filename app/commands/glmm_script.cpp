@@ -8,13 +8,13 @@
 namespace jnd::app {
 namespace {
 
-/// "(1 + u | participant)" of what may stand without parentheses.
+/// A random term in parentheses, which may be missing: "(1 + u | participant)".
 std::string random_in_r(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t");
   return first != std::string::npos && text[first] == '(' ? text : "(" + text + ")";
 }
 
-/// lme4 has quadrature for one random effect alone.
+/// lme4 can use quadrature only if there is a single random effect.
 bool has_quadrature_in_r(const FitGlmmOptions& options, const GlmmResult& result) {
   return options.num_nodes > 1 && result.fit.random.size() == 1;
 }

@@ -8,7 +8,7 @@
 namespace jnd::app {
 namespace {
 
-/// Widths of columns by their longest cell.
+/// The width of a column: that of its longest cell, but at least `least`.
 std::size_t longest(std::size_t least, const auto& items, const auto& name) {
   std::size_t most = least;
   for (const auto& one : items) most = std::max(most, name(one).size());

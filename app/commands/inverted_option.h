@@ -5,7 +5,8 @@
 
 namespace jnd::app {
 
-/// Adds `--inverted in|out`: what becomes of people who answer the wrong way round.
+/// Adds `--inverted in|out`, which says whether people who answer the wrong way round are
+/// included.
 void add_inverted_option(CLI::App& command, std::string& given);
 
 }  // namespace jnd::app

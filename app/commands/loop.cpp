@@ -51,7 +51,7 @@ void print_line(const char* what, const Percentiles& us) {
              us.p999, us.max);
 }
 
-/// All there is to say about a run.
+/// Everything that there is to tell about a run.
 struct LoopOutcome {
   const LoopOptions& options;
   const device::LoopTiming& timing;
@@ -219,8 +219,8 @@ int run_loop(const LoopOptions& options) {
   const std::unique_ptr<device::HapticDevice> device = device_of(options);
   stop_on_signals();
   const std::unique_ptr<DeviceRun> run = started(*device, options);
-  // A hand that strokes through water: a tick with everything in it. A real one stays in free
-  // space and without force.
+  // A simulated hand strokes through water, so that a tick contains everything. A real device
+  // stays in free space and has no force.
   if (device->capabilities().simulated) run->render(core::water({}));
   if (device::SimulatedHand* hand = device->simulated_hand()) {
     hand->begin_strokes({}, core::RandomStream(1, "loop"));

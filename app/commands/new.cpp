@@ -31,7 +31,7 @@ struct NewOptions {
   bool json = false;
 };
 
-/// Writes a file that is not there yet. Throws `Error` if it is, or if the disk refuses.
+/// Writes a file that does not exist yet. Throws `Error` if it does, or if the disk refuses.
 void write_new_file(const fs::path& file, const std::string& text) {
   std::FILE* stream = std::fopen(file.c_str(), "wx");
   if (stream == nullptr) {
@@ -45,7 +45,8 @@ void write_new_file(const fs::path& file, const std::string& text) {
   if (!written || !closed) {
     const std::string reason = std::strerror(errno);
     std::error_code ignored;
-    fs::remove(file, ignored);  // Half a study is none.
+    // Half a study is of no use.
+    fs::remove(file, ignored);
     throw core::Error(file.string() +
                       ": expected to be written, found that it cannot be: " + reason);
   }
@@ -53,8 +54,8 @@ void write_new_file(const fs::path& file, const std::string& text) {
 
 enum class Schema { kWritten, kThereAlready, kAnother };
 
-/// Puts the schema beside a study, where its `$schema` finds it: editors then need no network.
-/// What has that name already is left as it is.
+/// Puts the schema beside a study, where its `$schema` finds it, so that editors need no
+/// network. A file of that name is left as it is.
 Schema write_schema_beside(const fs::path& study) {
   const fs::path file = study.parent_path() / experiments::kSchemaFileName;
   const std::string schema = experiments::study_schema();

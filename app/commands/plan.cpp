@@ -45,32 +45,37 @@ struct PlanOptions {
   int participants = 13;
   std::uint64_t seed = 1;
   std::string device;
-  std::string profile;              ///< A file; "": a real device's own is looked for.
-  std::string laboratory;           ///< "": the default of the device.
-  std::vector<std::string> fields;  ///< "sex=female"
+  /// A profile's file; if "", a real device's own is looked for.
+  std::string profile;
+  std::string laboratory;           ///< "" for the default of the device.
+  std::vector<std::string> fields;  ///< Such as "sex=female".
   double speed_m_per_s = 0.5;
-  bool all = false;  ///< All cells, however many.
+  bool all = false;  ///< Prints all cells, however many there are.
   bool json = false;
 };
 
-/// All that the command has to tell.
+/// Everything that the command has to tell.
 struct PlanOutcome {
   experiments::Study study;
   std::vector<experiments::ParticipantPlan> plans;
   std::vector<experiments::RangeEntry> range;
-  std::vector<std::string> completed;   ///< Cells.
-  std::optional<KnownProfile> profile;  ///< None: as the device says of itself.
+  std::vector<std::string> completed;  ///< The cells of completed sessions.
+  /// None if the device's own data are used.
+  std::optional<KnownProfile> profile;
   device::DeviceCapabilities device;
   experiments::RangeLimits limits{};
-  std::optional<StabilityCheck> stability;  ///< None: the device has no map.
+  std::optional<StabilityCheck> stability;  ///< None if the device has no map.
   PlanStatistics statistics;
   std::vector<PlannedLapses> lapses;
-  double duration_s = 0.0;          ///< Of the longest session, as expected.
-  double longest_duration_s = 0.0;  ///< Of the same with all trials that blocks can have.
-  std::string folder_problem;  ///< Why its sessions cannot go to the folder; "" if they can.
+  /// The expected duration of the longest session.
+  double duration_s = 0.0;
+  /// The duration of that session if every block takes as many trials as it can.
+  double longest_duration_s = 0.0;
+  /// Why its sessions cannot be stored in the folder; "" if they can.
+  std::string folder_problem;
 };
 
-/// A plan needs no profile: it tells of what there is, and what is said against it.
+/// A plan needs no profile, so a missing one is only mentioned among the remarks.
 std::optional<KnownProfile> profile_to_plan_with(const PlanOptions& options, double rate_hz) {
   ProfileChoice choice = choose_profile(device_of_profile(options.device, rate_hz),
                                         options.profile, profile_folders(), today());
@@ -124,7 +129,7 @@ PlanOutcome outcome_of(const PlanOptions& options) {
   return outcome;
 }
 
-/// Cell to sessions, completed ones and with the planned ones.
+/// The numbers of sessions by cell: completed ones, and together with the planned ones.
 std::map<std::string, std::pair<int, int>> balance_of(const PlanOutcome& outcome) {
   std::map<std::string, std::pair<int, int>> balance;
   for (const experiments::Cell& cell : experiments::cells_of(outcome.study)) {
@@ -151,7 +156,7 @@ ordered_json to_json(const experiments::PlannedTrial& trial) {
   return json;
 }
 
-/// `turns` is null where the answers decide how many trials a block has.
+/// `turns` is null if the answers decide how many trials a block has.
 ordered_json to_json(const experiments::PlannedGroup& group) {
   auto blocks = ordered_json::array(), turns = ordered_json::array();
   for (const experiments::Stage* block : group.blocks) blocks.push_back(block->name);
@@ -276,7 +281,8 @@ ordered_json to_json(const PlanOutcome& outcome, const PlanOptions& options) {
   return json;
 }
 
-/// "1: 0.5 4 2", one line a repetition; production starts with its target.
+/// Prints the order, one line for each repetition, such as "1: 0.5 4 2". A production begins
+/// with its target.
 void print_order(const experiments::PlannedBlock& block) {
   const auto& content = std::get<experiments::Block>(block.stage->content);
   const bool matches = !block.trials.empty() && !block.trials.front().intensity &&
@@ -311,7 +317,7 @@ void print_order(const experiments::PlannedBlock& block) {
   fmt::print("\n");
 }
 
-/// Which blocks are mixed, and their turns by their places in the group.
+/// Prints which blocks a group mixes, and their turns by their places in the group.
 void print_group(const experiments::PlannedGroup& group) {
   fmt::print("    {}: ", group.name);
   for (std::size_t i = 0; i < group.blocks.size(); ++i) {
@@ -324,7 +330,8 @@ void print_group(const experiments::PlannedGroup& group) {
   fmt::print("\n");
 }
 
-/// Sessions of each cell; of very many cells the first ones, unless all are asked for.
+/// Prints the number of sessions of each cell; if there are very many cells, only the first
+/// ones, unless all are asked for.
 void print_balance(const PlanOutcome& outcome, bool all) {
   constexpr std::size_t kMostCells = 12;
   const auto balance = balance_of(outcome);
@@ -348,8 +355,8 @@ void print_balance(const PlanOutcome& outcome, bool all) {
       fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most));
 }
 
-/// "viscosity_pa_s 20 in `thick` (35.50 N in all, 12.40 N at a point)": the first that are too
-/// strong, and how many more there are.
+/// The first stimuli that are too strong, such as "viscosity_pa_s 20 in `thick` (35.50 N in
+/// all, 12.40 N at a point)", and how many more there are.
 std::string too_strong_words(const std::vector<experiments::RangeEntry>& range) {
   constexpr std::size_t kMostNamed = 3;
   std::string words;
@@ -478,7 +485,8 @@ int run_plan(const PlanOptions& options) {
   } else {
     print(outcome, options);
   }
-  std::fflush(stdout);  // The sentences come after the table that they speak of.
+  // The sentences come after the table about which they speak.
+  std::fflush(stdout);
   for (const std::string& problem : problems) fmt::print(stderr, "jnd: {}\n", problem);
   return problems.empty() ? kDone : kHasProblems;
 }

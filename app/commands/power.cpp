@@ -38,7 +38,7 @@ struct PowerOptions {
   bool json = false;
 };
 
-/// "2/8"
+/// Reads a shard such as "2/8".
 std::optional<PowerShard> shard_of(const std::string& text) {
   if (text.empty()) return std::nullopt;
   const std::size_t slash = text.find('/');

@@ -17,9 +17,10 @@
 namespace jnd::app {
 namespace {
 
-constexpr char kWithoutNumber[] = "true";  // What CLI11 gives an option without its value.
+// CLI11 gives this text for an option without its value.
+constexpr char kWithoutNumber[] = "true";
 
-/// Refused before anything is simulated.
+/// An invalid number is refused before anything is simulated.
 int number_of(const std::string& typed) {
   if (typed == kWithoutNumber) return kUsualPredictivePeople;
   std::string text = typed;

@@ -27,13 +27,13 @@ namespace fs = std::filesystem;
 struct PreregisterOptions {
   std::string file;
   PlannedConduct conduct;
-  std::string power;   ///< Folder of `jnd power --out`.
-  std::string folder;  ///< Study folder that keeps it.
+  std::string power;   ///< The folder of `jnd power --out`.
+  std::string folder;  ///< The study folder that stores the preregistration.
   std::string out;
   bool json = false;
 };
 
-/// The document of `jnd power`; null where none was asked for.
+/// The document of `jnd power`; null if none was asked for.
 nlohmann::ordered_json power_of(const std::string& folder, const experiments::Study& study) {
   if (folder.empty()) return nullptr;
   const fs::path file = fs::path(folder) / "power.json";

@@ -12,12 +12,12 @@ class App;
 
 namespace jnd::app {
 
-/// `--profile FILE`: what was measured of the device.
+/// Adds `--profile FILE`: what was measured of the device.
 void add_profile_option(CLI::App& command, std::string& file);
 
-/// What was measured of this device, if anything: of `file`, or a real device's own where it is
-/// found, with remarks on stderr. Throws as `choose_profile`, and `EnvironmentError` where the
-/// study must not be run without one.
+/// What was measured of this device, if anything: in `file`, or in a real device's own profile
+/// if it is found. Remarks go to stderr. Throws as `choose_profile` does, and
+/// `EnvironmentError` if the study must not be run without a profile.
 [[nodiscard]] std::optional<KnownProfile> profile_for(const std::string& device,
                                                       const std::string& file,
                                                       const experiments::Study& study);

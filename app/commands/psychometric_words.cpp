@@ -95,7 +95,8 @@ void print_curve(const CurveFit& fit) {
   for (const std::string& warning : fit.warnings) fmt::print("  note: {}\n", warning);
 }
 
-/// "differs", of several things "differ"; where nothing is found, no more than that.
+/// "differs", or "differ" for several things. If no difference is found, it says no more than
+/// that.
 std::string verdict_of(const analysis::ComparisonTest& test) {
   const bool are_several = test.name == "all" || test.name == "rates";
   if (test.p_value < 0.05) return are_several ? "differ" : "differs";

@@ -8,7 +8,8 @@
 
 namespace jnd::app {
 
-/// Fits as people read them on stdout. `names`: of the groups, "" for all rows.
+/// Prints fits, as people read them, to stdout. `names` are those of the groups; "" for all
+/// rows.
 void print_curves(const std::vector<std::string>& names,
                   const std::vector<analysis::CurveFit>& fits,
                   const std::vector<std::string>& notes);

@@ -20,16 +20,17 @@ namespace {
 
 struct ReportOptions {
   std::string folder;
-  std::string commissioning;  ///< A record; "": of a study.
-  std::string profile;        ///< With it; "": looked for.
-  std::string operator_name;  ///< With it; "": as the record says.
+  std::string commissioning;  ///< A commissioning's record; "" for the report of a study.
+  std::string profile;        ///< With a record, its profile; "" if it has to be looked for.
+  /// With a record, the person who measured; "" leaves it to the record.
+  std::string operator_name;
   std::string out;
   bool pilot = false;
   bool json = false;
   std::string language = "en";
   int jobs = 2;
-  std::vector<std::string> compare;  ///< "group_d,group_e"
-  std::string inverted;              ///< "in", "out"
+  std::vector<std::string> compare;  ///< Such as "group_d,group_e".
+  std::string inverted;              ///< "in" or "out".
   analysis::ResultsOptions results;
 };
 
@@ -77,7 +78,7 @@ StudyReport written(const ReportOptions& options) {
                              .on_progress = [&bar](double done) { bar.show(done); }});
 }
 
-/// Of a device instead of a study.
+/// Writes the report of a device instead of a study.
 int run_commissioning_report(const ReportOptions& options) {
   const std::string on_day = today();
   analysis::ReportOptions tools = analysis::installed_report_tools();
@@ -169,7 +170,7 @@ void add_report(CLI::App& program, Invocation& invocation) {
   command->add_option("--jobs", options->jobs, "Figures and recordings at once")
       ->check(whole_number(1, 1024))
       ->capture_default_str();
-  // What says how a study is analysed says nothing of a device.
+  // Options about the analysis of a study have no meaning for a device.
   for (CLI::Option* const option : command->get_options()) {
     const std::string name = option->get_name();
     if (name == "--pilot" || name == "--resamples" || name == "--compare" ||

@@ -30,13 +30,13 @@ struct ResultsOptions {
   bool json = false;
   bool delivered = false;
   bool movement = false;
-  std::vector<std::string> compare;  ///< "group_d,group_e"
-  std::string inverted;              ///< "in", "out"
+  std::vector<std::string> compare;  ///< Such as "group_d,group_e".
+  std::string inverted;              ///< "in" or "out".
   PredictiveOption predictive;
   analysis::ResultsOptions results;
 };
 
-/// "group_d, group_e; group_d, group_f"
+/// Such as "group_d, group_e; group_d, group_f".
 std::string compared_words(const std::vector<analysis::BlockNames>& compared) {
   std::string words;
   for (const auto& [first, second] : compared) {
@@ -45,7 +45,7 @@ std::string compared_words(const std::vector<analysis::BlockNames>& compared) {
   return words;
 }
 
-/// What the intensities are that the fits rest on.
+/// Which intensities the fits use.
 nlohmann::json basis_of(const analysis::DeliveredStudy& study) {
   return {{"basis", "delivered"},
           {"force", analysis::name(study.force_source)},

@@ -47,7 +47,7 @@ struct RunOptions {
   std::string folder;
   std::string participant;
   std::string device = "lumped";
-  std::string profile;  ///< A file; "": a real device's own is looked for.
+  std::string profile;  ///< A profile's file; if "", a real device's own is looked for.
   std::optional<std::uint64_t> seed;
   bool pilot = false;
   bool allow_no_realtime = false;
@@ -55,23 +55,25 @@ struct RunOptions {
   bool arm = false;
   bool releases_stop = false;
   bool shadow_guards = false;
-  std::string laboratory;  ///< "": of `run` the default of the device, of `resume` as it was.
+  /// "" means the device's default for `run`, and the former laboratory for `resume`.
+  std::string laboratory;
   bool realtime = false;
   bool acknowledge = false;
   std::string choose = "repeat";
   std::optional<std::int64_t> session;
-  std::string language;              ///< "": the study's first.
-  std::vector<std::string> fields;   ///< "sex=female"
-  std::vector<std::string> fitting;  ///< "glove=M"
-  double wait_s = 0.0;               ///< For a device that is elsewhere.
+  std::string language;              ///< "" for the study's first language.
+  std::vector<std::string> fields;   ///< Such as "sex=female".
+  std::vector<std::string> fitting;  ///< Such as "glove=M".
+  /// How long to wait for a device that is elsewhere.
+  double wait_s = 0.0;
   StreamOptions streams;
   MarkerOptions markers;
-  std::string sound;             ///< "": this machine's own output.
-  std::string participant_stop;  ///< A key; "": none.
+  std::string sound;             ///< "" for the machine's own output.
+  std::string participant_stop;  ///< A key; "" for none.
   bool participant_holds = false;
 };
 
-/// "right" or "wrong" with a space before it, where that was told of an answer.
+/// " right" or " wrong", if the participant was told that of an answer; otherwise "".
 std::string feedback_words(const core::EventRow& row) {
   const experiments::Event event = experiments::event_from_row(row);
   const auto* answer = std::get_if<experiments::TrialAnswered>(&event.data);
@@ -79,8 +81,8 @@ std::string feedback_words(const core::EventRow& row) {
   return *answer->feedback_right ? " right" : " wrong";
 }
 
-/// Tells of commits, `EVENT SEQUENCE KIND`, until nobody listens any more; behind an answer
-/// that feedback is given to, `right` or `wrong`.
+/// Prints `EVENT SEQUENCE KIND` for each commit until nobody reads it any more. An answer with
+/// feedback is followed by `right` or `wrong`.
 class Acknowledgements {
  public:
   explicit Acknowledgements(bool wanted) : wanted_(wanted) {}
@@ -91,7 +93,8 @@ class Acknowledgements {
                            event.kind.c_str(), feedback_words(event).c_str()) < 0 ||
                std::fflush(stdout) != 0;
   }
-  /// A line could not be delivered: whoever relies on them must not be left behind.
+  /// True if a line could not be delivered. The session then has to stop, because somebody
+  /// relies on the lines.
   [[nodiscard]] bool unheard() const noexcept { return unheard_; }
 
  private:
@@ -104,14 +107,14 @@ std::string how_to_go_on(const RunOptions& options, std::int64_t session) {
          " --headless" + (options.realtime ? " --realtime" : "") + "` goes on from there";
 }
 
-/// Lets a device that is elsewhere come back, and its link become good, for as long as `wait_s`
-/// asks for. Says once what it waits for, and again where that changes.
+/// Waits, as long as `wait_s` says, until a device that is elsewhere comes back and its link is
+/// good. It says what it waits for once, and again if that changes.
 class DeviceWait {
  public:
   explicit DeviceWait(double wait_s)
       : give_up_(Clock::now() + std::chrono::milliseconds(std::llround(1e3 * wait_s))) {}
 
-  /// Returns after a second; throws what is wrong when the time is over or the program is to
+  /// Returns after a second. Throws the problem when the time is over or the program has to
   /// stop.
   void over(const device::DeviceUnreachable& problem) {
     if (Clock::now() >= give_up_ || stop_requested()) throw problem;
@@ -131,7 +134,7 @@ class DeviceWait {
   std::string told_;
 };
 
-/// What each guard would have done to the session.
+/// Tells what each guard would have done to the session.
 void tell_guards(const core::GuardCounts& guards) {
   for (std::size_t i = 0; i < core::kGuards.size(); ++i) {
     std::fprintf(stderr,
@@ -141,7 +144,7 @@ void tell_guards(const core::GuardCounts& guards) {
   }
 }
 
-/// A port that fails is told, and the session goes on.
+/// Tells that the port has failed; the session goes on.
 void tell_of_markers(const core::EventRow& row) {
   if (row.kind != "markers_failed") return;
   const experiments::Event event = experiments::event_from_row(row);
@@ -246,7 +249,7 @@ void require_pseudonym(const std::string& participant) {
                    one_line(participant.substr(0, 64)) + "`");
 }
 
-/// Of the study's texts; "" is the first.
+/// Requires a language of the study's texts; "" stands for the first one.
 void require_language(const experiments::Study& study, const std::string& language) {
   const auto& all = study.languages;
   if (language.empty() || std::find(all.begin(), all.end(), language) != all.end()) return;
@@ -256,7 +259,7 @@ void require_language(const experiments::Study& study, const std::string& langua
                    "), found `" + one_line(language.substr(0, 64)) + "`");
 }
 
-/// Nobody's two visits are to become two people's.
+/// Warns of similar pseudonyms, so that one person's two visits do not count as two people's.
 void warn_of_lookalike(const core::StudyStore& store, const std::string& participant) {
   std::vector<std::string> taken;
   for (const core::SessionRow& row : store.sessions()) taken.push_back(row.participant);
@@ -343,7 +346,7 @@ int run_run(RunOptions options) {
   return run_session(options, store, study, laboratory, sessions.front());
 }
 
-/// The session asked for, or the open one; none if everything is finished.
+/// The session that was asked for, or the open one; none if everything is finished.
 std::optional<core::SessionRow> session_to_resume(const core::StudyStore& store,
                                                   const RunOptions& options) {
   if (options.session) {
@@ -363,7 +366,8 @@ std::optional<core::SessionRow> session_to_resume(const core::StudyStore& store,
                    open->participant + ")" + others);
 }
 
-/// A session of two laboratories would be no result at all.
+/// The session's own laboratory, because a session of two laboratories would have no valid
+/// result.
 experiments::Laboratory laboratory_of(const RunOptions& options, const core::SessionRow& row) {
   if (!options.laboratory.empty()) {
     const experiments::Laboratory asked =
@@ -378,7 +382,7 @@ experiments::Laboratory laboratory_of(const RunOptions& options, const core::Ses
   return experiments::parse_laboratory(row.laboratory, options.folder + ": laboratory");
 }
 
-/// Until it tells what it can do.
+/// Waits until the device tells what it can do.
 void wait_for_device(const RunOptions& options, const core::SessionRow& row) {
   DeviceWait wait(options.wait_s);
   stop_on_signals();
@@ -396,7 +400,8 @@ void wait_for_device(const RunOptions& options, const core::SessionRow& row) {
   }
 }
 
-/// A session that is only to be ended needs nothing of its device any more.
+/// Requires the same profile, except for a session that is only to be ended, which needs
+/// nothing of its device.
 void require_same_profile(const RunOptions& options, const core::StudyStore& store,
                           const core::SessionRow& row, const experiments::Study& study) {
   if (options.choose == "end") return;
@@ -428,7 +433,7 @@ int resume(const RunOptions& options) {
                                         core::StudyStore::Mode::kReadWrite);
   const std::optional<core::SessionRow> row = session_to_resume(*store, options);
   if (!row) {
-    // Whoever reads acknowledgements reads nothing else.
+    // A program that reads acknowledgements must read nothing else.
     std::fprintf(options.acknowledge ? stderr : stdout,
                  "%s: nothing to resume, every session is finished\n", options.folder.c_str());
     return kDone;
@@ -439,7 +444,8 @@ int resume(const RunOptions& options) {
   require_streams_fit(streams, /*is_realtime=*/true, stored_study(*store, row->session),
                       options.folder);
   require_markers_fit(options.markers, /*is_realtime=*/true, /*has_window=*/true);
-  store.reset();  // The window opens it itself.
+  // The window opens the study itself.
+  store.reset();
   return open_window({.study_folder = options.folder,
                       .device_profile = options.profile,
                       .participant_stop = options.participant_stop,
@@ -464,7 +470,8 @@ void add_participant_stop(CLI::App& command, RunOptions& options) {
       ->needs(key);
 }
 
-/// In a window the experimenter arms a real device by a key.
+/// These options need --headless, because in a window the experimenter arms a real device by a
+/// key.
 void add_headless_options(CLI::App& command, RunOptions& options) {
   CLI::Option* headless = command.add_flag("--headless", options.headless,
                                            "Without a window, participant simulated");

@@ -27,12 +27,12 @@ struct SimulateOptions {
   std::string file;
   int participants = 0;
   std::string folder;
-  std::string laboratory;  ///< "": the default of the device.
+  std::string laboratory;  ///< "" for the default of the device.
   std::uint64_t seed = 1;
   int jobs = 2;
   std::string device = "lumped";
-  std::string profile;               ///< A file; "": none.
-  std::vector<std::string> fields;   ///< "sex=female"
+  std::string profile;               ///< A profile's file; "" for none.
+  std::vector<std::string> fields;   ///< Such as "sex=female".
   std::vector<std::string> effects;  ///< See `add_effect_option`.
   bool fast = false;
   bool json = false;
@@ -51,7 +51,8 @@ int run_simulate(const SimulateOptions& options) {
   const experiments::Laboratory laboratory = laboratory_with_effects(
       options.laboratory.empty() ? default_laboratory(options.device) : options.laboratory,
       options.effects);
-  experiments::require_abilities(laboratory, study);  // Before there is a folder.
+  // Checked before the folder is made.
+  experiments::require_abilities(laboratory, study);
   core::StudyStore store(options.folder, core::StudyStore::Mode::kCreate,
                          core::Durability::kAtClose);
   const std::size_t num_before = store.sessions().size();

@@ -28,12 +28,12 @@ namespace {
 using namespace std::chrono_literals;
 using experiments::MaskingNoise;
 
-/// Of a first try: hardly to be heard in most headphones.
+/// The level of a first try, which one hardly hears in most headphones.
 constexpr double kQuiet_dbfs = -60.0;
 
 struct SoundOptions {
-  std::string play;    ///< "noise", "cues" or "both"; "": nothing.
-  std::string output;  ///< "": the machine's own.
+  std::string play;    ///< "noise", "cues" or "both"; "" for nothing.
+  std::string output;  ///< "" for the machine's own.
   std::string study;
   std::string kind = "pink";
   double low_hz = 200.0, high_hz = 4000.0;
@@ -104,7 +104,7 @@ int list_outputs(const SoundSettings& settings, bool json) {
   return kDone;
 }
 
-/// "0 gaps in 10.0 s": and exit 1 where there were any.
+/// Tells how many gaps there were; the exit code is 1 if there were any.
 int tell_played(const TriedSound& sound, const std::string& output, bool json) {
   const device::SoundOutputState state = sound.state();
   if (json) {

@@ -12,11 +12,11 @@ class Option;
 
 namespace jnd::app {
 
-/// `--sound OUTPUT|off`.
+/// Adds `--sound OUTPUT|off`.
 CLI::Option* add_sound_option(CLI::App& command, std::string& output);
 
-/// Throws `UsageError` where the study requires its sound and `output` is "off", as no session
-/// of it would begin.
+/// Throws `UsageError` if the study requires its sound and `output` is "off", because then no
+/// session would begin.
 void require_sound_fits(const experiments::Study& study, const std::string& output);
 
 }  // namespace jnd::app

@@ -30,7 +30,7 @@ struct StabilityOptions {
   bool json = false;
 };
 
-/// Fills the rows in; a row is the same whoever measures it.
+/// Fills in the rows; a row is the same whichever thread measures it.
 void measure(std::vector<StabilityRow>& rows, int jobs) {
   ProgressBar bar("stability");
   std::atomic<std::size_t> num_done{0};

@@ -13,7 +13,7 @@
 namespace jnd::app {
 namespace {
 
-/// Of liblsl, for whoever always wants it.
+/// Names liblsl's file, for people who always want to use it.
 constexpr char kLibraryVariable[] = "JND_LIBLSL";
 
 bool hides_levels(const experiments::Study& study, const std::filesystem::path& folder) {

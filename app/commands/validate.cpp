@@ -23,8 +23,9 @@ namespace {
 
 struct ValidateOptions {
   std::vector<std::string> files;
-  std::string device;   ///< "": a study by itself.
-  std::string profile;  ///< Of the device, a file; "": a real device's own is looked for.
+  std::string device;  ///< "" checks the study alone.
+  /// The file of the device's profile; if "", a real device's own is looked for.
+  std::string profile;
   double speed_m_per_s = 0.5;
   bool json = false;
 };

@@ -8,12 +8,13 @@
 
 namespace jnd::app {
 
-/// The contract's JSON: `{"problems": [{file, line, column, pointer, message}]}`.
+/// The problems as the JSON that the contract describes: `{"problems": [{file, line, column,
+/// pointer, message}]}`.
 [[nodiscard]] nlohmann::ordered_json problems_json(
     const std::vector<experiments::StudyProblem>& problems);
 
-/// What exit 1 prints with `--json` where a command has nothing else: `problems` of a study
-/// file, or `{"error": sentence}`.
+/// What a command prints with `--json` before exit code 1 if it has nothing else: `problems` of
+/// a study file, or `{"error": sentence}`.
 [[nodiscard]] std::string error_json(const core::Error& error);
 
 }  // namespace jnd::app

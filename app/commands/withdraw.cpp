@@ -27,7 +27,7 @@ struct WithdrawOptions {
   bool json = false;
 };
 
-/// On a terminal the pseudonym is asked for again: there is no way back.
+/// On a terminal, asks for the pseudonym again, because a withdrawal cannot be undone.
 bool confirmed(const WithdrawOptions& options) {
   if (options.yes || ::isatty(STDIN_FILENO) == 0) return true;
   std::fprintf(stderr,
@@ -55,7 +55,7 @@ nlohmann::json withdrawal_json(const core::WithdrawalReport& report,
           {"exports", std::move(exports)}};
 }
 
-/// They outlast the person's data.
+/// Counts adverse events, which are kept when the person's data are deleted.
 std::size_t num_adverse_events(const WithdrawOptions& options) {
   const core::StudyStore store(options.folder, core::StudyStore::Mode::kReadOnly);
   const std::vector<core::AdverseEventRow> all = store.adverse_events();

@@ -7,11 +7,11 @@
 
 namespace jnd::app {
 
-/// A person at a real device, asked for each thing to do.
+/// A person at a real device, who is asked to do each thing.
 class AskedBench final : public device::Bench {
  public:
-  /// Says that, whole sentences, and returns when it is done; may throw `core::Error` where
-  /// nobody answers.
+  /// Tells the person what to do, in whole sentences, and returns when it is done. May throw
+  /// `core::Error` if nobody answers.
   using Ask = std::function<void(const std::string& to_do)>;
 
   explicit AskedBench(Ask ask) : ask_(std::move(ask)) {}

@@ -22,13 +22,13 @@ MeasuredValue value_of(const analysis::Measured& measured) {
   return {.value = measured.value, .ci95 = {measured.ci95_low, measured.ci95_high}};
 }
 
-/// Of what cannot be below zero: noise may have made it so.
+/// A value that cannot be below zero, although noise may have put it there.
 MeasuredValue not_negative(const analysis::Measured& measured) {
   return {.value = std::max(0.0, measured.value),
           .ci95 = {std::max(0.0, measured.ci95_low), std::max(0.0, measured.ci95_high)}};
 }
 
-/// "plugin:./my.so:real" as a name: "plugin_my_so_real".
+/// A device's name as a profile's name: "plugin:./my.so:real" becomes "plugin_my_so_real".
 std::string name_of(const std::string& device) {
   std::string name;
   for (const char letter : device) {

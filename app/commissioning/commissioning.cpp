@@ -96,7 +96,7 @@ void Commissioning::append(const std::string& line) {
   }
   const int file = ::open(record_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   const std::string whole = (ends_a_line(record_) ? "" : "\n") + line + "\n";
-  // One write, so that a line is there or not.
+  // A single write makes the line either complete or absent.
   const bool is_kept =
       file >= 0 &&
       ::write(file, whole.data(), whole.size()) == static_cast<ssize_t>(whole.size()) &&

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// The beginning of a JSON document that has no end.
+/// True for the beginning of a JSON document whose end is missing.
 bool is_torn(const std::string& line) {
   try {
     [[maybe_unused]] const json whole = json::parse(line);
@@ -28,7 +28,7 @@ bool is_torn(const std::string& line) {
   return false;
 }
 
-/// Goes through the lines and keeps which of them counts.
+/// Goes through the lines and finds out which of them count.
 class RecordReplay {
  public:
   void begin(const json& entry) {
@@ -66,7 +66,7 @@ class RecordReplay {
   [[nodiscard]] CommissioningRecord record() && { return std::move(record_); }
 
  private:
-  /// The measurement that counted so far does so no more, nor what rests on it.
+  /// The measurement that counted so far no longer counts, nor does anything that rests on it.
   void end_of(CommissioningStep step, RecordedFate fate) {
     record_.results.measured_at[static_cast<std::size_t>(step)].clear();
     forget_after(record_.results, step);
@@ -82,7 +82,7 @@ class RecordReplay {
     const auto place = static_cast<std::size_t>(step);
     CommissioningResults& results = record_.results;
     read_step_json(step, entry.at("found"), results);
-    // Records of older programs do not have them.
+    // Records of older programs contain no points.
     if (entry.contains("points")) read_points_json(step, entry.at("points"), results);
     results.conditions[place].reset();
     if (entry.contains("conditions")) {
@@ -110,7 +110,7 @@ CommissioningRecord read_commissioning_record(const fs::path& file) {
   try {
     while (std::getline(in, line)) {
       ++number;
-      // Of a program that died in the middle of it; whoever went on began another line.
+      // The program died while it wrote this line; whoever continued began a new line.
       if (is_torn(line)) continue;
       const json entry = json::parse(line);
       if (number == 1) {

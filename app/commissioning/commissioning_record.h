@@ -8,42 +8,46 @@
 
 namespace jnd::app {
 
-/// What became of a line of a record.
+/// What happened to a line of a record.
 enum class RecordedFate {
   kCounts,      ///< A measurement, the newest of its step.
-  kSuperseded,  ///< A measurement; its step was measured anew.
+  kSuperseded,  ///< A measurement whose step was measured again.
   kUndone,      ///< A measurement that was taken back.
-  kRestsOnOld,  ///< A measurement; a step that it uses was measured anew or taken back.
-  kFailed,      ///< No measurement came of it.
-  kTakesBack,   ///< No measurement: it says that one is taken back.
+  /// A measurement that used a step which was later measured again or taken back.
+  kRestsOnOld,
+  kFailed,     ///< An attempt that led to no measurement.
+  kTakesBack,  ///< Not a measurement: it says that one is taken back.
 };
 
-/// A line of a record after the first.
+/// A line of a record after the first one.
 struct RecordedEntry {
-  int line = 0;      ///< Of the file, from 1.
-  std::string step;  ///< As it is written, also where this program does not know it.
-  std::string at;    ///< "2026-11-25T10:12:00Z".
+  int line = 0;  ///< The line in the file, from 1.
+  /// The step as it is written, even if this program does not know it.
+  std::string step;
+  std::string at;  ///< Such as "2026-11-25T10:12:00Z".
   RecordedFate fate = RecordedFate::kCounts;
-  std::string why;               ///< It failed; "" otherwise.
-  std::vector<FoundLine> found;  ///< Of a measurement.
-  std::string operator_name;     ///< "": not said.
+  std::string why;               ///< Why it failed; "" otherwise.
+  std::vector<FoundLine> found;  ///< What a measurement found.
+  std::string operator_name;     ///< "" if nobody said it.
 };
 
-/// All that was ever measured of a device, without the device.
+/// Everything that was ever measured of a device; the device itself is not needed.
 struct CommissioningRecord {
-  std::string device;  ///< As after `--device`.
+  std::string device;  ///< The name as it is written after `--device`.
   device::DeviceIdentity identity;
   bool simulated = false;
   std::string begun_at;
-  std::vector<RecordedEntry> entries;  ///< In their order.
-  CommissioningResults results;        ///< What counts, with its points where they are kept.
+  std::vector<RecordedEntry> entries;  ///< In the order of the file.
+  /// What counts, with its points if they were stored.
+  CommissioningResults results;
 };
 
-/// A line that a program died in is none. A step that is not known is an entry and no result.
-/// Throws `core::Error`: it cannot be read, or a line is damaged.
+/// Reads a record. A line that the program did not finish writing is ignored. A step that is
+/// not known becomes an entry but no result. Throws `core::Error` if the file cannot be read or
+/// a line is damaged.
 [[nodiscard]] CommissioningRecord read_commissioning_record(const std::filesystem::path& file);
 
-/// What rests on a step that is measured anew, or taken back, counts no more.
+/// Removes results that rest on a step that is measured again or taken back.
 void forget_after(CommissioningResults& results, CommissioningStep changed);
 
 }  // namespace jnd::app

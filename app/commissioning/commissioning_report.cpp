@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using analysis::HtmlTable;
 using analysis::HtmlText;
 
-/// Boxes, equations and lines to sign on, beside what every report has.
+/// The styles of boxes, equations and lines to sign on, in addition to those of every report.
 constexpr char kFiledStyle[] = R"css(
 .verdict { border: 2px solid #1b1b1b; padding: .5rem .8rem; margin: .8rem 0; }
 .verdict p { margin: .2rem 0; }
@@ -63,7 +63,7 @@ std::string oldest_of(const CommissioningResults& results) {
 
 std::string date_of_moment(const std::string& at) { return at.substr(0, 10); }
 
-/// 0 where it is none.
+/// The time in nanoseconds; 0 if the text is no time.
 std::int64_t time_ns_of(const std::string& at) {
   using namespace std::chrono;
   int numbers[6] = {};
@@ -78,7 +78,7 @@ std::int64_t time_ns_of(const std::string& at) {
       .count();
 }
 
-/// "force, delay" of those that do not count as measured.
+/// The steps that do not count as measured, such as "force, delay".
 std::string missing_steps(const CommissioningResults& results) {
   std::string missing;
   for (const CommissioningStep step : kCommissioningSteps) {
@@ -88,11 +88,11 @@ std::string missing_steps(const CommissioningResults& results) {
   return missing;
 }
 
-/// Whether this profile is of these measurements: those of every step are in it, to the last
-/// digit. Every step was measured.
+/// True if this profile comes from these measurements: it contains those of every step to the
+/// last digit. Every step has to be measured.
 bool is_of(const experiments::DeviceProfile& profile, const CommissioningResults& results) {
   const auto& gain = profile.force.gain;
-  // Of a device that is no single mass no delay is told.
+  // No delay is given for a device that is not a single mass.
   constexpr double kNotTold = -1.0;
   const double told_s = profile.delay_s ? profile.delay_s->value : kNotTold;
   const double found_s = analysis::is_single_mass(*results.delay, *results.force)
@@ -106,9 +106,9 @@ bool is_of(const experiments::DeviceProfile& profile, const CommissioningResults
          profile.noise.position_sd_m == results.noise->position_sd_m.value;
 }
 
-/// Attempts that came to nothing after what counts: whoever signs has to know of them.
+/// Adds attempts that failed after what counts, because whoever signs has to know of them.
 void add_failures(const CommissioningRecord& record, std::vector<std::string>& lacks) {
-  std::map<std::string, const RecordedEntry*> last;  // By the step.
+  std::map<std::string, const RecordedEntry*> last;  // The last attempt at each step.
   for (const RecordedEntry& entry : record.entries) last[entry.step] = &entry;
   for (const auto& [step, entry] : last) {
     if (entry->fate != RecordedFate::kFailed) continue;
@@ -223,7 +223,7 @@ void write_provenance(HtmlText& html, const Filed& filed) {
   html.table(table);
 }
 
-/// Figures of a step, where it has any.
+/// Writes the figures of a step, if it has any.
 void write_step_figures(HtmlText& html, const Filed& filed, const std::string& section,
                         const std::vector<analysis::Figure>& figures,
                         const std::vector<analysis::DrawnFigure>& drawn) {
@@ -263,7 +263,7 @@ std::string report_text(const Filed& filed, const std::vector<analysis::Figure>&
   write_history(body, filed.record, filed.request.profile);
   write_provenance(body, filed);
   write_commissioning_references(body, results);
-  // Numbers of tables go on from the first page.
+  // The numbers of tables continue from those of the first page.
   const std::string rest = body.text().substr(html.text().size());
   return analysis::html_document(title_of(filed.record),
                                  filed.record.simulated ? "SIMULATED device" : "",

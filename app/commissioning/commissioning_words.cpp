@@ -35,7 +35,8 @@ constexpr std::array<StepWords, kCommissioningSteps.size()> kWords = {{
          "not there.")},
 }};
 
-/// Three digits of what the interval leaves open.
+/// The value and its interval, with so many decimals that two digits of the interval's half
+/// width are shown.
 std::string with_interval(const analysis::Measured& measured, double scale = 1.0) {
   const double half_width = 0.5 * std::abs(measured.ci95_high - measured.ci95_low) * scale;
   const int decimals =

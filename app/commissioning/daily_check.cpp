@@ -39,8 +39,7 @@ Eigen::Vector3d offset_of(const DeviceProfile& profile) {
   return Eigen::Map<const Eigen::Vector3d>(profile.frame.offset_m.data());
 }
 
-/// What the profile says of it, with as much on either side as the profile leaves open and what
-/// is tolerated.
+/// Expects the profile's value, plus and minus the profile's uncertainty and the tolerance.
 CheckedQuantity around(CheckedQuantity it, const MeasuredValue& expected, double tolerated) {
   const double open = half_width(expected.ci95) + tolerated;
   it.expected = expected.value;
@@ -49,7 +48,7 @@ CheckedQuantity around(CheckedQuantity it, const MeasuredValue& expected, double
   return it;
 }
 
-/// Of what is never below zero and should be as small as this.
+/// Expects a value that is never below zero and should be no larger than `most`.
 CheckedQuantity at_most(CheckedQuantity it, double expected, double most) {
   it.expected = expected;
   it.least = 0.0;
@@ -57,7 +56,7 @@ CheckedQuantity at_most(CheckedQuantity it, double expected, double most) {
   return it;
 }
 
-/// How well four marks tell a turn: the least spread of theirs in any direction.
+/// How well four marks show a rotation: their least spread in any direction.
 double spread(const std::array<Eigen::Vector3d, 4>& marks_m) {
   Eigen::Matrix<double, 3, 4> about;
   for (int i = 0; i < 4; ++i) about.col(i) = marks_m[static_cast<std::size_t>(i)];
@@ -65,7 +64,7 @@ double spread(const std::array<Eigen::Vector3d, 4>& marks_m) {
   return about.jacobiSvd().singularValues()[2];
 }
 
-/// One device, from the beginning of a check to its end.
+/// The measurement of one device, from the beginning of a check to its end.
 class DailyMeasurement {
  public:
   DailyMeasurement(device::HapticDevice& device, device::Bench& bench,
@@ -86,12 +85,13 @@ class DailyMeasurement {
     return analysis::fit_frame(touched);
   }
 
-  /// About the middle of the marks, along the axes of the workspace as they are now.
+  /// Measures the force around the middle of the marks, along the present axes of the
+  /// workspace.
   [[nodiscard]] analysis::ForceFit force(const DeviceProfile& profile,
                                          const analysis::FrameFit& frame,
                                          const Eigen::Vector3d& middle_m, double load_kg) {
     constexpr std::array kSpeeds_m_per_s = {0.035, 0.1, 0.21};
-    // Along x most often: where axes are damped differently, that one counts alone.
+    // Most rounds go along x, because only x counts if the axes are damped differently.
     constexpr std::array kRounds = {3, 1, 1};
     constexpr double kLoadedSpeed_m_per_s = 0.035;
     constexpr double kHalfWay_m = 0.08, kLoadedHalfWay_m = 0.05;
@@ -116,7 +116,8 @@ class DailyMeasurement {
       ways.go(home_m, to_device.col(2), kLoadedHalfWay_m, kLoadedSpeed_m_per_s,
               {.load_kg = load_kg});
     }
-    started_.run().stop();  // No force while the load is taken off.
+    // There is no force while the load is taken off.
+    started_.run().stop();
     bench_.hang(0.0);
     progress_(1.0, "");
     return analysis::fit_force(ways.ways(roughly.delay_s.value), to_device.col(2),
@@ -124,7 +125,7 @@ class DailyMeasurement {
   }
 
  private:
-  /// How heavy and how late it is: by the profile, else by a few pushes.
+  /// How heavy the device is and how late it acts: by the profile, or else by a few pushes.
   [[nodiscard]] analysis::DelayFit how_it_moves(const DeviceProfile& profile,
                                                 const Eigen::Vector3d& home_m) {
     if (profile.mechanics.mass_kg && profile.mechanics.mass_kg->value > 0.0 &&
@@ -148,7 +149,7 @@ class DailyMeasurement {
 void judge_noise(const DeviceProfile& profile, const analysis::NoiseFit& found,
                  std::vector<CheckedQuantity>& all) {
   const double factor = kDailyTolerances.noise_factor;
-  // A step more or less is no noise.
+  // A difference of one step of the position is no noise.
   const double step_m = profile.noise.position_resolution_m.value_or(0.0);
   if (const auto expected_m = profile.noise.position_sd_m) {
     all.push_back(at_most({.name = "position_sd_m",
@@ -186,7 +187,7 @@ void judge_frame(const DeviceProfile& profile, const analysis::FrameFit& found,
        .shown_scale = 57.29577951,
        .shown_unit = "°"},
       0.0, kDailyTolerances.turned_rad + profile.frame.rotation_ci95_rad.value_or(0.0)));
-  // Where the marks are, as they were touched, by either frame.
+  // Where the touched marks are, by either frame.
   const Eigen::Vector3d touched_m = found.rotation.transpose() * (middle_m - found.offset_m);
   const double shifted_m = (rotation * touched_m + offset_of(profile) - middle_m).norm();
   all.push_back(at_most({.name = "shifted_m",
@@ -233,7 +234,7 @@ void judge_force(const DeviceProfile& profile, const analysis::ForceFit& found,
   }
 }
 
-/// What a profile can hold: a number, its interval about it.
+/// A value that a profile can store: a number with an interval around it; none otherwise.
 std::optional<MeasuredValue> kept_value(const Measured& found, double least, double most) {
   const bool is_kept = found.value > least && found.value < most && found.ci95_low > least &&
                        found.ci95_high < most && found.ci95_low <= found.value &&
@@ -267,7 +268,7 @@ experiments::DailyCheck kept_of(const std::vector<CheckedQuantity>& all,
   return kept;
 }
 
-/// As many decimals as its range decides by.
+/// So many decimals that the range can be read precisely enough to decide.
 int shown_decimals(const CheckedQuantity& quantity) {
   const double range = quantity.shown_scale * (quantity.most - quantity.least);
   if (!(range > 0.0) || !std::isfinite(range)) return 3;
@@ -302,7 +303,7 @@ std::vector<Eigen::Vector3d> daily_marks_m(const std::vector<Eigen::Vector3d>& m
       for (std::size_t c = b + 1; c < num; ++c) {
         for (std::size_t d = c + 1; d < num; ++d) {
           const std::array four_m = {marks_m[a], marks_m[b], marks_m[c], marks_m[d]};
-          // The first of equals, whatever the last digits say.
+          // If several are equal, the first one is taken, whatever rounding says.
           if (const double its = spread(four_m); its > most + 1e-9) {
             most = its;
             best_m = four_m;

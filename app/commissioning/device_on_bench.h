@@ -15,24 +15,24 @@ using GuideOrder = device::MotionGuide::Order;
 
 [[nodiscard]] Eigen::Vector3d vector_of(const core::PlainVector& plain) noexcept;
 [[nodiscard]] std::array<double, 3> plain_of(const Eigen::Vector3d& vector) noexcept;
-/// Mean of the points that the device has.
+/// The mean of the points that the device has.
 [[nodiscard]] Eigen::Vector3d hand_m(const core::Sample& sample,
                                      const device::DeviceCapabilities& can) noexcept;
-/// All that was sent.
+/// The sum of all forces that were sent.
 [[nodiscard]] Eigen::Vector3d commanded_n(const core::Sample& sample) noexcept;
 
-/// Before anything is known of it: soft enough for whatever it is.
+/// A hold for a device about which nothing is known yet; it is soft enough for any.
 inline constexpr GuideOrder kSoftHold = {
     .stiffness_n_per_m = 40.0, .damping_n_s_per_m = 3.0, .is_on = true};
 
-/// That keeps up with ways under pushes, sweeps and stimuli.
+/// A hold that is firm enough for pushes, sweeps and stimuli.
 inline constexpr GuideOrder kFirmHold = {
     .stiffness_n_per_m = 100.0, .damping_n_s_per_m = 10.0, .is_on = true};
 
-/// A device without a hand and its loop. Nothing moves it before `hold`.
+/// A device without a hand, and its loop. Nothing moves the device before `hold`.
 class DeviceOnBench {
  public:
-  /// `how`: limits and guard; the rest is by `plan`.
+  /// `how` gives limits and guard; the plan gives the rest.
   DeviceOnBench(device::HapticDevice& device, device::Bench& bench, const MeasuringPlan& plan,
                 const GuidedRun::Parameters& how = {});
 
@@ -48,11 +48,11 @@ class DeviceOnBench {
   /// Somebody does this at it: it is held meanwhile and has no force. Then as `hold`.
   void act(const std::function<void()>& act);
 
-  /// Goes there and waits until it is there.
+  /// Goes to this place and waits until the device is there.
   void go_to(const Eigen::Vector3d& place_m, GuideOrder order);
 
-  /// Waits until it moves no more than 0.3 mm in 0.2 s, at most 4 s, for links may sway behind
-  /// the tool for long. `take` gets what happens meanwhile.
+  /// Waits until the device moves no more than 0.3 mm in 0.2 s, but at most 4 s, because links
+  /// may sway behind the tool for long. `take` gets the samples meanwhile.
   void come_to_rest(const std::function<void(const core::Sample&)>& take = {});
 
  private:

@@ -15,7 +15,7 @@ std::string in_three(const core::PlainVector& vector, double scale, const char* 
                      scale * vector[2], unit);
 }
 
-/// "1 and 3 pressed", "none is pressed". Buttons are counted from 1, as on most devices.
+/// Such as "1, 3 pressed" or "none is pressed". Buttons are counted from 1, as on most devices.
 std::string button_words(std::uint32_t buttons) {
   if (buttons == 0) return tr("none is pressed");
   std::string numbers;

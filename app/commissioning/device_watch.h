@@ -8,13 +8,13 @@
 
 namespace jnd::app {
 
-/// What a device tells at this moment, in words: "Enabling switch", "open".
+/// What a device tells at this moment, in words such as "Enabling switch" and "open".
 struct WatchedLine {
   std::string what, value;
 };
 
-/// Of what the device has, and of nothing else: its enabling switch, its buttons, where its
-/// first contact point and how fast its hand is, what its sensors measure. Places are in the
+/// The lines for what the device has: its enabling switch, its buttons, the place of its first
+/// contact point, the speed of its hand, and the values of its sensors. Places are in the
 /// device's own frame.
 [[nodiscard]] std::vector<WatchedLine> watched_lines(const device::DeviceCapabilities& can,
                                                      const core::Telemetry& telemetry);

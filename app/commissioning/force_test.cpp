@@ -26,7 +26,7 @@ ForceTestResult test_force(device::HapticDevice& device, device::Bench& bench,
   order.pulse_period_s = kPeriod_s;
   started.run().order(order);
   ForceTestResult result;
-  // The second half of each push, when the device has come to rest.
+  // Uses the second half of each push, when the device has come to rest.
   const auto mean_of_half = [&](double sense) {
     double moved_m = 0.0;
     int num_samples = 0;

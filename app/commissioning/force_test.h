@@ -6,23 +6,24 @@
 
 namespace jnd::app {
 
-/// A small force for somebody to look at: does the device move where it is told to?
+/// A small force, for somebody to see whether the device moves in the right direction.
 struct ForceTest {
-  Eigen::Vector3d along = Eigen::Vector3d::UnitX();  ///< In the workspace, of length 1.
-  double force_n = 0.5;                              ///< To and fro, (0, 2].
-  /// From the device's own frame to the workspace, by its profile.
+  /// A unit vector in the workspace.
+  Eigen::Vector3d along = Eigen::Vector3d::UnitX();
+  double force_n = 0.5;  ///< The force to and fro, in (0, 2].
+  /// The rotation from the device's own frame to the workspace, by its profile.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
 };
 
 struct ForceTestResult {
-  /// Along it, half of the way from where it was fro to where it was to; negative: the other
-  /// way.
+  /// Half of the way, along the force, from the device's place under the backward force to its
+  /// place under the forward force. A negative value means the opposite direction.
   double moved_m = 0.0;
 };
 
-/// A device that nobody's hand is in is held by a soft spring and pushed to and fro, three
-/// times, through the loop and its limiter. Throws `core::Error` where the test is no such test
-/// and as the steps do. Not real time.
+/// Holds a device without a hand by a soft spring and pushes it to and fro three times, through
+/// the loop and its limiter. Throws `core::Error` if the parameters of the test are wrong, and
+/// whatever the steps of a measurement throw. Not real time.
 [[nodiscard]] ForceTestResult test_force(device::HapticDevice& device, device::Bench& bench,
                                          const MeasuringPlan& plan, const ForceTest& test,
                                          const StepProgress& progress);

@@ -56,7 +56,7 @@ void GuidedPushes::take_windows(double sense) {
     }
   });
   if (slowest_m_per_s < 0.2 * kSpeed_m_per_s) {
-    // A light device turned back: softer, and these windows tell nothing.
+    // A light device turned back. The next pushes are softer, and these windows are not used.
     push_n_ *= 0.6;
     return;
   }

@@ -9,12 +9,13 @@
 
 namespace jnd::app {
 
-/// Pushes to and fro along the device's x while it moves on, so that friction never turns.
+/// Pushes the device to and fro along its x axis while it moves on, so that friction never
+/// changes its direction.
 class GuidedPushes {
  public:
   GuidedPushes(DeviceOnBench& started, const MeasuringPlan& plan);
 
-  /// One way there and one back.
+  /// Goes one way there and one way back in each round.
   void go(const Eigen::Vector3d& middle_m, int num_rounds,
           const std::function<void(int)>& tell);
 
@@ -29,7 +30,8 @@ class GuidedPushes {
   DeviceOnBench& started_;
   double period_s_;
   int push_ticks_;
-  core::RandomStream random_;  ///< Of where it goes, so that cogging averages out.
+  /// Draws the places, so that cogging averages out.
+  core::RandomStream random_;
   int num_ways_ = 0;
   double push_n_ = 3.0;
   std::vector<analysis::PushedWindow> windows_;

@@ -20,7 +20,8 @@ namespace jnd::app {
 namespace {
 
 constexpr std::size_t kSampleCapacity = 32768;
-/// Against 2 N of friction over half a metre, and no more: a device that runs away is stopped.
+/// The energy against 2 N of friction over half a metre, and no more: a device that runs away
+/// is stopped.
 constexpr double kMaxGiven_j = 1.0;
 
 device::HapticLoop::Parameters loop_parameters(const GuidedRun::Parameters& parameters,
@@ -72,7 +73,8 @@ struct GuidedRun::Implementation {
     return telemetry.value().fault;
   }
 
-  /// A sign of life, unless a window that should watch gives none. One thread at a time.
+  /// Gives a sign of life, unless a window that should watch gives none. Only one thread calls
+  /// it at a time.
   void beat() noexcept {
     if (parameters.watcher != nullptr) {
       const std::uint64_t count = parameters.watcher->count();
@@ -82,7 +84,7 @@ struct GuidedRun::Implementation {
     heartbeat.beat();
   }
 
-  /// Only whoever waits here beats: a program that hangs lets the force fade.
+  /// The beat comes only from whoever waits here, so that the force fades if the program hangs.
   core::Fault run(double duration_s, const std::function<void(const core::Sample&)>& take) {
     const auto num_ticks = std::llround(duration_s * parameters.rate_hz);
     std::int64_t num_taken = 0;
@@ -99,7 +101,8 @@ struct GuidedRun::Implementation {
       samples.drain(visit);
       return fault();
     }
-    samples.drain([](const core::Sample&) {});  // From before.
+    // Drops samples from before.
+    samples.drain([](const core::Sample&) {});
     while (num_taken < num_ticks) {
       beat();
       if (stop_requested() && !stop.is_pressed()) stop.press();
@@ -154,7 +157,7 @@ void GuidedRun::arm(const std::function<void(const core::Sample&)>& take) {
 
 void GuidedRun::while_asking(const std::function<void()>& act) {
   Implementation& my = *implementation_;
-  // Who waits for a person cannot beat, nor see that the program is to stop.
+  // A thread that waits for a person cannot beat, nor see that the program has to stop.
   const std::jthread beating([&my](const std::stop_token& ends) {
     while (!ends.stop_requested()) {
       my.beat();

@@ -15,30 +15,31 @@
 
 namespace jnd::app {
 
-/// The force that a device may give while it is measured, whatever it can do: no hand is in it,
+/// The force that a device may give while it is measured, whatever it can do. No hand is in it,
 /// but somebody stands beside it.
 inline constexpr core::ForceLimiter::Parameters kCommissioningLimits = {
     .per_point_n = 10.0, .total_n = 15.0, .slew_n_per_s = 1000.0, .max_speed_m_per_s = 1.5};
 
-/// A device that is measured: its whole haptic loop, with a guide that moves it about, limiter
-/// and guards included. In real time and watched over where the device is real or has a clock
-/// of its own; else as fast as it goes. Energy is watched as well, with as much of it as moving
+/// A device that is measured: its whole haptic loop, with limiter and guards, and a guide that
+/// moves it. If the device is real or has its own clock, the loop runs in real time and is
+/// watched; otherwise it runs as fast as possible. The guard of energy allows as much as moving
 /// the device takes. Not real time itself; used by one thread.
 class GuidedRun {
  public:
   struct Parameters {
     double rate_hz = 1000.0;
     core::ForceLimiter::Parameters limits = kCommissioningLimits;
-    /// Swings of the force up to this are the guide's own pushes, and no fault.
+    /// Swings of the force up to this size are the guide's own pushes, and no fault.
     double swing_n = 10.0;
     bool allow_no_realtime = false;
-    core::EmergencyStop* emergency_stop = nullptr;  ///< nullptr: one of its own.
-    /// Of a window: while it is silent, the force fades, for nobody could press the stop there.
-    /// nullptr: there is none. Outlives this.
+    /// With nullptr, the run has a stop of its own.
+    core::EmergencyStop* emergency_stop = nullptr;
+    /// The heartbeat of a window. While it is silent, the force fades, because nobody could
+    /// press the stop there. nullptr if there is no window. It outlives this object.
     const core::Heartbeat* watcher = nullptr;
   };
 
-  /// Throws `core::Error` if loop or device cannot be started. The device outlives this.
+  /// Throws `core::Error` if loop or device cannot be started. The device outlives this object.
   GuidedRun(device::HapticDevice& device, const Parameters& parameters);
   ~GuidedRun();
   GuidedRun(const GuidedRun&) = delete;
@@ -66,13 +67,13 @@ class GuidedRun {
   /// Lets this time pass. Throws `core::Error` if the loop latches a fault, or if the program
   /// is asked to stop.
   void run_for(double duration_s, const std::function<void(const core::Sample&)>& take = {});
-  /// The same, but a fault that the loop latches is told and not thrown. There is no force then
-  /// until `arm`.
+  /// Lets this time pass, but returns a fault that the loop latches instead of throwing it.
+  /// Then there is no force until `arm`.
   [[nodiscard]] core::Fault try_for(double duration_s,
                                     const std::function<void(const core::Sample&)>& take = {});
-  /// Of the last tick.
+  /// The telemetry of the last tick.
   [[nodiscard]] const core::Telemetry& telemetry();
-  /// No force, motors off, the device closed.
+  /// Ends the force, turns the motors off, and closes the device.
   void stop() noexcept;
 
  private:

@@ -11,11 +11,11 @@
 namespace jnd::app {
 namespace {
 
-/// Far above whatever the device reaches.
+/// A surface far above whatever the device reaches.
 constexpr double kNoSurface_m = 100.0;
 constexpr double kForever_s = 1e6;
 
-/// How far the force at any point goes up and down while it is watched.
+/// How far the force at any point swings while it is watched.
 class Swing {
  public:
   explicit Swing(const device::DeviceCapabilities& can) : can_(can) {
@@ -69,14 +69,15 @@ void GuidedStimuli::push(const Eigen::Vector3d& force_n) {
 
 bool GuidedStimuli::ended_well(core::Fault fault) {
   GuidedRun& run = started_.run();
-  // Held from where it is, and slowly back, before the medium lets it go.
+  // The device is held where it is, and moved back slowly, before the medium disappears.
   GuideOrder back = kFirmHold;
   back.to_m = plain_of(home_m_);
   run.order(back);
   run.render({}, kNoSurface_m);
   if (!core::is_failure(fault)) fault = run.try_for(0.3);
   if (!core::is_failure(fault)) return true;
-  started_.act([] {});  // Held by somebody until it is armed again.
+  // Somebody holds the device until it is armed again.
+  started_.act([] {});
   return false;
 }
 
@@ -142,7 +143,7 @@ bool GuidedStimuli::rests_on(double stiffness_n_per_m) {
   watch(kWatched_s, &early);
   watch(kBetween_s, nullptr);
   watch(kWatched_s, &late);
-  // As far as noise reaches in a thousand ticks, to either side.
+  // So many standard deviations noise reaches, on either side, in a thousand ticks.
   constexpr double kReach = 4.0;
   const double still_n = device::SettlingCriterion().force_swing_n +
                          2.0 * kReach * stiffness_n_per_m * noise_.position_sd_m.value;

@@ -6,20 +6,21 @@
 
 namespace jnd::app {
 
-/// Renders stimuli on a device that the guide moves, to see what they do to it. A fault of the
-/// loop, as its guards latch when something swings, is an answer here; the device is armed
-/// again afterwards, held where it then is.
+/// Renders stimuli on a device that the guide moves, to see how the device reacts. A fault of
+/// the loop, which its guards latch when something swings, is an answer here. The device is
+/// then armed again and held where it is.
 class GuidedStimuli {
  public:
   GuidedStimuli(DeviceOnBench& started, analysis::NoiseFit noise,
                 const analysis::ForceFit& force);
 
-  /// Drawn through a fluid of this damping along the device's x, and knocked: no fault of the
-  /// loop.
+  /// Draws the device along its x axis through a fluid of this damping, and knocks it. Returns
+  /// true if the loop had no fault.
   [[nodiscard]] bool is_drawn_through(double damping_n_s_per_m);
 
-  /// Let fall by 5 N onto a solid that lies across the device's z, and shaken at each point by
-  /// a sweep: the force there does not swing ever further, and no guard of the loop ends it.
+  /// Lets the device fall by 5 N onto a solid across its z axis, and shakes it at each point by
+  /// a sweep. Returns true if the force does not swing further and further, and no guard of the
+  /// loop ends it.
   [[nodiscard]] bool rests_on(double stiffness_n_per_m);
 
  private:
@@ -28,8 +29,9 @@ class GuidedStimuli {
 
   DeviceOnBench& started_;
   analysis::NoiseFit noise_;
-  double friction_n_;           ///< Commanded.
-  Eigen::Vector3d carrying_n_;  ///< What holds up the weight that the motors do not carry.
+  double friction_n_;  ///< As a commanded force.
+  /// The force that holds up the weight which the motors do not carry.
+  Eigen::Vector3d carrying_n_;
   Eigen::Vector3d home_m_;
 };
 

@@ -66,7 +66,8 @@ void GuidedSweeps::one_way(int input, const Eigen::Vector3d& end_m) {
   ways_.push_back(std::move(way));
   order.sweep_n = 0.0;
   started_.run().order(order);
-  started_.run().run_for(0.3);  // To rest.
+  // The device comes to rest.
+  started_.run().run_for(0.3);
 }
 
 }  // namespace jnd::app

@@ -9,19 +9,19 @@
 
 namespace jnd::app {
 
-/// Sweeps at one contact point after the other, along each axis, while the device moves on
-/// along that axis, so that friction never turns.
+/// Applies sweeps at one contact point after another along each axis, while the device moves on
+/// along that axis, so that friction never changes its direction.
 class GuidedSweeps {
  public:
-  static constexpr double kSweep_n = 3.0;  ///< Amplitude.
+  static constexpr double kSweep_n = 3.0;  ///< The amplitude.
 
   GuidedSweeps(DeviceOnBench& started, const MeasuringPlan& plan);
 
-  /// Of the device's points, three axes each.
+  /// Three axes for each of the device's points.
   [[nodiscard]] int num_inputs() const noexcept { return 3 * static_cast<int>(points_.size()); }
   [[nodiscard]] Eigen::VectorXd share_ratio() const;
 
-  /// One way there and one back at each input.
+  /// Goes one way there and one way back at each input, in each round.
   void go(const Eigen::Vector3d& middle_m, int num_rounds,
           const std::function<void(int input)>& tell);
 
@@ -37,7 +37,8 @@ class GuidedSweeps {
   double rate_hz_;
   std::vector<int> points_;
   int sweep_ticks_;
-  core::RandomStream random_;  ///< Of where it goes, so that cogging averages out.
+  /// Draws the places, so that cogging averages out.
+  core::RandomStream random_;
   std::vector<analysis::SweptWay> ways_;
 };
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kGravity_m_per_s2 = 9.80665;
 
-/// A critically damped hold of a device of this mass, in newtons commanded.
+/// A critically damped hold for a device of this mass, in commanded newtons.
 GuideOrder holding(double mass_per_gain_kg) {
   constexpr double kRate_rad_per_s = 20.0;
   return {.stiffness_n_per_m = kRate_rad_per_s * kRate_rad_per_s * mass_per_gain_kg,
@@ -16,7 +16,7 @@ GuideOrder holding(double mass_per_gain_kg) {
           .is_on = true};
 }
 
-/// As it acted, at the time of each position.
+/// The force that acted at the time of each position.
 std::vector<double> delayed(const std::vector<double>& force_n, double delay_ticks) {
   const auto whole = static_cast<std::size_t>(delay_ticks);
   const double part = delay_ticks - static_cast<double>(whole);
@@ -62,7 +62,7 @@ void GuidedWays::one_way(const Eigen::Vector3d& end_m, const Eigen::Vector3d& al
 }
 
 std::vector<analysis::GuidedWay> GuidedWays::ways(double delay_s) const {
-  // A force stands for a tick, so it acts half a tick later on the whole.
+  // A force is held for a whole tick, so on average it acts half a tick later.
   const double delay_ticks = 0.5 + std::max(0.0, delay_s) / period_s_;
   std::vector<analysis::GuidedWay> all;
   for (const Recorded& way : ways_) {

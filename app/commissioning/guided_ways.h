@@ -9,22 +9,23 @@
 
 namespace jnd::app {
 
-/// What the ways of one load are made with.
+/// The load and the pose of some ways.
 struct WaySetting {
   double load_kg = 0.0;
   int pose = 0;
 };
 
-/// Along a line, about a middle that is drawn anew for each, so that cogging averages out.
+/// Moves the device along lines. The middle of each line is drawn anew, so that cogging
+/// averages out.
 class GuidedWays {
  public:
-  /// `mass_per_gain_kg`: roughly, of the device, by which it is held firmly enough.
+  /// `mass_per_gain_kg` is a rough value of the device, with which it is held firmly enough.
   GuidedWays(DeviceOnBench& started, const MeasuringPlan& plan, double mass_per_gain_kg);
 
   void go(const Eigen::Vector3d& middle_m, const Eigen::Vector3d& direction, double half_way_m,
           double speed_m_per_s, const WaySetting& setting);
 
-  /// What they come to where a force acts this long after its command.
+  /// The ways that were recorded, if a force acts this long after its command.
   [[nodiscard]] std::vector<analysis::GuidedWay> ways(double delay_s) const;
 
  private:
@@ -33,7 +34,7 @@ class GuidedWays {
 
   struct Recorded {
     Eigen::Vector3d along;
-    std::vector<double> position_m, commanded_n;  ///< Along it, one each tick.
+    std::vector<double> position_m, commanded_n;  ///< Along the way, one for each tick.
     WaySetting setting;
   };
 

@@ -14,7 +14,7 @@ namespace {
 
 using analysis::Measured;
 
-/// Two digits of what the interval leaves open.
+/// So many decimals that two digits of the interval's half width are shown.
 int decimals_for(double half_width) {
   if (!(half_width > 0.0)) return 3;
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(half_width))), 0, 6);
@@ -33,7 +33,7 @@ MeasuredQuantity quantity(const char* what, const Measured& measured, const char
           unit};
 }
 
-/// "0.902 (0.898 to 0.906)".
+/// Such as "0.902 (0.898 to 0.906)".
 std::string with_interval_words(const Measured& measured, double scale = 1.0) {
   const MeasuredQuantity words = quantity("", measured, "", scale);
   return words.estimate + " (" + words.interval + ")";

@@ -98,7 +98,7 @@ analysis::HomingFit measure_homing(device::HapticDevice& device, device::Bench& 
   for (int i = 0; i < kHomings; ++i) {
     progress(i / kParts,
              tr_later("The device is homed, and its tool rests where it did before."));
-    // Nobody holds the device meanwhile: its maker's own program may have to.
+    // Nobody has the device open meanwhile, because its maker's own program may need it.
     bench.home();
     GuidedRun run(device, how);
     as_before(run);
@@ -107,7 +107,7 @@ analysis::HomingFit measure_homing(device::HapticDevice& device, device::Bench& 
     if (i + 1 < kHomings) continue;
     progress(kHomings / kParts, tr_later("The tool is let go of without force."));
     run.while_asking([&] { bench.let_go_without_force(); });
-    // No longer than it takes to see that it falls.
+    // Looks no longer than it takes to see that the tool falls.
     constexpr double kLook_s = 0.05, kLongest_s = 1.0, kFalls_m = 0.05;
     for (double looked_s = 0.0; looked_s < kLongest_s && moved_m < kFalls_m;
          looked_s += kLook_s) {
@@ -168,8 +168,8 @@ analysis::ForceFit fit_ways(const GuidedWays& ways, const GuidedPushes& pushes,
     return analysis::fit_force(ways.ways(roughly.delay_s.value), up,
                                roughly.mass_per_gain_kg.value, load_uncertainty_ratio);
   };
-  // How late a force acts is read off better once it is known what opposes the pushes, and so
-  // is what opposes the ways once that is.
+  // The delay of a force is found better once the damping that opposes the pushes is known, and
+  // that damping is found better once the delay is known.
   const analysis::ForceFit first = fitted(0.0);
   return fitted(std::max(0.0, first.damping_n_s_per_m.value / first.gain.value));
 }
@@ -177,7 +177,7 @@ analysis::ForceFit fit_ways(const GuidedWays& ways, const GuidedPushes& pushes,
 analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& bench,
                                  const MeasuringPlan& plan, const analysis::FrameFit& frame,
                                  const StepProgress& progress) {
-  // Means of smooth ways; the highest is nearly twice as fast.
+  // These are mean speeds of smooth ways, whose highest speed is nearly twice as much.
   constexpr std::array kSpeeds_m_per_s = {0.035, 0.07, 0.14, 0.21};
   constexpr double kLoadedSpeed_m_per_s = 0.035;
   constexpr std::array kHeights_m = {-0.04, 0.0, 0.04};
@@ -187,11 +187,11 @@ analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& be
   DeviceOnBench started(device, bench, plan);
   started.hold(kSoftHold);
   const Eigen::Vector3d home_m = started.place_m();
-  // How heavy and how late it is, roughly, for whoever guides it.
+  // Finds roughly how heavy the device is and how late it acts, so that it can be guided.
   GuidedPushes pushes(started, plan);
   pushes.go(home_m, 3,
             [&](int) { progress(0.0, tr_later("The device is pushed to and fro.")); });
-  // Along the axes of the workspace, as the device has them.
+  // The axes of the workspace in the device's own frame.
   const Eigen::Matrix3d to_device = frame.rotation.transpose();
   const Eigen::Vector3d up = to_device.col(2);
   GuidedWays ways(started, plan, pushes.fit(0.0).mass_per_gain_kg.value);
@@ -218,7 +218,8 @@ analysis::ForceFit measure_force(device::HapticDevice& device, device::Bench& be
       }
     }
   }
-  started.run().stop();  // No force while the last load is taken off.
+  // There is no force while the last load is taken off.
+  started.run().stop();
   bench.hang(0.0);
   progress(1.0, "");
   return fit_ways(ways, pushes, up, plan.load_uncertainty_ratio);
@@ -230,13 +231,13 @@ namespace {
 constexpr double kThickest_pa_s = 512.0;
 constexpr device::StabilityLadder kStiffnesses_n_per_m = {
     .first = 50.0, .last = 51200.0, .resolution_ratio = 1.1};
-/// Of a limit that was measured, for what was not: other poses, a warmer motor.
+/// Reduces a measured limit, because of what was not measured: other poses, or a warmer motor.
 constexpr double kSafeRatio = 0.97;
-/// Each time that less is tried, and how often.
+/// The factor of each further try, and the most tries.
 constexpr double kLessRatio = 0.9;
 constexpr int kMostTries = 40;
 
-/// Of all poses together, unless one is worse than that by more than its noise.
+/// The limit of all poses together, unless one pose is worse than that by more than its noise.
 analysis::DampingLimit worst_of(const std::vector<GuidedSweeps>& poses, double period_s,
                                 double delay_s, double largest_n_s_per_m) {
   const Eigen::VectorXd shares = poses.front().share_ratio();
@@ -255,15 +256,15 @@ analysis::DampingLimit worst_of(const std::vector<GuidedSweeps>& poses, double p
   return worst;
 }
 
-/// By the response to sweeps about three places, 9 cm apart.
+/// Measures the limit by the response to sweeps around three places, 9 cm apart.
 analysis::DampingLimit measure_damping_limit(device::HapticDevice& device, device::Bench& bench,
                                              const MeasuringPlan& plan, double delay_s,
                                              double largest_n_s_per_m,
                                              const StepProgress& progress) {
   constexpr std::array kOffsets_m = {0.0, 0.05, -0.05};
   constexpr int kRounds = 2;
-  // A sweep reaches half the rate of the loop: to one side in one tick, to the other in the
-  // next.
+  // A sweep reaches half of the loop's rate, so the force goes to one side in one tick and to
+  // the other in the next.
   GuidedRun::Parameters how;
   how.limits.slew_n_per_s = 2.0 * GuidedSweeps::kSweep_n * plan.rate_hz;
   DeviceOnBench started(device, bench, plan, how);
@@ -282,7 +283,7 @@ analysis::DampingLimit measure_damping_limit(device::HapticDevice& device, devic
   return worst_of(poses, 1.0 / plan.rate_hz, delay_s, largest_n_s_per_m);
 }
 
-/// The first of these that works, each a tenth less than the last; 0: none.
+/// The first of these values that works, each a tenth less than the one before; 0 if none does.
 double first_that(double from, const std::function<bool(double)>& works) {
   for (int tries = 0; tries < kMostTries; ++tries, from *= kLessRatio) {
     if (works(from)) return from;
@@ -305,7 +306,7 @@ analysis::StabilityFit measure_stability(device::HapticDevice& device, device::B
                                       kThickest_pa_s * shape_m / kSafeRatio, progress);
   fit.viscosity_pa_s = kSafeRatio * fit.damping.damping_n_s_per_m.ci95_low / shape_m;
 
-  // Limits of force as before, and everything else as in a session.
+  // The limits of the force are as before, and everything else is as in a session.
   constexpr core::ForceLimiter::Parameters kSession;
   GuidedRun::Parameters how{.swing_n = core::ForceOscillation::Parameters().swing_n};
   how.limits.slew_n_per_s = kSession.slew_n_per_s;
@@ -323,13 +324,14 @@ analysis::StabilityFit measure_stability(device::HapticDevice& device, device::B
   if (fit.is_single_mass) {
     const double limit_n_per_m =
         kSafeRatio * analysis::stiffness_limit(delay, force, 1.0 / plan.rate_hz).ci95_low;
-    // Into anything softer it would sink by 10 cm.
+    // The device would sink by 10 cm into anything softer.
     fit.stiffness_n_per_m = limit_n_per_m < kStiffnesses_n_per_m.first
                                 ? limit_n_per_m
                                 : first_that(limit_n_per_m, rests);
   } else {
     const device::StabilityLimit limit = device::largest_stable(kStiffnesses_n_per_m, rests);
-    // Found to the next rung and on one solid, so less of it, and never "or more".
+    // The limit was found to the next rung only and on one solid, so the profile states less,
+    // and never "or more".
     fit.stiffness_n_per_m = kLessRatio * limit.value;
   }
   started.run().stop();

@@ -21,25 +21,27 @@
 
 namespace jnd::app {
 
-/// The corners of a box of 20 cm about the home of a hand, 15 cm below the surface.
+/// The corners of a box of 20 cm around the home of a hand, 15 cm below the surface.
 [[nodiscard]] std::vector<Eigen::Vector3d> default_marks_m();
 
-/// What is told while somebody holds the tool at a mark.
+/// Told while somebody holds the tool at a mark.
 inline constexpr const char* kMarkIsRead = tr_later("A mark is touched and read.");
 
 /// Told how much of a step is done, 0 to 1, and what happens now.
 using StepProgress = std::function<void(double done, const std::string& now)>;
 
-/// Of a device that rests: noise and least step. For a moment. Throws as `GuidedRun` does.
+/// Measures the noise and the least step of a device at rest, in a moment. Throws as
+/// `GuidedRun` does.
 [[nodiscard]] analysis::NoiseFit noise_at_rest(DeviceOnBench& started);
-/// Somebody touches this mark, and it is read where the device says that it is. Likewise.
+/// Somebody touches this mark, and the place that the device tells is read. Throws as
+/// `GuidedRun` does.
 [[nodiscard]] analysis::TouchedMark touched_mark(DeviceOnBench& started, device::Bench& bench,
                                                  const Eigen::Vector3d& mark_m);
 
-/// One measurement each. `bench`: somebody simulated, or a person who is asked. Every one of
-/// them throws `core::Error` in a sentence: the device cannot be started, it stopped with a
-/// fault, or what came of it is no measurement. The device is closed afterwards, and what was
-/// found before is not touched. Not real time.
+/// Each function makes one measurement. `bench` is a simulated person, or a real one who is
+/// asked. Each throws `core::Error` in a sentence if the device cannot be started, if it
+/// stopped with a fault, or if the result is no valid measurement. The device is closed
+/// afterwards, and earlier results stay as they are. Not real time.
 [[nodiscard]] analysis::HomingFit measure_homing(device::HapticDevice& device,
                                                  device::Bench& bench,
                                                  const MeasuringPlan& plan,
@@ -50,23 +52,24 @@ using StepProgress = std::function<void(double done, const std::string& now)>;
 [[nodiscard]] analysis::FrameFit measure_frame(device::HapticDevice& device,
                                                device::Bench& bench, const MeasuringPlan& plan,
                                                const StepProgress& progress);
-/// Gain, weight, damping and friction, by ways along three axes and known loads. `frame` says
-/// which way is up.
+/// Measures gain, weight, damping and friction, by ways along three axes and by known loads.
+/// `frame` says which way is up.
 [[nodiscard]] analysis::ForceFit measure_force(device::HapticDevice& device,
                                                device::Bench& bench, const MeasuringPlan& plan,
                                                const analysis::FrameFit& frame,
                                                const StepProgress& progress);
-/// The same of ways and pushes that were made; throws as `analysis::fit_force` does.
+/// Computes the same from ways and pushes that were made; throws as `analysis::fit_force` does.
 [[nodiscard]] analysis::ForceFit fit_ways(const GuidedWays& ways, const GuidedPushes& pushes,
                                           const Eigen::Vector3d& up,
                                           double load_uncertainty_ratio);
-/// Delay and mass, by pushes to and fro as the device moves on; `force` says how it is damped.
+/// Measures delay and mass, by pushes to and fro while the device moves on. `force` says how
+/// the device is damped.
 [[nodiscard]] analysis::DelayFit measure_delay(device::HapticDevice& device,
                                                device::Bench& bench, const MeasuringPlan& plan,
                                                const analysis::ForceFit& force,
                                                const StepProgress& progress);
-/// Up to which viscosity and stiffness it is stable, by its response to sweeps in three poses,
-/// and by rendering what that allows. Nothing is rendered beyond it.
+/// Measures up to which viscosity and stiffness the device is stable, by its response to sweeps
+/// in three poses, and by rendering what that response allows. Nothing beyond it is rendered.
 [[nodiscard]] analysis::StabilityFit measure_stability(
     device::HapticDevice& device, device::Bench& bench, const MeasuringPlan& plan,
     const analysis::NoiseFit& noise, const analysis::ForceFit& force,

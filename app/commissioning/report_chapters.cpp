@@ -20,7 +20,7 @@ const std::optional<MeasuringConditions>& conditions_of(const CommissioningResul
   return results.conditions[static_cast<std::size_t>(step)];
 }
 
-/// Those of the step with the loads, else of any that counts.
+/// The conditions of the step with the loads, or else of any step that counts.
 std::optional<MeasuringConditions> main_conditions(const CommissioningResults& results) {
   if (results.has(Step::kForce) && conditions_of(results, Step::kForce)) {
     return conditions_of(results, Step::kForce);

@@ -16,7 +16,7 @@
 namespace jnd::app {
 namespace {
 
-/// The answers of all groups on an axis of which the logarithm is that of the curve.
+/// The answers of all groups, on an axis whose logarithm is the curve's abscissa.
 std::vector<analysis::AnswerCount> all_for_chance(
     const std::vector<std::vector<analysis::AnswerCount>>& groups,
     const analysis::CurveModel& model) {

@@ -14,57 +14,64 @@
 
 namespace jnd::app {
 
-/// What a table comes to, step by step: its answers, the curves, their comparison.
+/// What the program finds in a table, step by step: its answers, the curves, their comparison.
 struct CurveAnalysis {
   CurveRequest request;
-  analysis::AnswerFile file;  ///< Without its tallies, which are `groups`.
+  /// The file without its tallies, which are in `groups`.
+  analysis::AnswerFile file;
   std::vector<std::vector<analysis::AnswerCount>> groups;
-  std::vector<std::string> names;  ///< "condition light"; "" for all rows.
+  std::vector<std::string> names;  ///< Such as "condition light"; "" for all rows.
   analysis::CurveOptions how;
-  /// The answers fall as the intensity grows, and so does the curve, though nobody said so.
+  /// The answers fall as the intensity grows, so the curve falls as well, although nobody asked
+  /// for it.
   bool found_falling = false;
-  /// The answers look like right ones of a forced choice with this chance, or are those of the
-  /// program's own export, and nobody said what the task was. Who asked decides before there
-  /// are fits.
+  /// The answers look like right answers of a forced choice with this chance, or come from the
+  /// program's own export, and nobody said what the task was. The caller decides before
+  /// anything is fitted.
   std::optional<double> suspected_chance;
-  bool is_suspected_by_name = false;     ///< Of the column of answers alone: `is_called_right`.
-  std::vector<analysis::CurveFit> fits;  ///< One a group.
+  /// Only the name of the answers' column suggests it: see `is_called_right`.
+  bool is_suspected_by_name = false;
+  std::vector<analysis::CurveFit> fits;  ///< One for each group.
   std::optional<analysis::CurveComparison> comparison;
 };
 
-/// What a table of trials that this program exported holds in a column, as its codebook says.
+/// What a column contains in a table of trials that this program exported, as its codebook
+/// says.
 enum class ExportedAnswers {
-  kNone,    ///< It is no such table, or no such column.
-  kYesNo,   ///< is_test_chosen, is_felt and is_called_different: no answer is right by chance.
-  kRight,   ///< is_right: of a choice among two or three, which the table does not tell.
-  kVaried,  ///< response: what it is depends on how the block asks.
+  kNone,  ///< The table or the column is none of the program's.
+  /// is_test_chosen, is_felt and is_called_different: no answer is right by chance.
+  kYesNo,
+  /// is_right: of a choice among two or three, which the table does not tell.
+  kRight,
+  /// response: its meaning depends on how the block asks.
+  kVaried,
 };
 
-/// `columns`: all of the table.
+/// `columns` are all columns of the table.
 [[nodiscard]] ExportedAnswers exported_answers(const std::vector<std::string>& columns,
                                                const std::string& yes);
 
-/// Reads the answers and settles how they are fitted. Throws `UsageError` as `require_request`
-/// and `options_of`, `core::Error` as `read_answer_file`. Not real time.
+/// Reads the answers and decides how they are fitted. Throws `UsageError` as `require_request`
+/// and `options_of` do, and `core::Error` as `read_answer_file` does. Not real time.
 [[nodiscard]] CurveAnalysis read_curves(const CurveRequest& request);
 
-/// Fits every group. `keep_going` is told how much is done, 0 to 1, before each; what it throws
-/// ends the work. Not real time.
+/// Fits every group. Before each fit, `keep_going` is told how much is done, 0 to 1; what it
+/// throws ends the work. Not real time.
 void fit_curves(CurveAnalysis& curves, const std::function<void(double)>& keep_going = {});
 
 /// Compares the groups. Not real time.
 void add_comparison(CurveAnalysis& curves);
 
 /// The numbers of the fits' picture: the tables `answers`, `curves` and `thresholds` of
-/// `analysis::curve_figure`. None without groups.
+/// `analysis::curve_figure`. Empty if there are no groups.
 [[nodiscard]] std::vector<analysis::FigureTable> picture_tables(const CurveAnalysis& curves);
 
-/// Draws the picture into a new .svg, .pdf or .png. Throws `core::Error` as
-/// `analysis::write_single_figure`. Not real time.
+/// Draws the picture into a new .svg, .pdf or .png file. Throws `core::Error` as
+/// `analysis::write_single_figure` does. Not real time.
 void save_picture(const CurveAnalysis& curves, const std::filesystem::path& file);
 
-/// Writes the fits as `curves_as_csv` into a new file. Throws `core::Error` where there is one
-/// of that name already, and where it cannot be written.
+/// Writes the fits, as `curves_as_csv` makes them, into a new file. Throws `core::Error` if a
+/// file of that name exists already, or if it cannot be written.
 void save_table(const CurveAnalysis& curves, const std::filesystem::path& file);
 
 }  // namespace jnd::app

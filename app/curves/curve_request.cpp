@@ -13,7 +13,7 @@
 namespace jnd::app {
 namespace {
 
-/// The guess rate of "mafc:3" is 1/3.
+/// The guess rate of a task, such as 1/3 for "mafc:3".
 std::optional<double> guess_of_task(const std::string& task) {
   if (task.empty()) return std::nullopt;
   if (task == "yes-no") return 0.0;
@@ -68,7 +68,7 @@ analysis::CurveModel model_of(const CurveRequest& request) {
   return model;
 }
 
-/// The lowest and highest proportion that a curve can come near to, as answered.
+/// The lowest and the highest proportion, as answered, that a curve can approach.
 struct CurveReach {
   double low = 0.0, high = 1.0;
 };
@@ -79,8 +79,8 @@ CurveReach reach_of(const analysis::CurveModel& model) {
   return {.low = guess + (model.symmetric ? lapse : 0.0), .high = 1.0 - lapse};
 }
 
-/// Levels of the proportions that were asked for: of a curve whose rates are known they are the
-/// same for every group, so that all that is told of a level is told of them.
+/// Turns the proportions that were asked for into levels. If a curve's rates are known, the
+/// levels are the same for every group, so they are treated like any other level.
 void settle_proportions(const CurveRequest& request, analysis::CurveOptions& options) {
   const analysis::CurveModel& model = options.model;
   const CurveReach reach = reach_of(model);
@@ -103,7 +103,7 @@ void settle_proportions(const CurveRequest& request, analysis::CurveOptions& opt
   }
 }
 
-/// As a shell takes it: in quotes where it has letters that mean something there.
+/// A word as a shell takes it: in quotes if it contains characters that mean something there.
 std::string shell_word(const std::string& text) {
   constexpr std::string_view kPlain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./:=,+@%";
@@ -205,7 +205,7 @@ std::string command_of(const CurveRequest& request) {
   flag("--symmetric", request.symmetric);
   flag("--falling", request.falling);
   flag("--rising", request.rising);
-  // Beside proportions nothing is a default.
+  // If proportions are given, `at` has no default.
   const std::vector<double> unsaid =
       request.at_proportion.empty() ? plain.at : std::vector<double>();
   say("--at", fmt::format("{}", fmt::join(request.at, ",")),

@@ -11,7 +11,7 @@ using analysis::CurveFit;
 using analysis::CurveValue;
 using analysis::FitStatus;
 
-/// A cell of a table: a text with commas or quotes in quotes, no number as nothing.
+/// A cell with a text, in quotes if it contains commas, quotes or line ends.
 std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";

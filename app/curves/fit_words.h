@@ -10,18 +10,18 @@
 
 namespace jnd::app {
 
-/// Numbers of a fit as people read them; "-" for one that does not exist.
+/// A number of a fit as people read it; "-" if it does not exist.
 [[nodiscard]] inline std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.4g}", *value) : "-";
 }
 
-/// "p = 0.031"; nothing that was observed is impossible, so 0 is less than there are numbers
-/// for.
+/// Such as "p = 0.031". Nothing that was observed is impossible, so 0 means a number that is
+/// too small for a double.
 [[nodiscard]] inline std::string p_value_words(const std::optional<double>& p_value) {
   return p_value == 0.0 ? "p < 1e-300" : "p = " + number(p_value);
 }
 
-/// "0.32 to 1.6", an end that the data leave open in words.
+/// Such as "0.32 to 1.6"; if the data leave an end open, words say it.
 [[nodiscard]] inline std::string whole_range(const analysis::Interval& interval) {
   if (!interval.low && !interval.high) return analysis::kNotBounded;
   const auto end = [](const std::optional<double>& value) {
@@ -32,19 +32,19 @@ namespace jnd::app {
          (open ? std::string(" (") + analysis::kNotBounded + ")" : "");
 }
 
-/// The same about the estimate, an end that is far beyond it being open.
+/// The same interval around the estimate; an end far beyond the estimate counts as open.
 [[nodiscard]] inline std::string range(const analysis::Interval& whole,
                                        const std::optional<double>& estimate) {
   return whole_range(analysis::bounded_by_data(whole, estimate));
 }
 
-/// Whether a standard error is only what rounding leaves of none.
+/// True if a standard error is only the rounding error of zero.
 [[nodiscard]] inline bool is_exact(const std::optional<double>& standard_error,
                                    const std::optional<double>& estimate) {
   return standard_error && estimate && *standard_error <= 1e-9 * std::fabs(*estimate);
 }
 
-/// "95 % 0.32 to 1.6, standard error 0.3"; where there can be no interval, `why_none`.
+/// Such as "95 % 0.32 to 1.6, standard error 0.3"; if there can be no interval, `why_none`.
 [[nodiscard]] inline std::string uncertainty(const analysis::Interval& interval,
                                              const std::optional<double>& estimate,
                                              const std::optional<double>& standard_error,
@@ -55,7 +55,7 @@ namespace jnd::app {
          error;
 }
 
-/// "x", with a mark where a cell is empty.
+/// A group's value, such as "x"; "(empty)" for an empty cell.
 [[nodiscard]] inline std::string group_words(const std::string& value) {
   return value.empty() ? "(empty)" : value;
 }

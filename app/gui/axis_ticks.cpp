@@ -9,12 +9,12 @@
 namespace jnd::app::gui {
 namespace {
 
-// Far inside what doubles hold, so that no difference overflows.
+// These limits are far inside the range of a double, so that no difference overflows.
 constexpr double kLargest = 1e150;
 constexpr double kSmallestPositive = 1e-150;
-// Below this share of their size two ends cannot be told apart by ticks.
+// If the ends differ by less than this share of their size, ticks cannot tell them apart.
 constexpr double kSmallestSpanRatio = 1e-9;
-// A tick just outside because of rounding is inside.
+// A tick that rounding put just outside the range counts as inside.
 constexpr double kSlack = 1e-9;
 
 std::string superscript(int number) {
@@ -35,7 +35,7 @@ std::string with_decimals(double value, int decimals) {
   return value < 0 && !is_zero ? "−" + digits : digits;
 }
 
-/// "2×10⁶": with as many digits as tell it from a neighbour a step away.
+/// "2×10⁶", with as many digits as distinguish it from the next tick, one step away.
 std::string scientific(double value, double step) {
   if (value == 0) return "0";
   int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-12));
@@ -57,7 +57,8 @@ std::string label_of(double value, double step, double largest) {
 
 struct Multiples {
   double step = 1.0;
-  double first = 0.0, last = 0.0;  ///< Times the step, whole numbers.
+  /// The multiples are whole numbers, to be multiplied by the step.
+  double first = 0.0, last = 0.0;
 
   [[nodiscard]] double count() const { return last - first + 1; }
 };
@@ -68,7 +69,7 @@ Multiples multiples_within(const AxisRange& range, double step) {
           .last = std::floor(range.high / step + kSlack)};
 }
 
-/// The smallest step whose multiples within the range are no more than wanted.
+/// The smallest step that has no more multiples in the range than wanted.
 Multiples best_multiples(const AxisRange& range, int max_count) {
   const double rough = (range.high - range.low) / std::max(2, max_count);
   double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -81,7 +82,7 @@ Multiples best_multiples(const AxisRange& range, int max_count) {
   }
 }
 
-/// What a decade may be divided into, the finest first.
+/// The numbers that may divide a decade, from the finest division to the coarsest.
 constexpr std::array<double, 8> kEighths = {1, 1.5, 2, 3, 4, 5, 6, 8};
 constexpr std::array<double, 6> kSixths = {1, 1.5, 2, 3, 4, 6};
 constexpr std::array<double, 5> kFifths = {1, 1.5, 2, 3, 5};
@@ -125,7 +126,7 @@ AxisRange sound_range(double low, double high, bool logarithmic) {
   if (range.high - range.low > kSmallestSpanRatio * size) return range;
   if (logarithmic) return {range.low / 2, range.high * 2};
   const double apart = size > 0 ? 0.1 * size : 0.5;
-  // From nothing, an axis goes up.
+  // If both ends are zero, the axis goes up from there.
   return size > 0 ? AxisRange{range.low - apart, range.high + apart} : AxisRange{0.0, 1.0};
 }
 
@@ -142,7 +143,7 @@ std::vector<AxisTick> linear_ticks(const AxisRange& range, int max_count) {
 
 AxisRange widened_to_ticks(const AxisRange& range, int max_count) {
   AxisRange widened = range;
-  // A wider range may need a coarser step, and that a wider range.
+  // A wider range may need a coarser step, which widens the range again.
   for (int i = 0; i < 3; ++i) {
     const double step = best_multiples(widened, max_count).step;
     widened = {std::floor(range.low / step + kSlack) * step,

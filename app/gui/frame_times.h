@@ -8,21 +8,22 @@
 
 namespace jnd::app::gui {
 
-/// What each frame cost, one a line, for measurements:
+/// Writes what each frame cost, for measurements. Each line is
 ///     VIEW DRAW_MS RENDER_MS SHOW_MS
-/// the view's own work, OpenGL until it is through, and the way to the display. Flushed at
-/// once.
+/// that is the view's own work, OpenGL until it has finished, and the way to the display. Each
+/// line is flushed at once.
 class FrameTimes {
  public:
   enum class Part { kDraw, kRender, kShow };
 
-  /// An empty path switches it off. Throws `core::Error` where the file cannot be appended to.
+  /// An empty path switches the measurement off. Throws `core::Error` if the file cannot be
+  /// appended to.
   explicit FrameTimes(const std::filesystem::path& file);
 
-  /// Somebody measures: OpenGL shall be waited for.
+  /// True if somebody measures; the window then waits for OpenGL to finish.
   [[nodiscard]] bool wanted() const { return out_.is_open(); }
   void begin_frame();
-  /// The part ends here, and the next one begins.
+  /// Ends this part and begins the next one.
   void end(Part part);
   void end_frame(std::string_view view);
 

@@ -12,30 +12,31 @@
 namespace jnd::app::gui {
 namespace {
 
-// Drawn on a square of 100 by 100, y downwards, as the right hand is seen by its owner's
-// partner.
+// The signs are drawn on a square of 100 by 100 with y downwards. They show the right hand as a
+// person opposite its owner sees it.
 constexpr float kStroke = 3.8f;
 constexpr int kCirclePoints = 40;
 
-/// Everything within a radius of the hull of some points: one is a disc, two a finger, four a
-/// palm.
+/// All points within a radius of the convex hull of some points. One point makes a disc, two
+/// make a finger, four a palm.
 struct Blob {
   std::vector<ImVec2> points;
   float radius = 0;
 };
 
-/// Blobs with one outline around all of them; a sign is parts, each over those before it.
+/// Blobs with one common outline. A sign consists of parts, each drawn over the ones before it.
 using Part = std::vector<Blob>;
 struct Drawing {
   std::vector<Part> parts;
-  std::vector<Blob> creases;  ///< Filled with ink, on top.
+  std::vector<Blob> creases;  ///< Filled with ink, on top of the parts.
 };
 
 float cross(const ImVec2& origin, const ImVec2& a, const ImVec2& b) {
   return (a.x - origin.x) * (b.y - origin.y) - (a.y - origin.y) * (b.x - origin.x);
 }
 
-/// Andrew's monotone chain; clockwise on a screen, as ImGui's soft edges want it.
+/// The convex hull by Andrew's monotone chain. It goes clockwise on a screen, as ImGui needs it
+/// to draw soft edges.
 std::vector<ImVec2> convex_hull(std::vector<ImVec2> points) {
   std::ranges::sort(points, [](const ImVec2& a, const ImVec2& b) {
     return a.x < b.x || (a.x == b.x && a.y < b.y);
@@ -57,7 +58,7 @@ std::vector<ImVec2> convex_hull(std::vector<ImVec2> points) {
   return hull;
 }
 
-/// A finger bent along a circle; angles in degrees, clockwise from the right.
+/// A finger that is bent along a circle. The angles are in degrees, clockwise from the right.
 Part bent_finger(ImVec2 centre, float bend, float from_deg, float to_deg, float radius) {
   constexpr int kPieces = 36;
   const auto at = [&](int i) {
@@ -125,7 +126,7 @@ Drawing okay() {
   const Part palm = {{{{54, 60}, {70, 62}, {64, 82}, {52, 82}}, 11}};
   const Part fingers = {
       {{{54, 58}, {50, 16}}, 6.6f}, {{{64, 58}, {68, 14}}, 6.6f}, {{{72, 62}, {86, 26}}, 6.3f}};
-  // Index and thumb are one ring; where their tips meet, a line tells them apart.
+  // Index finger and thumb form one ring; a line separates them where their tips meet.
   const Part ring = bent_finger({31, 57}, 16, 0, 360, 6.6f);
   const Part thumb = {{{{42, 71.5f}, {54, 80}}, 7.5f}};
   return {.parts = {joined({palm, fingers, thumb, ring})},
@@ -190,7 +191,7 @@ Drawing drawing_of(HandSign sign) {
   return {};
 }
 
-/// Draws blobs larger or smaller than they are, into a square on the screen.
+/// Draws blobs into a square on the screen, enlarged or shrunk on request.
 class Brush {
  public:
   Brush(Ui& ui, const Rect& square)

@@ -5,12 +5,13 @@
 
 namespace jnd::app::gui {
 
-/// The sign as a drawing, as large as fits; nothing for `kNone`. It stands on `ground`, which
-/// its inside is filled with. Noted as "hand sign fist" among what was drawn.
+/// Draws the sign as large as fits; nothing for `kNone`. Its inside is filled with `ground`,
+/// the colour on which it is drawn. The log of widgets notes it as, for example, "hand sign
+/// fist".
 void draw_hand_sign(Ui& ui, const Rect& place, HandSign sign, Colour ink = Colour::kInk,
                     Colour ground = Colour::kCard);
 
-/// "fist", "one finger"; "" for none.
+/// The sign in words: "fist", "one finger"; "" for none.
 [[nodiscard]] const char* words(HandSign sign) noexcept;
 
 }  // namespace jnd::app::gui

@@ -10,7 +10,7 @@ namespace {
 
 bool is_press(const KeyEvent& event) { return event.action != KeyEvent::Action::kRelease; }
 
-/// What is printed on the key; nullptr where it is the letter itself, or F and a number.
+/// The words printed on the key; nullptr for a letter, a digit, or F and a number.
 const char* key_name(Key key) {
   switch (key) {
     case Key::kNone:
@@ -42,7 +42,7 @@ const char* key_name(Key key) {
     case Key::kHome:
       return tr_later("Home");
     case Key::kEnd:
-      return tr_later("End key");  // "End" is what a button does.
+      return tr_later("End key");  // "End" alone is the word on a button.
     default:
       return nullptr;
   }
@@ -79,7 +79,7 @@ bool answers(const Chord& pressed, const Chord& wanted) noexcept {
   if (pressed.control != wanted.control) return false;
   if (pressed.shift == wanted.shift) return true;
   const bool shift_is_by_chance = is_printing(wanted.key) && !wanted.control && !wanted.shift;
-  // "+" is a shifted key on some keyboards.
+  // On some keyboards, "+" needs Shift.
   return shift_is_by_chance || wanted.key == Key::kPlus;
 }
 
@@ -87,10 +87,10 @@ struct InputQueue::Share {
   FrameInput input;
   bool is_writing = false;
   bool has_press = false;
-  bool has_command = false;  ///< The press writes nothing.
+  bool has_command = false;  ///< The press that was taken writes nothing.
   bool has_click = false;    ///< The mouse button went down or up.
 
-  /// Its character says all there is to say.
+  /// True if the key writes into a text, so that its character alone is enough.
   [[nodiscard]] bool is_letter_of_text(const KeyEvent& event) const {
     return is_writing && is_printing(event.chord.key) && !event.chord.control;
   }
@@ -108,7 +108,8 @@ void InputQueue::key(const KeyEvent& event) {
     if (presses_ >= kMostPresses) return;
     if (held == held_.end()) held_.push_back(key);
   } else {
-    // Pressed elsewhere, or released already when the window lost the keyboard.
+    // The key was pressed in another window, or counted as released when the window lost the
+    // keyboard.
     if (held == held_.end()) return;
     held_.erase(held);
   }
@@ -128,7 +129,7 @@ void InputQueue::character(std::uint32_t code_point) {
 }
 
 void InputQueue::mouse_moved(float x, float y) {
-  // Of many moves in a row only the last place matters.
+  // Of several moves in a row, only the last place matters.
   if (!events_.empty() && events_.back().kind == Entry::Kind::kMove) events_.pop_back();
   events_.push_back({.kind = Entry::Kind::kMove, .x = x, .y = y});
 }
@@ -154,12 +155,13 @@ bool InputQueue::fits(const Entry& entry, const Share& share) const {
       if (share.is_letter_of_text(entry.key)) return !share.has_command && !share.has_click;
       const bool is_second = share.has(entry.key.chord.key);
       if (!is_press(entry.key)) return !is_second;
-      // ImGui takes no characters in a frame with Control.
+      // ImGui ignores characters in a frame with Control.
       const bool would_silence = entry.key.chord.control && !share.input.characters.empty();
       return !is_second && !share.has_press && !share.has_click && !would_silence;
     }
     case Entry::Kind::kCharacter:
-      // Not this press's: ImGui writes a frame's characters before it obeys its keys.
+      // ImGui writes a frame's characters before it obeys its keys, so this character must not
+      // be in the frame of an earlier command.
       return !share.has_command;
     case Entry::Kind::kMove:
       return !share.has_click;
@@ -176,7 +178,7 @@ void InputQueue::take(const Entry& entry, Share& share) {
     case Entry::Kind::kKey:
       if (is_press(entry.key)) --presses_;
       if (share.is_letter_of_text(entry.key)) {
-        // Its release may be that of a shortcut whose Control was let go first.
+        // This release may belong to a shortcut whose Control was let go first.
         if (is_press(entry.key) || share.has(entry.key.chord.key)) break;
       }
       share.input.keys.push_back(entry.key);

@@ -7,9 +7,9 @@
 
 namespace jnd::app::gui {
 
-/// Keys by what they mean to us, whatever the layout: a letter's key is the one that has it
-/// printed on it. Letters and digits are their capital ASCII codes; digits of the keypad are
-/// the digits.
+/// A key by its meaning, whatever the keyboard's layout: a letter's key is the one on which it
+/// is printed. Letters and digits have the codes of their ASCII capitals. Digits of the keypad
+/// count as digits.
 enum class Key : std::uint16_t {
   kNone = 0,
   kSpace = ' ',
@@ -17,7 +17,7 @@ enum class Key : std::uint16_t {
   kMinus = '-',
   kPeriod = '.',
   kEscape = 256,
-  kEnter,  ///< Also the keypad's.
+  kEnter,  ///< Enter, also that of the keypad.
   kTab,
   kBackspace,
   kDelete,
@@ -45,12 +45,12 @@ enum class Key : std::uint16_t {
 
 [[nodiscard]] constexpr Key letter(char capital) noexcept { return static_cast<Key>(capital); }
 
-/// Without Control it writes into a text: letters, digits, signs, the space bar.
+/// True if the key without Control writes into a text: letters, digits, signs, the space bar.
 [[nodiscard]] constexpr bool is_printing(Key key) noexcept {
   return key != Key::kNone && key < Key::kEscape;
 }
 
-/// A key with its modifiers, as it is printed on a control.
+/// A key with its modifiers, as a control shows it.
 struct Chord {
   Key key = Key::kNone;
   bool control = false;
@@ -59,14 +59,15 @@ struct Chord {
   friend bool operator==(const Chord&, const Chord&) = default;
 };
 
-/// "Ctrl Z", "Esc", "Y", "↑": the same in every language, for the log of tests.
+/// The chord in words that are the same in every language, for the log of tests: "Ctrl Z",
+/// "Esc", "Y", "↑".
 [[nodiscard]] std::string words(const Chord& chord);
-/// The same as it is printed on the keyboards of those who speak the window's language:
-/// "Strg Z".
+/// The chord as it is printed on keyboards of those who speak the window's language: "Strg Z".
 [[nodiscard]] std::string printed_words(const Chord& chord);
 
-/// Whether `pressed` answers a control that asks for `wanted`. Shift makes no difference to a
-/// printing key, for who holds it by chance still means the letter; it does beside Control.
+/// Whether `pressed` triggers a control that asks for `wanted`. Shift makes no difference to a
+/// printing key, because who holds it by chance still means the letter. Beside Control it does
+/// make a difference.
 [[nodiscard]] bool answers(const Chord& pressed, const Chord& wanted) noexcept;
 
 struct KeyEvent {
@@ -75,28 +76,28 @@ struct KeyEvent {
   Action action = Action::kPress;
 };
 
-/// In the window's pixels.
+/// The place is in the window's pixels.
 struct MouseState {
-  float x = -1e6f;  ///< Outside of everything until it moved.
+  float x = -1e6f;  ///< Outside of everything until the mouse first moves.
   float y = -1e6f;
-  bool down = false;  ///< The left button.
+  bool down = false;  ///< True while the left button is down.
 };
 
-/// What one frame gets to see.
+/// The input that one frame sees.
 struct FrameInput {
-  std::vector<KeyEvent> keys;             ///< At most one transition of each key, one press.
-  std::vector<std::uint32_t> characters;  ///< Unicode, typed in this frame.
-  MouseState mouse;                       ///< At most one transition from the frame before.
-  float wheel = 0.0f;                     ///< Steps, up is positive.
-  bool has_more = false;                  ///< Draw another frame at once.
+  std::vector<KeyEvent> keys;  ///< At most one transition of each key, and one press in all.
+  std::vector<std::uint32_t> characters;  ///< What was typed in this frame, in Unicode.
+  MouseState mouse;                       ///< At most one transition since the frame before.
+  float wheel = 0.0f;                     ///< The wheel's steps; up is positive.
+  bool has_more = false;                  ///< True if another frame has to be drawn at once.
 };
 
-/// Every key, character and click from the backend's callbacks to the frames, in order. ImGui
-/// 1.86 asks which keys and buttons are down in each frame, so that one pressed and released
-/// between two would be lost; and of two keys in one frame the second might be meant for what
-/// the first one opens. So a frame takes events up to the second press, the second transition
-/// of any one key or of the mouse button, or a move of the mouse after it was clicked; the rest
-/// is left to the next frame. A held key's repeats do not pile up: while one waits, more are
+/// Passes every key, character and click from the backend's callbacks to the frames, in order.
+/// ImGui 1.86 asks in each frame which keys and buttons are down, so it would miss one that is
+/// pressed and released between two frames. And if one frame had two keys, the second might be
+/// meant for what the first one opens. So a frame takes events up to the second press, the
+/// second transition of one key or of the mouse button, or a mouse move after a click. The rest
+/// waits for the next frame. Repeats of a held key do not pile up: while one waits, more are
 /// dropped.
 class InputQueue {
  public:
@@ -105,11 +106,13 @@ class InputQueue {
   void mouse_moved(float x, float y);
   void mouse_button(bool down);
   void wheel(float steps);
-  /// `is_writing`: a text field has the keyboard, and keys that write are its characters alone.
+  /// If `is_writing`, a text field has the keyboard, and keys that write count as its
+  /// characters only.
   [[nodiscard]] FrameInput next_frame(bool is_writing = false);
   [[nodiscard]] bool empty() const noexcept { return events_.empty(); }
-  [[nodiscard]] const MouseState& mouse() const noexcept { return mouse_; }  ///< Last frame's.
-  /// The window lost the keyboard: whatever is held counts as released.
+  /// The mouse as the last frame saw it.
+  [[nodiscard]] const MouseState& mouse() const noexcept { return mouse_; }
+  /// The window lost the keyboard: every held key counts as released.
   void release_all();
 
  private:
@@ -118,19 +121,20 @@ class InputQueue {
     Kind kind = Kind::kKey;
     KeyEvent key;
     std::uint32_t code_point = 0;
-    float x = 0, y = 0;  ///< Of the mouse; the wheel's steps in `y`.
+    float x = 0, y = 0;  ///< The mouse's place; a wheel event has its steps in `y`.
     bool down = false;
   };
-  struct Share;  ///< What the frame being made up has taken already.
+  /// What the frame that is being put together has taken already.
+  struct Share;
   [[nodiscard]] bool fits(const Entry& entry, const Share& share) const;
   void take(const Entry& entry, Share& share);
 
-  /// More than this waiting are no person's: they are dropped, so that what comes after is not
-  /// minutes away.
+  /// More waiting presses than this come from no person. They are dropped, so that the next
+  /// real press does not wait for minutes.
   static constexpr int kMostPresses = 64;
 
   std::deque<Entry> events_;
-  int presses_ = 0;  ///< Of keys among them.
+  int presses_ = 0;  ///< How many presses of keys wait in `events_`.
   std::vector<Key> held_;
   MouseState mouse_;
 };

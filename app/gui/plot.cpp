@@ -14,8 +14,8 @@ constexpr float kTickGap = 8;
 constexpr float kTickHeight = 18;
 constexpr float kMaxBoxWidth = 46;
 
-/// Where a value lies between the ends of its axis, 0 to 1; not so far outside that a place on
-/// the screen would overflow.
+/// Where a value lies between the ends of its axis, as 0 to 1. It is clamped far outside of
+/// that, so that no place on the screen overflows.
 double share(double value, const AxisRange& range, bool logarithmic) {
   const double ratio = logarithmic
                            ? std::log(value / range.low) / std::log(range.high / range.low)
@@ -59,7 +59,7 @@ void draw_x_ticks(Ui& ui, const PlotArea& area, const std::vector<AxisTick>& tic
     const float x = area.x(tick.value);
     if (x < area.place.x - 1 || x > area.place.right() + 1) continue;
     ui.line(x, area.place.bottom(), x, area.place.bottom() + 4, Colour::kSoft);
-    // On a logarithmic axis ticks crowd; one that has no room keeps its line.
+    // On a logarithmic axis ticks crowd. A tick without room for its label keeps its line.
     const float width = ui.text_width(tick.label, Font::kTiny);
     if (x - width / 2 < free_from) continue;
     free_from = x + width / 2 + 6;
@@ -76,7 +76,7 @@ bool has_legend(const PlotModel& model) {
 
 constexpr float kLegendRow = 20, kLegendMark = 26, kLegendGap = 18;
 
-/// How many rows the names take, each as full as it gets.
+/// How many rows the legend takes if each row is filled before the next one begins.
 int num_legend_rows(Ui& ui, float width, const PlotModel& model) {
   int rows = 1;
   float left = width;
@@ -125,7 +125,7 @@ void draw_legend(Ui& ui, Rect place, const PlotModel& model) {
 }
 
 void draw_content(Ui& ui, const PlotArea& area, const PlotModel& model) {
-  // Half a point outside is still seen; a line that leaves the axes is not.
+  // Half a point outside the axes is still shown; a line that leaves them is cut off.
   const Rect clip = area.place.inset(-6);
   ImGui::PushClipRect(ImVec2(ui.px(clip.x), ui.px(clip.y)),
                       ImVec2(ui.px(clip.right()), ui.px(clip.bottom())), true);
@@ -169,7 +169,8 @@ bool PlotArea::can_show(double x_value, double y_value) const noexcept {
 PlotArea draw_plot(Ui& ui, const Rect& place, const PlotModel& model) {
   Rect rest = place;
   if (!model.title.empty()) {
-    // Of a study's charts it is what the author called the block.
+    // In charts of a study, the title is the block's name by the author, so it may have any
+    // length.
     ui.heading(rest.take_top(18, 10), model.title, model.unit, Align::kLeft,
                /*any_length=*/true);
   }
@@ -204,7 +205,7 @@ PlotArea draw_plot(Ui& ui, const Rect& place, const PlotModel& model) {
   area.place = {rest.x, rest.y, std::max(1.0f, rest.width), std::max(1.0f, rest.height)};
   if (model.equal_scales) equalise(area);
   if (model.axes) {
-    // As many as have room side by side.
+    // As many ticks as have room side by side.
     const float tick_width =
         std::max(28.0f, widest(ui, ticks_of(model.x, area.x_range, 4)) + 22);
     const int max_x_ticks = std::clamp(static_cast<int>(rest.width / tick_width), 2, 10);

@@ -10,42 +10,50 @@
 namespace jnd::app::gui {
 
 struct PlotAxis {
-  std::string label;  ///< "test viscosity"; "" for none.
-  std::string unit;   ///< "Pa s": after the label, and after the value under the mouse.
+  std::string label;  ///< The label, such as "test viscosity"; "" for none.
+  /// The unit, such as "Pa s", shown after the label and after the value under the mouse.
+  std::string unit;
   bool logarithmic = false;
-  /// Ends of the axis; where not given, those of the data, y out to the next ticks.
+  /// The ends of the axis. Without them the data's ends are used; those of y are widened to
+  /// ticks.
   std::optional<double> minimum, maximum;
-  std::vector<AxisTick> ticks;  ///< Names of boxes, quarters of a percentage; else worked out.
-  std::string tick_suffix;      ///< " s", for an axis of time.
+  /// The ticks, such as names of boxes or quarters of a percentage; if empty, they are
+  /// computed.
+  std::vector<AxisTick> ticks;
+  std::string tick_suffix;  ///< Follows each tick's number, such as " s" on an axis of time.
 };
 
 struct PlotSeries {
   enum class Style {
-    kLine,    ///< x, y; broken where a value is not finite.
-    kPoints,  ///< x, y, and low to high as error bars where given.
-    kBand,    ///< x, low, high; drawn below everything else.
+    kLine,    ///< Uses x and y; the line is broken where a value is not finite.
+    kPoints,  ///< Uses x and y; `low` and `high`, if given, are error bars.
+    kBand,    ///< Uses x, low and high; drawn below everything else.
   };
   Style style = Style::kLine;
-  std::string name;  ///< For the legend; "" is not in it.
+  std::string name;  ///< The name in the legend; a series named "" is not in it.
   Colour colour = Colour::kBlue;
   std::vector<double> x, y;
   std::vector<double> low, high;
-  std::vector<std::string> names;  ///< Of single points, for the mouse: "P05".
-  std::vector<float> radii;        ///< Of single points, logical pixels; else all alike.
-  bool hollow = true;              ///< Points: rings, with ink around the card's colour.
-  bool dashed = false;             ///< Lines.
-  float thickness = 2.0f;          ///< Lines.
+  /// Names of single points, shown at the mouse, such as "P05".
+  std::vector<std::string> names;
+  /// Radii of single points in logical pixels; if empty, all points are alike.
+  std::vector<float> radii;
+  bool hollow = true;      ///< Points only: rings of ink, filled with the card's colour.
+  bool dashed = false;     ///< Lines only.
+  float thickness = 2.0f;  ///< Lines only.
   float alpha = 1.0f;
 };
 
-/// A line across: the reference, p (1 + w).
+/// A straight line across the plot, for example at the reference.
 struct PlotMark {
   double at = 0.0;
   bool vertical = true;
   std::string label;
   Colour colour = Colour::kSoft;
   bool dashed = true;
-  std::optional<double> until;  ///< From the axis to this value of the other one; else across.
+  /// The line ends at this value of the other axis; without it, the line goes all the way
+  /// across.
+  std::optional<double> until;
 };
 
 struct PlotBox {
@@ -57,40 +65,42 @@ struct PlotBox {
     std::string name;
   };
   std::vector<Outlier> outliers;
-  std::string name;  ///< For the mouse.
+  std::string name;  ///< The name shown at the mouse.
   Colour colour = Colour::kBlue;
 };
 
-/// What a plot shows: numbers and words, nothing of studies. Values that are not finite, and on
-/// logarithmic axes those that are not positive, are left out.
+/// What a plot shows: numbers and words that know nothing of studies. Values that are not
+/// finite are left out, and so are values that are not positive on a logarithmic axis.
 struct PlotModel {
-  std::string title;  ///< Drawn as a heading, with `unit` after it.
+  std::string title;  ///< The heading; `unit` follows it.
   std::string unit;
   PlotAxis x, y;
   std::vector<PlotSeries> series;
   std::vector<PlotBox> boxes;
   std::vector<PlotMark> marks;
-  bool legend = true;         ///< Where more than one series has a name.
-  bool equal_scales = false;  ///< A unit is as long on both axes: paths.
-  bool axes = true;           ///< Ticks and their lines; a path needs none.
-  bool hover = true;          ///< What is under the mouse is told in words.
-  float least_left = 0;       ///< For the y axis; so that plots one above the other align.
+  bool legend = true;  ///< Draws a legend if more than one series has a name.
+  /// A unit is equally long on both axes, as paths need it.
+  bool equal_scales = false;
+  bool axes = true;   ///< Draws the ticks and their lines; a path needs none.
+  bool hover = true;  ///< Tells in words what is under the mouse.
+  /// The least width left of the plot for the y axis, so that plots above each other align.
+  float least_left = 0;
 };
 
-/// Where values are on the screen, logical pixels.
+/// Where values are on the screen, in logical pixels.
 struct PlotArea {
   Rect place;
   AxisRange x_range, y_range;
   bool x_logarithmic = false, y_logarithmic = false;
 
   [[nodiscard]] float x(double value) const noexcept;
-  [[nodiscard]] float y(double value) const noexcept;  ///< Upwards.
-  /// Finite, and positive where it must be.
+  [[nodiscard]] float y(double value) const noexcept;  ///< Larger values are higher up.
+  /// True if both values are finite, and positive on logarithmic axes.
   [[nodiscard]] bool can_show(double x, double y) const noexcept;
 };
 
-/// Draws it, and what is under the mouse in words. Thousands of points are drawn as what is
-/// left of them at the screen's resolution.
+/// Draws the plot, and tells in words what is under the mouse. Of thousands of points, only
+/// those are drawn that the screen's resolution can show.
 PlotArea draw_plot(Ui& ui, const Rect& place, const PlotModel& model);
 
 }  // namespace jnd::app::gui

@@ -8,8 +8,8 @@
 namespace jnd::app::gui {
 namespace {
 
-/// A line that keeps what can be seen of it: of the points that fall into one column of pixels
-/// one after the other, the first, the lowest, the highest and the last.
+/// A line without the points that nobody can see. Of successive points in one column of pixels
+/// it keeps the first, the lowest, the highest and the last.
 class ThinnedLine {
  public:
   explicit ThinnedLine(std::vector<ImVec2>& points) : points_(points) {}
@@ -67,7 +67,8 @@ void stroke(Ui& ui, const std::vector<ImVec2>& points, const PlotSeries& series)
                                thickness);
     return;
   }
-  // The dashes go on from piece to piece: a curve is made of pieces shorter than one.
+  // The dashes go on from piece to piece, because the pieces of a curve are shorter than a
+  // dash.
   float drawn = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
     draw_dashes(ui, points[i - 1].x, points[i - 1].y, points[i].x, points[i].y, colour,
@@ -106,7 +107,7 @@ void draw_band(Ui& ui, const PlotArea& area, const PlotSeries& series) {
     if (!can_show) continue;
     const float x0 = ui.px(area.x(series.x[i - 1]));
     const float x1 = ui.px(area.x(series.x[i]));
-    // Without soft edges, which would show where one piece meets the next.
+    // Drawn without soft edges, which would show where one piece meets the next.
     list.PrimReserve(6, 4);
     list.PrimQuadUV(
         ImVec2(x0, ui.px(area.y(series.high[i - 1]))),
@@ -157,7 +158,7 @@ void draw_points(Ui& ui, const PlotArea& area, const PlotSeries& series) {
       continue;
     }
     ui.draw_list().AddCircleFilled(centre, ui.px(radius), ui.rgba(Colour::kCard));
-    // Answers are ink; who draws a second kind of points tells it by its colour.
+    // Answers are ink; a second kind of points is told apart by its colour.
     const bool is_plain = series.colour == Colour::kBlue;
     ui.draw_list().AddCircle(
         centre, ui.px(radius),
@@ -217,7 +218,7 @@ void draw_mark(Ui& ui, const PlotArea& area, const PlotMark& mark) {
   const float height = ui.line_height(Font::kTiny);
   Rect place = {x1 - width, y1 - height - 2, width, height};
   if (mark.vertical) {
-    // Beside the foot of the line, on the side where there is room.
+    // The label stands beside the foot of the line, on the side that has room.
     const bool fits = x0 + 6 + width < area.place.right();
     place = {fits ? x0 + 6 : x0 - 6 - width, area.place.bottom() - height - 3, width, height};
   }

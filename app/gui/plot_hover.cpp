@@ -8,7 +8,7 @@
 namespace jnd::app::gui {
 namespace {
 
-constexpr float kReach = 24;  // Logical pixels.
+constexpr float kReach = 24;  // The mouse's reach in logical pixels.
 
 struct Nearest {
   float distance = kReach;
@@ -22,7 +22,7 @@ std::string with_unit(double value, const std::string& unit) {
   return text;
 }
 
-/// The name, if any, and what it was measured at.
+/// The values, after the name if there is one.
 std::string described(const std::string& name, const std::string& values) {
   return name.empty() ? values : name + ":  " + values;
 }
@@ -31,8 +31,8 @@ class Search {
  public:
   Search(const Ui& ui, const PlotArea& area) : ui_(ui), area_(area) {}
 
-  /// True where the point is the nearest so far; its words are asked for only then. `weight`:
-  /// less than 1 for what is rather meant.
+  /// Returns true if this point is the nearest so far; only then does the caller make its
+  /// words. A `weight` below 1 prefers a point that the person rather means.
   bool is_nearer(double x, double y, float weight = 1.0f) {
     if (!area_.can_show(x, y)) return false;
     const float there_x = area_.x(x);
@@ -52,7 +52,7 @@ class Search {
 };
 
 void search_series(Search& search, const PlotSeries& series, const PlotModel& model) {
-  // A measured point, not the curve that passes beside it.
+  // A measured point is preferred to a curve that passes beside it.
   const float weight = series.style == PlotSeries::Style::kPoints ? 0.1f : 1.0f;
   std::size_t best = std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {

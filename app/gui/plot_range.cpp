@@ -7,7 +7,7 @@
 namespace jnd::app::gui {
 namespace {
 
-/// Smallest and largest of the values that can be shown.
+/// The smallest and the largest value that can be shown.
 class Extent {
  public:
   explicit Extent(bool logarithmic) : logarithmic_(logarithmic) {}
@@ -20,7 +20,7 @@ class Extent {
   void add(const std::vector<double>& values) {
     for (const double value : values) add(value);
   }
-  /// Moved apart by a share of their distance.
+  /// Moves the ends apart, each by a share of their distance.
   void widen(double by) {
     if (!(low_ < high_)) return;
     if (logarithmic_) {
@@ -59,7 +59,7 @@ AxisRange x_range_of(const PlotModel& model) {
   for (const PlotMark& mark : model.marks) {
     if (mark.vertical) extent.add(mark.at);
   }
-  // A curve may begin at the axis; a point would be cut in half there.
+  // A curve may begin at the axis, but a point would be cut in half there.
   if (has_points && model.boxes.empty()) extent.widen(0.04);
   return extent.range(model.x);
 }

@@ -14,11 +14,12 @@ namespace jnd::app::gui {
 namespace {
 
 constexpr int kMaxShapes = 400;
-constexpr int kPersonGroup = 5;  // Hidden: a sample tells where the tips are, no more.
+// The person's shapes are hidden, because a sample tells only where the tips are.
+constexpr int kPersonGroup = 5;
 constexpr float kRobotShade[4] = {0.62f, 0.66f, 0.72f, 1.0f};
 constexpr float kFingerShade[4] = {0.80f, 0.82f, 0.86f, 1.0f};
 
-/// With a background of one colour, which MuJoCo knows as a texture alone.
+/// Adds a background of one colour to the model; MuJoCo can have one only as a texture.
 std::string model_text_with_background() {
   std::string text(device::exoskeleton_model_text());
   const std::size_t world = text.find("<worldbody>");
@@ -50,7 +51,7 @@ SceneColours scene_colours(const Theme& theme) {
           .solid = of(Colour::kSoft)};
 }
 
-/// Where things are in the model; -1 for what it does not have.
+/// Where things are in the model; -1 for things that it does not have.
 struct RobotScene::Addresses {
   std::array<int, core::kNumJoints> joint_position{};
   std::array<int, core::kNumContactPoints> distal_position{};
@@ -101,12 +102,12 @@ void RobotScene::look_up_names() {
       model_->geom_group[geom] = kPersonGroup;
       continue;
     }
-    // Amber is the forces'.
+    // Only forces are amber, so the robot gets shades of its own.
     const char* name = mj_id2name(model_.get(), mjOBJ_BODY, body);
     const bool is_arm = name != nullptr && std::string_view(name).starts_with("arm_");
     float* rgba = model_->geom_rgba + 4 * geom;
     std::copy_n(is_arm ? kRobotShade : kFingerShade, 4, rgba);
-    // The platform's plate: forces are behind it half of the time.
+    // The platform's plate is translucent, because forces are behind it half of the time.
     if (model_->geom_type[geom] == mjGEOM_BOX) rgba[3] = 0.35f;
   }
 }
@@ -147,7 +148,8 @@ void RobotScene::place_robot(const core::Sample& sample) {
         sample.joint_position_rad[core::finger_joint(point, 2)]);
   }
   mj_kinematics(model_.get(), data_.get());
-  // Where the arm's foot is, nobody says; where its end is, the sample does.
+  // The sample does not tell where the arm's foot is, but where its end is. So the foot is
+  // moved until the end is there.
   if (addresses_->base_body >= 0 && addresses_->end_effector_body >= 0 &&
       is_finite(sample.end_effector_position_m)) {
     mjtNum* foot_m = model_->body_pos + 3 * addresses_->base_body;

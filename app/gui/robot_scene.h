@@ -14,7 +14,7 @@ struct mjvScene_;
 
 namespace jnd::app::gui {
 
-/// Red, green, blue; 0 to 1.
+/// Red, green and blue, each from 0 to 1.
 using SceneColour = std::array<float, 3>;
 
 struct SceneColours {
@@ -23,22 +23,23 @@ struct SceneColours {
   friend bool operator==(const SceneColours&, const SceneColours&) = default;
 };
 
-/// Those of the plots: forces amber, what is loose purple. What a colour says, a shape does,
-/// too.
+/// The colours of the plots: forces are amber, and what is loose is purple. Whatever a colour
+/// says, a shape says too.
 [[nodiscard]] SceneColours scene_colours(const Theme& theme);
 
-/// A force of 1 N is an arrow of this length.
+/// The length of the arrow that shows a force of 1 N.
 inline constexpr double kArrow_m_per_n = 0.03;
 
-/// The apparatus as shapes in space, workspace frame, made of one sample: the robot where the
-/// joints and the end effector say, the hand between its tips, the forces on it, the surface.
-/// A picture of its own of the model, without any physics and none of the loop's data. Whatever
-/// is not finite is left out; joints that the model does not know, as well.
+/// The apparatus as shapes in space, in the workspace frame, made from one sample: the robot
+/// where the joints and the end effector are, the hand between the tips, the forces on it, and
+/// the surface. The scene has its own copy of the model, without any physics, and uses none of
+/// the loop's data. It leaves out what is not finite, and joints that the model does not know.
 ///
-/// Points: a ball in the fluid, a smaller one outside of it, a box where the finger came off.
+/// A point in the fluid is a ball, a point outside of it is a smaller ball, and a box shows
+/// where a finger came off.
 class RobotScene {
  public:
-  /// Throws `core::Error` where the model cannot be read.
+  /// Throws `core::Error` if the model cannot be read.
   RobotScene();
   ~RobotScene();
   RobotScene(const RobotScene&) = delete;
@@ -47,11 +48,11 @@ class RobotScene {
   void show(const core::Sample& sample, const SurroundingsView& surroundings,
             const SceneColours& colours, const SceneCamera& camera);
 
-  // For whoever draws it with MuJoCo's renderer, and for tests.
+  // For MuJoCo's renderer, and for tests.
   [[nodiscard]] mjModel_& model() noexcept { return *model_; }
   [[nodiscard]] const mjData_& data() const noexcept { return *data_; }
   [[nodiscard]] mjvScene_& scene() noexcept { return *scene_; }
-  /// Of the background, which changes with the colours; -1 for none.
+  /// The texture of the background, which changes with the colours; -1 if there is none.
   [[nodiscard]] int background_texture() const noexcept { return background_texture_; }
 
  private:

@@ -8,11 +8,11 @@ namespace jnd::app::gui {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-// Straight down there is no "up" left.
+// A camera that looks straight down has no direction for "up".
 constexpr double kSteepest_rad = 89.0 * kDegree_rad;
 constexpr double kNearest_m = 0.25;
 constexpr double kFurthest_m = 5.0;
-// Over the middle of the strokes, a little towards the arm.
+// The camera looks at the middle of the strokes, a little towards the arm.
 constexpr std::array<double, 3> kLookAt_m = {0.0, 0.03, -0.06};
 
 SceneCamera looking(double azimuth_rad, double elevation_rad, double distance_m) {

@@ -6,7 +6,7 @@ namespace jnd::app::gui {
 namespace {
 
 constexpr double kBetweenPictures_s = 0.1;
-// Of both sides: half the pixels.
+// Scales both sides, which halves the number of pixels.
 constexpr double kSoftwareScale = 0.7;
 
 }  // namespace
@@ -25,7 +25,7 @@ SceneLook look_of(const SceneRequest& request, bool is_software) noexcept {
 }
 
 bool ScenePace::takes(const SceneLook& wanted, double now_s) noexcept {
-  // Light and dark change at once, with everything around.
+  // A change between light and dark shows at once, together with everything around.
   const bool is_recent =
       now_s < drawn_s_ + kBetweenPictures_s && drawn_.colours == wanted.colours;
   if (has_drawn_ && (is_recent || drawn_ == wanted)) return false;

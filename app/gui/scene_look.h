@@ -6,7 +6,7 @@
 
 namespace jnd::app::gui {
 
-/// What a picture of the apparatus is to show, and how large it is on the screen.
+/// What a picture of the apparatus has to show, and how large it is on the screen.
 struct SceneRequest {
   core::Sample sample;
   SurroundingsView surroundings;
@@ -15,7 +15,8 @@ struct SceneRequest {
   int width_px = 0, height_px = 0;
 };
 
-/// What tells one picture from another: the sample by its tick, and the size it is drawn in.
+/// What distinguishes one picture from another; the tick stands for the whole sample. The size
+/// is the one in which the picture is drawn.
 struct SceneLook {
   std::int64_t tick = 0;
   SceneCamera camera;
@@ -25,19 +26,19 @@ struct SceneLook {
   friend bool operator==(const SceneLook&, const SceneLook&) = default;
 };
 
-// More than a monitor shows of it beside the scopes; the picture is drawn larger from there on.
+// Monitors hardly show a larger picture beside the scopes. A larger view scales this one up.
 inline constexpr int kMostSceneWidth_px = 1600;
 inline constexpr int kMostSceneHeight_px = 1200;
 
-/// As large as on the screen, of the same shape, within the most; with half the pixels where
-/// the processor draws.
+/// The picture's size is the size on the screen, reduced in proportion to the most that is
+/// allowed. If the processor draws, the picture has at most half the pixels.
 [[nodiscard]] SceneLook look_of(const SceneRequest& request, bool is_software) noexcept;
 
-/// When pictures are drawn: at most ten a second but for a change of colours, and none that
-/// would show the same again.
+/// Decides when pictures are drawn: at most ten a second, except when colours change, and never
+/// one that would look like the last.
 class ScenePace {
  public:
-  /// True if this one is to be drawn now; it then counts as drawn.
+  /// Returns true if this picture is to be drawn now; it then counts as drawn.
   [[nodiscard]] bool takes(const SceneLook& wanted, double now_s) noexcept;
 
  private:

@@ -17,7 +17,7 @@
 namespace jnd::app::gui {
 namespace {
 
-/// The processor draws, and it is the loop's, too.
+/// True if the processor draws, which the loop needs, too.
 bool renders_in_software() {
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   const std::string_view renderer = name == nullptr ? "" : name;
@@ -26,7 +26,7 @@ bool renders_in_software() {
          renderer.find("Software") != std::string_view::npos;
 }
 
-/// Leaves OpenGL as it was found.
+/// Restores the state of OpenGL when it is destroyed.
 class GlStateGuard {
  public:
   GlStateGuard() {
@@ -78,8 +78,8 @@ struct ScenePainter::Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// The picture that the window has shown longest ago is drawn over. Opaque: without an alpha
-  /// of its own that the window would blend by.
+  /// Draws over the oldest picture. The picture has no alpha, because the window would blend by
+  /// it.
   void take_target(int new_width, int new_height) {
     current = (current + 1) % targets.size();
     width = new_width;
@@ -122,7 +122,7 @@ struct ScenePainter::Renderer {
     mjr_uploadTexture(&model, &context, id);
   }
 
-  /// A picture, and what draws into it.
+  /// A picture, and the framebuffer that draws into it.
   struct Target {
     unsigned int texture = 0, framebuffer = 0;
     int width = 0, height = 0;
@@ -130,7 +130,7 @@ struct ScenePainter::Renderer {
 
   const bool is_software;
   mjrContext context;
-  // One that the window shows, one that it may still be drawing, one to draw into.
+  // One target is shown by the window, one may still be drawn by it, and one is drawn into.
   std::array<Target, 3> targets;
   std::size_t current = 0;
   int width = 0, height = 0;
@@ -163,7 +163,9 @@ std::uintptr_t ScenePainter::paint(const SceneRequest& request, double now_s) {
   } else {
     my.copy(my.context.offFBO, target.framebuffer);
   }
-  glFinish();  // The window's context shows it as soon as it knows of it.
+  // The window's context shows the picture as soon as it gets the texture, so drawing has to be
+  // finished.
+  glFinish();
   return target.texture;
 }
 

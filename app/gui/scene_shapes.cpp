@@ -14,13 +14,13 @@ using Eigen::Vector3d;
 constexpr SceneColour kSkin = {0.90f, 0.77f, 0.67f};
 constexpr double kShortestArrow_m = 0.001;
 constexpr double kArrowWidth_m = 0.007;
-// What is drawn of a surface without an end: the reach of the strokes, and some more.
+// An endless surface is drawn as far as the strokes reach, and a little further.
 constexpr double kHalfWidth_m = 0.65;
 constexpr double kHalfDepth_m = 0.4;
 
 Vector3d vector_of(const core::PlainVector& plain) { return {plain[0], plain[1], plain[2]}; }
 
-/// `size_m` as MJCF has it: of a cylinder its radius and half its height.
+/// `size_m` is as in MJCF: for a cylinder, its radius and half its height.
 mjvGeom* add_shape(mjvScene& scene, int type, const Vector3d& size_m, const Vector3d& at_m,
                    const SceneColour& colour, float opacity) {
   if (scene.ngeom >= scene.maxgeom) return nullptr;
@@ -62,7 +62,7 @@ void add_arrow(mjvScene& scene, const core::PlainVector& at_m, const core::Plain
   const Vector3d along_m = m_per_n * vector_of(force_n);
   const double length_m = along_m.norm();
   if (!(length_m >= kShortestArrow_m) || !std::isfinite(length_m)) return;
-  // MuJoCo draws an arrow half as long as it says that it is.
+  // MuJoCo draws an arrow at half the length that it is given.
   const Vector3d from_m = vector_of(at_m);
   connect(scene, mjGEOM_ARROW, kArrowWidth_m, from_m, from_m + 2.0 * along_m, colour);
 }
@@ -85,7 +85,7 @@ void add_hand_shapes(mjvScene& scene, const core::Sample& sample) {
   if (!holds[kInner] || !holds[kOuter]) return;
   bone(0.015, tip_m[kInner], tip_m[kOuter]);
   const Vector3d heel_m = 0.5 * (tip_m[kInner] + tip_m[kOuter]);
-  // Knuckles half-way from the palm's points to the finger tips.
+  // The knuckles are half-way between the palm's points and the finger tips.
   const Vector3d index_knuckle_m = 0.5 * (tip_m[kInner] + tip_m[kIndex]);
   const Vector3d middle_knuckle_m = 0.5 * (tip_m[kOuter] + tip_m[kMiddle]);
   if (holds[kThumb]) bone(0.010, tip_m[kInner], tip_m[kThumb]);
@@ -130,7 +130,7 @@ void add_fluid_shapes(mjvScene& scene, const SurroundingsView& surroundings,
               middle_m - half_m * Vector3d::UnitZ(), colours.solid,
               surroundings.has_walls ? 0.25f : 0.1f);
   }
-  // The last one: drawn over what is below.
+  // The surface comes last, because it is drawn over what is below.
   if (surroundings.surface_is_solid) {
     add_level(middle_m.z(), colours.solid, 0.75f);
   } else {

@@ -12,26 +12,27 @@
 
 namespace jnd::app::gui {
 
-/// Draws pictures of the apparatus on a thread of its own. Loading the model, compiling what
-/// OpenGL draws with, and a picture that takes long hold up no frame of the window, and so none
-/// of its heartbeats.
+/// Draws pictures of the apparatus on a thread of its own. So loading the model, compiling
+/// OpenGL's programs and drawing a slow picture never delay a frame of the window, nor its
+/// heartbeat.
 class SceneThread {
  public:
-  /// Draws one, or returns the last one where that shows the same; an OpenGL texture whose
-  /// picture is complete. `now_s`: any clock that goes forward.
+  /// Draws a picture, or returns the last one if that shows the same. Returns an OpenGL texture
+  /// with a complete picture. `now_s` is the time of any clock that goes forward.
   using Paint = std::function<std::uintptr_t(const SceneRequest& request, double now_s)>;
 
-  /// `load` runs on the thread, once, before anything else; what it returns is called and
-  /// destroyed there. `wake`: there is a new picture, or none will come; from the thread.
+  /// `load` runs once on the thread before anything else; what it returns is called and
+  /// destroyed there. The thread calls `wake` when there is a new picture, or when none will
+  /// come.
   SceneThread(std::function<Paint()> load, std::function<void()> wake);
   /// Waits for a picture that is being drawn.
   ~SceneThread();
   SceneThread(const SceneThread&) = delete;
   SceneThread& operator=(const SceneThread&) = delete;
 
-  /// Asks for this picture, in place of any that was asked for and not begun, and returns the
-  /// newest one that is complete; 0 while it still loads. Never waits. Throws `core::Error` for
-  /// what went wrong on the thread.
+  /// Asks for this picture, instead of any that is still waiting, and returns the newest
+  /// complete one; 0 while the model is loading. Never waits. Throws `core::Error` if something
+  /// went wrong on the thread.
   [[nodiscard]] std::uintptr_t paint(const SceneRequest& request, double now_s);
 
  private:

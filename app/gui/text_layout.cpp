@@ -13,7 +13,7 @@ bool continues_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
 }
 
-/// As many whole characters from `start` as fit, at least one.
+/// As many whole characters from the beginning as fit, but at least one.
 std::size_t characters_that_fit(std::string_view text, float width, const Measure& measure) {
   std::size_t end = next_character(text, 0);
   while (end < text.size()) {
@@ -24,7 +24,7 @@ std::size_t characters_that_fit(std::string_view text, float width, const Measur
   return end;
 }
 
-/// The end of the first line of `text`, which has no line end in it.
+/// The end of the first line of `text`, which contains no line end.
 std::size_t first_break(std::string_view text, float width, const Measure& measure) {
   std::size_t fits = 0;
   while (fits < text.size()) {
@@ -53,7 +53,8 @@ std::vector<std::string_view> break_greedily(std::string_view text, float width,
   return lines;
 }
 
-/// Latin capitals of two UTF-8 bytes: Latin-1 and Extended-A, where pairs stand side by side.
+/// The capital of a Latin letter whose UTF-8 code has two bytes. In Latin Extended-A, a capital
+/// and its small letter have neighbouring codes.
 std::uint32_t capital_of(std::uint32_t code_point) {
   if (code_point >= 0xe0 && code_point <= 0xfe && code_point != 0xf7) return code_point - 0x20;
   if (code_point == 0xff) return 0x178;
@@ -108,14 +109,14 @@ std::string shorten(std::string_view text, float width, const Measure& measure) 
   return std::string(text.substr(0, fits)) + std::string(kEllipsis);
 }
 
-/// The unit that stands at this place and is whole; "" for none.
+/// The whole unit that begins at this place; "" if there is none.
 static std::string_view unit_at(std::string_view text, std::size_t at) {
-  // The longer before those that they begin with.
+  // A longer unit stands before the units that it begins with.
   constexpr std::string_view kUnits[] = {
       as_is("Pa s"), "N s/m",     "N/mm", "N/m", as_is("N mm"), "N m", "cm/s", "mm/s",
       "m/s",         "m/s²",      "mm",   "cm",  "µm",          "ms",  "µs",   "min",
       "kg",          as_is("Hz"), "rad",  "m",   "s",           "g",   "h"};
-  // Nothing else is called that.
+  // Nothing else than a unit is written like this, so it counts as one anywhere.
   constexpr std::string_view kAnywhere = as_is("Pa s");
   const auto is_letter = [&](std::size_t place) {
     if (place >= text.size()) return false;

@@ -8,8 +8,8 @@ namespace {
 
 using Palette = std::array<std::uint32_t, kNumColours>;
 
-// In the order of `Colour`. Words in the colours of meaning are darker by day than a fill would
-// have to be, because they also stand on chips of their own tint.
+// The colours are in the order of `Colour`. In the light mode, the colours of meaning are
+// darker than a fill would need, because words in them also stand on chips of their own tint.
 constexpr Palette kLight = {0xf4f5f7, 0xffffff, 0x1c2430, 0x5d6878, 0xdfe3e9,
                             0x2563b0, 0xe7effa, 0x17724f, 0x8a5605, 0xb52626,
                             0xffffff, 0x7a3ea8, 0xc62f2f, 0xffffff};
@@ -47,7 +47,7 @@ float scale_from_afar(int width_px, int height_px) noexcept {
   constexpr float kWidth = 1024;
   constexpr float kHeight = 600;
   constexpr float kStep = 0.25f;
-  // Beyond it letters are large enough, and take long to make.
+  // At this scale letters are large enough; larger ones take long to make.
   constexpr float kLargest = 2.5f;
   const float fitting =
       std::min(static_cast<float>(width_px) / kWidth, static_cast<float>(height_px) / kHeight);

@@ -10,20 +10,20 @@ struct ImFont;
 
 namespace jnd::app::gui {
 
-/// By role; the numbers are logical pixels of the em square.
+/// Fonts by their role. The numbers are the em square in logical pixels.
 enum class Font {
-  kTiny,         ///< 12, ticks of plots.
-  kSmall,        ///< 14, footer.
+  kTiny,         ///< 12; ticks of plots.
+  kSmall,        ///< 14; the footer.
   kBody,         ///< 17.
   kStrong,       ///< 17, semi-bold.
-  kLarge,        ///< 20, semi-bold: titles of cards.
-  kTitle,        ///< 30, bold: the one sentence.
-  kHuge,         ///< 44, bold: the name, what is typed.
-  kCaps,         ///< 13, semi-bold, spaced: headings.
-  kMono,         ///< 14, JetBrains Mono: numbers in tables.
-  kSmallStrong,  ///< 14, semi-bold: chips, what counts in the footer.
-  kAnswer,       ///< 24, semi-bold: large buttons.
-  kKeyCap,       ///< 12, JetBrains Mono, medium.
+  kLarge,        ///< 20, semi-bold; titles of cards.
+  kTitle,        ///< 30, bold; the one sentence that says what to do.
+  kHuge,         ///< 44, bold; the program's name, and what is typed.
+  kCaps,         ///< 13, semi-bold, spaced; headings.
+  kMono,         ///< 14, JetBrains Mono; numbers in tables.
+  kSmallStrong,  ///< 14, semi-bold; chips, and what matters in the footer.
+  kAnswer,       ///< 24, semi-bold; large buttons.
+  kKeyCap,       ///< 12, JetBrains Mono, medium; caps of keys.
 };
 inline constexpr int kNumFonts = 12;
 
@@ -38,33 +38,34 @@ enum class Colour {
   kGreen,
   kAmber,
   kRed,
-  kOnFilled,  ///< Words on a button filled with any of the five colours of meaning.
-  kPilot,     ///< The whole frame of a pilot session.
-  kStop,      ///< The emergency stop, filled; as red in the dark as by day.
+  kOnFilled,  ///< Words on a button that is filled with one of the five colours of meaning.
+  kPilot,     ///< The frame around the whole window in a pilot session.
+  kStop,      ///< The filled emergency stop; it is red in the dark mode as well.
   kOnStop,
 };
 inline constexpr int kNumColours = 14;
 
-/// What every view has room for, logical pixels.
+/// Every view has room in a window of this size, in logical pixels.
 inline constexpr float kLeastWidth = 1024;
 inline constexpr float kLeastHeight = 640;
 
-/// The scale that is wanted, or the largest, in steps of a twentieth, at which a window of so
-/// many pixels still has room for every view.
+/// Returns the scale that is wanted. If a window of so many pixels has no room for every view
+/// at that scale, returns the largest scale at which it has, in steps of 1/20.
 [[nodiscard]] float scale_with_room(float wanted, float width_px, float height_px) noexcept;
 
-/// Fonts, colours and scale. Colours are told apart by those who see no red or green, and every
-/// one stands with a word or a shape besides. Every colour of words has a contrast of at least
-/// 4.5 : 1 (WCAG 2.1, AA) on each ground it stands on, in both modes.
+/// Fonts, colours and scale. People who see no red or green can tell the colours apart, and
+/// every colour comes with a word or a shape. Every colour of words has a contrast of at least
+/// 4.5 : 1 (WCAG 2.1, AA) on each ground it is used on, in both modes.
 class Theme {
  public:
-  /// `scale`: of the monitor, times what the person chose.
+  /// `scale` is the monitor's scale times the person's choice.
   explicit Theme(float scale = 1.0f, bool dark = false);
 
-  /// Builds the font atlas of ImGui's current context for the scale; after it changed, outside
-  /// of a frame. Missing font files are replaced by what there is and named in `missing_fonts`.
-  /// `roles`: these alone, where not everything is drawn; the one of the nearest size then
-  /// stands for each of the others. All where it is empty.
+  /// Builds the font atlas of ImGui's current context for the scale; call it again, outside of
+  /// a frame, after the scale has changed. A missing font file is replaced by another one and
+  /// named in `missing_fonts`. `roles` restricts what is built to these roles, where not
+  /// everything is drawn; each other role then gets the font of the nearest size. An empty
+  /// `roles` builds all.
   void load_fonts(std::span<const Font> roles = {});
   [[nodiscard]] const std::vector<std::string>& missing_fonts() const noexcept {
     return missing_;
@@ -73,18 +74,19 @@ class Theme {
   [[nodiscard]] bool dark() const noexcept { return dark_; }
   void set_dark(bool dark) noexcept { dark_ = dark; }
   [[nodiscard]] float scale() const noexcept { return scale_; }
-  /// Takes effect with `load_fonts`; within 0.5 to 4.
+  /// The scale is limited to 0.5 to 4 and takes effect with `load_fonts`.
   void set_scale(float scale) noexcept;
   [[nodiscard]] bool fonts_are_stale() const noexcept { return fonts_scale_ != scale_; }
 
-  /// As ImGui packs it.
+  /// The colour as ImGui packs it.
   [[nodiscard]] std::uint32_t rgba(Colour colour, float alpha = 1.0f) const noexcept;
-  /// For lines and bars, which need less contrast than words (3 : 1) and so can be clearer.
+  /// The colour for lines and bars, which need less contrast than words (3 : 1) and so can be
+  /// clearer.
   [[nodiscard]] std::uint32_t line_rgba(Colour colour, float alpha = 1.0f) const noexcept;
-  /// 0xRRGGBB
+  /// The colour as 0xRRGGBB.
   [[nodiscard]] std::uint32_t rgb(Colour colour) const noexcept;
   [[nodiscard]] ImFont* font(Font font) const noexcept;
-  [[nodiscard]] float size(Font font) const noexcept;  ///< Logical pixels of the em square.
+  [[nodiscard]] float size(Font font) const noexcept;  ///< The em square in logical pixels.
 
  private:
   float scale_ = 1.0f;
@@ -94,12 +96,12 @@ class Theme {
   std::vector<std::string> missing_;
 };
 
-/// The scale of a window that is read from afar, whose letters grow with it: at least 1024 x
-/// 600 logical pixels have room in it, at any size. From 0.5 to 2.5, in steps, so that a window
-/// that is being resized does not make new letters all the time.
+/// The scale of a window that is read from afar and whose letters grow with its size. At least
+/// 1024 x 600 logical pixels fit into the window if the scale is more than its least value. It
+/// goes from 0.5 to 2.5 in steps, so that resizing does not make new letters all the time.
 [[nodiscard]] float scale_from_afar(int width_px, int height_px) noexcept;
 
-/// How opaque the ground of a chip is, of the colour of its words.
+/// How opaque a chip's ground is; it has the colour of the chip's words.
 inline constexpr float kChipAlpha = 0.12f;
 
 }  // namespace jnd::app::gui

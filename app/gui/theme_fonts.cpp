@@ -19,11 +19,11 @@ enum class Cut { kRegular, kSemiBold, kBold, kMono, kMonoMedium };
 
 struct FontRole {
   Cut cut;
-  float size;           ///< Logical pixels of the em square.
-  float spacing_ratio;  ///< Added between letters, of the em square.
+  float size;           ///< The em square in logical pixels.
+  float spacing_ratio;  ///< Space added between letters, as a share of the em square.
 };
 
-// In the order of `Font`.
+// The roles are in the order of `Font`.
 constexpr std::array<FontRole, kNumFonts> kRoles = {{
     {Cut::kRegular, 12, 0},
     {Cut::kRegular, 14, 0},
@@ -39,7 +39,8 @@ constexpr std::array<FontRole, kNumFonts> kRoles = {{
     {Cut::kMonoMedium, 12, 0},
 }};
 
-/// The first of these that exists is taken; the others stand for it where it is not installed.
+/// Font files for this cut. The first one that exists is used; the others replace it if it is
+/// not installed.
 std::vector<std::string> files_of(Cut cut) {
   const std::string inter = "/usr/share/fonts/opentype/inter/Inter-";
   const std::string mono = "/usr/share/fonts/truetype/jetbrains-mono/JetBrainsMono-";
@@ -60,8 +61,7 @@ std::vector<std::string> files_of(Cut cut) {
   return {};
 }
 
-// European languages, Greek for symbols, Cyrillic, and the signs that units, keys and plots
-// need.
+// The glyphs of European languages, Greek and Cyrillic, and the signs of units, keys and plots.
 constexpr ImWchar kGlyphs[] = {0x0020, 0x017f,  // Latin
                                0x0386, 0x03ce,  // Greek
                                0x0400, 0x045f,  // Cyrillic
@@ -96,7 +96,7 @@ using Face = std::unique_ptr<FT_FaceRec_, CloseFace>;
 
 struct FoundFont {
   std::string file;
-  Face face;  ///< Empty where no file was found.
+  Face face;  ///< Empty if no file was found.
 };
 
 FoundFont find_font(FT_Library library, Cut cut, std::vector<std::string>& missing) {
@@ -108,15 +108,15 @@ FoundFont find_font(FT_Library library, Cut cut, std::vector<std::string>& missi
   return {};
 }
 
-/// What ImGui calls a font's size is the height of its line; ours is the em square, as
-/// everywhere else. ImGui cuts it to whole pixels, so it is rounded here.
+/// ImGui calls the height of a line a font's size, while we mean the em square, as is usual.
+/// ImGui cuts the height to whole pixels, so it is rounded here.
 float line_px(FT_Face face, float em_px) {
   const float line = static_cast<float>(face->ascender - face->descender);
   return std::round(em_px * line / static_cast<float>(face->units_per_EM));
 }
 
-/// ImGui's FreeType builder rounds every advance up to a whole pixel, which sets text too wide
-/// and unevenly; these are the font's own.
+/// Sets the font's own advances. ImGui's FreeType builder rounds each one up to a whole pixel,
+/// which makes text too wide and uneven.
 void correct_advances(ImFont& font, FT_Face face, float line, float spacing_px) {
   const float em_px = line * static_cast<float>(face->units_per_EM) /
                       static_cast<float>(face->ascender - face->descender);
@@ -132,7 +132,7 @@ void correct_advances(ImFont& font, FT_Face face, float line, float spacing_px) 
   }
 }
 
-/// The role that is wanted and whose letters are most like this one's in size.
+/// The wanted role whose letter size is nearest to that of this one.
 std::size_t nearest_in_size(std::size_t role, const std::array<bool, kNumFonts>& is_wanted) {
   std::size_t nearest = role;
   for (std::size_t i = 0; i < kRoles.size(); ++i) {

@@ -11,7 +11,7 @@
 namespace jnd::app::gui {
 namespace {
 
-// A field asked for the keyboard gets it from ImGui one or two frames later.
+// ImGui gives a field the keyboard one or two frames after it was asked to.
 constexpr int kMaxFramesOfWaiting = 5;
 
 }  // namespace
@@ -31,13 +31,15 @@ Ui::Ui(Theme& theme) : theme_(theme), my_(std::make_unique<Implementation>()) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
-  // Frames are drawn when something happens, so a blinking cursor might stop in the dark.
+  // Frames are drawn only when something happens, so a blinking cursor might stop while it is
+  // invisible.
   io.ConfigInputTextCursorBlink = false;
-  // The dialog's window would otherwise be moved by whoever drags its ground.
+  // Otherwise dragging the ground of a dialog would move its window.
   io.ConfigWindowsMoveFromTitleBarOnly = true;
   Implementation::map_keys(io);
   ImGuiStyle& style = ImGui::GetStyle();
-  // Lines as shapes: the window does not smooth the letters' texture, which holds ImGui's.
+  // Lines are drawn as shapes: the window does not smooth the letters' texture, which contains
+  // ImGui's textures of lines.
   style.AntiAliasedLinesUseTex = false;
   style.WindowPadding = style.WindowMinSize = ImVec2(1, 1);
   style.WindowBorderSize = style.ChildBorderSize = style.FrameBorderSize = 0;
@@ -118,13 +120,15 @@ const Drawn& Ui::end_frame() {
   draw_tooltip();
   ImGui::End();
   ImGui::Render();
-  // A dialog that closed by itself kept this frame's keys and clicks from everybody.
+  // The dialog closed without its controls being drawn, so nobody saw this frame's keys and
+  // clicks. The next frame sees them again.
   if (!my.dialog_before.empty() && my.dialog.empty() &&
       (!my.keys.empty() || !my.characters.empty() || my.went_up)) {
     my.again = {.keys = my.keys, .characters = my.characters, .mouse = my.input.mouse};
     if (my.went_up) my.mouse.down = true;
   }
-  // Pressed while a dialog was closing, it is for what was below; not so while one was opening.
+  // A press while a dialog closes is meant for what was below it; a press while one opens is
+  // not.
   if (my.went_down && my.dialog.empty()) my.press_dialog.clear();
   my.dialog_before = my.dialog;
   if (my.is_waiting_for_focus() && ++my.frames_of_waiting > kMaxFramesOfWaiting) {

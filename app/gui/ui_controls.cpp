@@ -21,7 +21,7 @@ Font font_of(const ButtonStyle& style) {
   return style.tone == Tone::kQuiet && !style.selected ? Font::kBody : Font::kStrong;
 }
 
-/// Smaller letters of a button, the larger first.
+/// Smaller fonts for a button, the largest first.
 std::vector<Font> smaller_fonts_of(const ButtonStyle& style) {
   const bool is_regular = font_of(style) == Font::kBody;
   if (style.large) return {Font::kStrong, Font::kSmallStrong, Font::kTiny};
@@ -45,7 +45,7 @@ Ui::Press Ui::press_on(const Rect& place, const ButtonStyle& style) {
   if (!style.enabled) return press;
   const bool is_under_mouse = my.mouse_is_on(place);
   const bool was_pressed = my.press_was_on(place);
-  // Who pressed elsewhere and moves on means what was pressed.
+  // A person who presses elsewhere and moves here means what was pressed.
   press.hovered = is_under_mouse && (!my.mouse.down || was_pressed);
   press.held = press.hovered && my.mouse.down;
   if (press.hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
@@ -90,7 +90,7 @@ float Ui::button_width(std::string_view label, const ButtonStyle& style) const {
   return std::ceil(width);
 }
 
-/// How a label comes to stand on its button.
+/// How a button shows its label.
 struct Ui::ButtonWords {
   Font font = Font::kStrong;
   std::vector<std::string> lines;
@@ -98,8 +98,8 @@ struct Ui::ButtonWords {
   bool is_cut = false;
 };
 
-/// Words that are longer in another language are smaller, then on two lines, then without
-/// their key, before they are cut.
+/// Chooses how a label fits, as other languages have longer words: first smaller letters, then
+/// two lines, then without the key. Only after that it is cut.
 Ui::ButtonWords Ui::words_on_button(const Rect& place, std::string_view label,
                                     const ButtonStyle& style) const {
   constexpr float kAround = 12, kClosestLines = 1.2f;
@@ -137,7 +137,7 @@ void Ui::draw_button(const Rect& place, std::string_view label, const ButtonStyl
     fill(place, is_danger ? Colour::kStop : Colour::kBlue, kRounding);
     letters = is_danger ? Colour::kOnStop : Colour::kOnFilled;
     if (press.hovered) {
-      // Away from the letters, so that they stay as readable.
+      // The shade differs from the letters, so that they stay readable.
       const Colour shade = !theme_.dark() ? Colour::kInk
                            : is_danger    ? Colour::kOnFilled
                                           : Colour::kOnStop;

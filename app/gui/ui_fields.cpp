@@ -16,8 +16,8 @@ namespace {
 constexpr float kRounding = 8;
 constexpr float kPadding = 12;
 
-// ImGui 1.86 does not wrap what is edited. A carriage return has no width and cannot be typed,
-// so one before a line end marks those that are ours.
+// ImGui 1.86 does not wrap text that is edited, so we insert line ends. A carriage return
+// before a line end marks it as ours: it has no width and cannot be typed.
 constexpr std::string_view kSoftBreak = "\r\n";
 
 std::string without_soft_breaks(std::string text) {
@@ -43,7 +43,7 @@ std::vector<int> soft_breaks(std::string_view text, float width, const Measure& 
 struct Wrapping {
   float width_px = 0;
   Measure measure;
-  bool starts = false;  ///< It has just been given the keyboard.
+  bool starts = false;  ///< The field has just got the keyboard.
 };
 
 std::string with_soft_breaks(std::string text, const Wrapping& wrapping) {
@@ -53,7 +53,8 @@ std::string with_soft_breaks(std::string text, const Wrapping& wrapping) {
   return text;
 }
 
-/// Wraps anew after every change; ImGui keeps its cursor where it was in the words.
+/// Wraps the text anew after every change. ImGui keeps its cursor at the same place in the
+/// words.
 int wrap_edited_text(ImGuiInputTextCallbackData* data) {
   const auto& wrapping = *static_cast<const Wrapping*>(data->UserData);
   if (wrapping.starts) {
@@ -91,7 +92,7 @@ bool Ui::begin_field(std::string_view name, const Rect& place, const std::string
   const bool is_hovered = hovered(place);
   outline(place, is_active || is_hovered ? Colour::kBlue : Colour::kLine, kRounding,
           is_active ? 1.5f : 1.0f);
-  // Below a dialog nothing is edited; ImGui would draw it over the dialog, too.
+  // Nothing below a dialog can be edited; ImGui would also draw it over the dialog.
   if (my.is_blocked()) return false;
 
   const bool is_first_of_dialog =
@@ -140,7 +141,7 @@ bool Ui::text_field(std::string_view name, const Rect& place, std::string& value
   Font font = Font::kBody;
   if (value.empty()) {
     log_text(hint);
-    // ImGui draws it, and clips it at the field's end.
+    // ImGui draws the hint and clips it at the field's end.
     const float room = place.width - 2 * kPadding;
     for (const Font smaller : {Font::kSmall, Font::kTiny}) {
       if (text_width(hint, font) > room + 1) font = smaller;

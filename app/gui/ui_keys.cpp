@@ -9,7 +9,7 @@
 namespace jnd::app::gui {
 namespace {
 
-/// What an edited text keeps for itself.
+/// True if a text that is being edited needs this key.
 bool edits_text(const Chord& chord) {
   if (chord.control) {
     switch (static_cast<int>(chord.key)) {
@@ -37,8 +37,8 @@ bool edits_text(const Chord& chord) {
 
 }  // namespace
 
-// Without Escape, which is the emergency stop and would take back what was written, and without
-// Tab, which we see to ourselves.
+// Escape is not mapped, because it is the emergency stop and ImGui would undo what was written.
+// Tab is not mapped, because we handle it ourselves.
 void Ui::Implementation::map_keys(ImGuiIO& io) {
   const auto map = [&](ImGuiKey theirs, Key ours) {
     io.KeyMap[theirs] = static_cast<int>(ours);
@@ -63,13 +63,13 @@ void Ui::Implementation::map_keys(ImGuiIO& io) {
   map(ImGuiKey_Z, letter('Z'));
 }
 
-/// ImGui edits the texts, so it gets what is typed; but its undo of 1.86 knows nothing of the
-/// line ends that a text area moves about.
+/// Passes the input to ImGui, which edits texts. The keys of its undo are left out in a text
+/// area, because the undo of ImGui 1.86 does not know the line ends that we move about.
 void Ui::Implementation::feed(ImGuiIO& io) const {
   if (!input.keys.empty() || !input.characters.empty()) io.KeyCtrl = io.KeyShift = false;
   for (const KeyEvent& event : input.keys) {
     const bool goes_down = event.action != KeyEvent::Action::kRelease;
-    // The key before may be released while its Control still is held.
+    // The previous key may be released while this key's Control is still held.
     io.KeyCtrl |= goes_down && event.chord.control;
     io.KeyShift |= goes_down && event.chord.shift;
     const Key key = event.chord.key;
@@ -84,7 +84,7 @@ void Ui::Implementation::feed(ImGuiIO& io) const {
 
 void Ui::Implementation::note_asked_for(const Chord& chord) {
   if (is_blocked() || chord.key == Key::kNone) return;
-  // What opens a dialog and what is in it may have one key.
+  // A control that opens a dialog and a control in the dialog may have the same key.
   std::string key = words(chord);
   std::string asked = dialog + "\n" + key;
   if (std::ranges::find(asked_for, asked) == asked_for.end()) {
@@ -109,9 +109,9 @@ bool Ui::Implementation::take_key(const Chord& chord, bool with_repeats) {
   if (found == keys.end()) return false;
   was_held = found->action == KeyEvent::Action::kRepeat;
   keys.erase(found);
-  // A frame has one press, so what was written in it was written by this key.
+  // A frame has one press, so this key wrote the frame's characters.
   characters.clear();
-  // A held key changes a value and opens nothing; it need not wait for what it did.
+  // A held key changes a value and opens nothing, so the next frame need not wait.
   if (!with_repeats) was_used = true;
   return true;
 }
@@ -145,7 +145,7 @@ std::string Ui::typed_digits() {
   if (my.is_blocked() || is_editing()) return "";
   const bool repeats = std::ranges::any_of(
       my.keys, [](const KeyEvent& event) { return event.action == KeyEvent::Action::kRepeat; });
-  // A digit held too long is not meant to be many.
+  // A person who holds a digit too long does not mean it several times.
   if (repeats) return "";
   const auto is_digit = [](std::uint32_t code) { return code >= '0' && code <= '9'; };
   std::string digits;
@@ -153,7 +153,7 @@ std::string Ui::typed_digits() {
     if (is_digit(character)) digits += static_cast<char>(character);
     if (character == '.' || character == ',') digits += '.';
   }
-  // The keypad's digits are meant as such, whatever Num Lock says.
+  // Digits of the keypad count as digits, whatever Num Lock says.
   for (const KeyEvent& event : my.keys) {
     const auto code = static_cast<std::uint32_t>(event.chord.key);
     if (my.characters.empty() && !event.chord.control && is_digit(code)) {

@@ -15,7 +15,7 @@ constexpr float kWheelStep = 60;
 
 struct Thumb {
   Rect place;
-  float travel = 0;  ///< How far it can go.
+  float travel = 0;  ///< How far the thumb can move.
 };
 
 Thumb thumb_of(const Rect& place, float content_height, float offset) {
@@ -97,7 +97,7 @@ Rect Ui::begin_dialog(std::string_view name, float width, float height) {
   const Rect bounds = screen().inset(12);
   const Rect place =
       screen().middle(std::min(width, bounds.width), std::min(height, bounds.height));
-  // Soft edges: many faint frames make a shadow.
+  // Many faint frames make a shadow with soft edges.
   for (int i = 1; i <= 8; ++i) {
     const auto spread = static_cast<float>(i);
     const Rect shadow = {place.x - spread, place.y + 3 - spread / 2, place.width + 2 * spread,

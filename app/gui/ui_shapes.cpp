@@ -10,7 +10,7 @@
 namespace jnd::app::gui {
 namespace {
 
-/// On whole pixels, so that lines are as sharp as they can be.
+/// The corners are on whole pixels, so that lines are sharp.
 struct Corners {
   ImVec2 low, high;
 };
@@ -41,7 +41,8 @@ void Ui::card(const Rect& place) {
 void Ui::line(float x0, float y0, float x1, float y1, Colour colour, float thickness) {
   const float width = std::max(1.0f, px(thickness));
   if (x0 == x1 || y0 == y1) {
-    // Along the pixels it is a rectangle, and so not smeared over two rows of them.
+    // A horizontal or vertical line is a rectangle on whole pixels, so that it is not smeared
+    // over two rows of them.
     const float half = width / 2;
     ImVec2 low(px(std::min(x0, x1)), px(std::min(y0, y1)));
     ImVec2 high(px(std::max(x0, x1)), px(std::max(y0, y1)));
@@ -78,7 +79,7 @@ void Ui::progress(const Rect& place, double ratio) {
   const auto share =
       static_cast<float>(std::isfinite(ratio) ? std::clamp(ratio, 0.0, 1.0) : 0.0);
   if (share <= 0) return;
-  // No narrower than its own round ends.
+  // The bar is at least as wide as its round ends.
   const float width = std::max(share * place.width, place.height);
   fill({place.x, place.y, std::min(width, place.width), place.height}, Colour::kBlue, radius);
 }

@@ -11,39 +11,42 @@
 
 namespace jnd::app::gui {
 
-/// What `Ui` remembers from call to call and from frame to frame; for its own sources alone.
+/// What `Ui` remembers from call to call and from frame to frame. Only the sources of `Ui` use
+/// it.
 struct Ui::Implementation {
   ImGuiContext* context = nullptr;
   Drawn drawn;
 
-  // This frame's input, less what a control has taken.
+  // This frame's input, without what a control has taken.
   FrameInput input;
-  std::vector<KeyEvent> keys;  ///< Pressed or repeating.
+  std::vector<KeyEvent> keys;  ///< Keys that were pressed or repeat.
   std::vector<std::uint32_t> characters;
-  std::vector<std::string> asked_for;  ///< Keys that a control of this frame asked for.
-  std::optional<FrameInput> again;     ///< Input that went to no one, for the next frame.
-  bool was_held = false;               ///< The last control that answered goes on.
-  bool was_used = false;               ///< A control answered in this frame.
-  bool is_held = false;                ///< What was used has not come to anything yet.
-  bool has_more = false;               ///< The queue is not empty.
-  std::map<Key, double> released_s;    ///< When each key was let go last.
+  /// Keys that a control of this frame asked for.
+  std::vector<std::string> asked_for;
+  std::optional<FrameInput> again;   ///< Input that nobody saw, for the next frame.
+  bool was_held = false;             ///< The last control that answered is held down.
+  bool was_used = false;             ///< A control answered in this frame.
+  bool is_held = false;              ///< What was used has had no effect yet.
+  bool has_more = false;             ///< The queue is not empty.
+  std::map<Key, double> released_s;  ///< When each key was last released.
 
-  // The mouse, logical pixels.
+  // The mouse, in logical pixels.
   MouseState mouse;
-  float moved_x = 0, moved_y = 0;  ///< Since the frame before.
+  float moved_x = 0, moved_y = 0;  ///< The way since the frame before.
   bool went_down = false;
   bool went_up = false;
   float press_x = 0, press_y = 0;  ///< Where the button went down.
-  std::string press_dialog;        ///< What was open then.
+  std::string press_dialog;        ///< The dialog that was open then.
   double next_repeat_s = 0.0;      ///< When a button that is held down acts again.
   bool is_repeating = false;
 
-  // The dialog: its name, empty for none.
+  // The name of the dialog; "" for none.
   std::string dialog;
   std::string dialog_before;
   bool dialog_is_new = false;
   bool inside_dialog = false;
-  std::size_t num_fields_below = 0;  ///< Of the frame in which it opens.
+  /// How many text fields were drawn before the dialog, in the frame in which it opens.
+  std::size_t num_fields_below = 0;
 
   // Text fields, by name.
   std::vector<std::string> fields;
@@ -58,7 +61,8 @@ struct Ui::Implementation {
 
   struct Scroll {
     float offset = 0;
-    float grabbed_at = -1;  ///< Within its thumb, while that is dragged.
+    /// Where the mouse holds the thumb while it is dragged; otherwise -1.
+    float grabbed_at = -1;
     Rect place;
     float content_height = 0;
     std::uint64_t last_frame = 0;
@@ -69,10 +73,10 @@ struct Ui::Implementation {
     float x = 0, y = 0;
     std::string words;
   };
-  std::optional<Tooltip> tooltip;  ///< Of this frame.
+  std::optional<Tooltip> tooltip;  ///< The tooltip of this frame.
   std::vector<Rect> clips;
 
-  /// Drawn below a dialog: no keys, no clicks.
+  /// True while drawing below a dialog; nothing there gets keys or clicks.
   [[nodiscard]] bool is_blocked() const noexcept {
     return !dialog_before.empty() && dialog.empty();
   }
@@ -86,13 +90,14 @@ struct Ui::Implementation {
   [[nodiscard]] bool press_was_on(const Rect& place) const noexcept {
     return press_dialog == dialog && visible(place).contains(press_x, press_y);
   }
-  /// It has been let go for longer than a system does that repeats a key by releasing it.
+  /// True if the key has been up for longer than on a system that repeats a held key by
+  /// releasing it.
   [[nodiscard]] bool is_fresh(Key key) const;
-  /// The first press of this chord becomes the caller's.
+  /// Takes the first press of this chord for the caller.
   bool take_key(const Chord& chord, bool with_repeats);
   void note_asked_for(const Chord& chord);
   void give_keys_to_field();
-  /// Which of our keys is which of ImGui's.
+  /// Tells ImGui which of our keys is which of its own.
   static void map_keys(ImGuiIO& io);
   void feed(ImGuiIO& io) const;
 };

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kChipHeight = 26;
 
-/// Reads the code point at `position` and moves on to the next.
+/// Reads the code point at `position` and moves on to the next one.
 unsigned next_code_point(std::string_view text, std::size_t& position) {
   unsigned code_point = 0;
   const int length =
@@ -37,7 +37,7 @@ Measure measure_of(const ImFont& font) {
   return [&font](std::string_view text) { return run_width_px(font, text); };
 }
 
-/// In which words are set that have no room in this one.
+/// The font for words that have no room in this one.
 std::optional<Font> smaller(Font font) {
   switch (font) {
     case Font::kHuge:
@@ -64,7 +64,8 @@ std::optional<Font> smaller(Font font) {
   return std::nullopt;
 }
 
-/// The next line begins where one ends only if there was no space to break at.
+/// True if the line breaks within a word: then the next line begins exactly where this one
+/// ends.
 bool breaks_word(const std::vector<std::string_view>& lines, std::size_t i) {
   return i + 1 < lines.size() && lines[i].data() + lines[i].size() == lines[i + 1].data();
 }
@@ -76,13 +77,13 @@ bool breaks_words(const std::vector<std::string_view>& lines) {
   return false;
 }
 
-/// How words come to stand.
+/// How words are set.
 struct SetWords {
   Font font;
   std::vector<std::string_view> lines;
 };
 
-/// Words that wrap are smaller before one of them is broken within.
+/// Sets wrapped words in smaller letters before one of them is broken.
 SetWords wrapped(const Theme& theme, std::string_view words, float width_px, Font font,
                  bool balanced) {
   const auto set = [&](Font in) {
@@ -97,24 +98,23 @@ SetWords wrapped(const Theme& theme, std::string_view words, float width_px, Fon
   return wanted;
 }
 
-/// Lines are no nearer to one another than this, of their em square.
+/// The least distance between lines, as a multiple of their em square.
 constexpr float kClosestLines = 1.15f;
 
-/// Words that are to stand in the middle of a place, on one line if they can; none where they
-/// have no room.
+/// Fits words into the middle of a place, on one line if possible; none if they have no room.
 std::optional<SetWords> fitted_into(const Theme& theme, const Rect& place,
                                     std::string_view words, const TextStyle& style) {
-  // A rounding error is no reason for an ellipsis.
+  // A rounding error alone must not cause an ellipsis.
   const float room_px = theme.scale() * place.width + 1;
   std::optional<Font> font = style.font;
   for (int step = 0; font; font = smaller(*font), ++step) {
-    // Values and titles are rather cut than hard to read.
+    // Values and titles are rather cut than made hard to read.
     if (style.any_length && step > 1) break;
     const Measure measure = measure_of(*theme.font(*font));
     if (measure(words) <= room_px) return SetWords{*font, {words}};
     const auto most = static_cast<std::size_t>(
         std::max(0.0f, place.height / (kClosestLines * theme.size(*font))));
-    // Numbers are smaller before they stand on two lines.
+    // Numbers become smaller rather than take two lines.
     if (most < 2 || *font == Font::kMono || room_px < 2) continue;
     auto lines = break_lines(words, room_px, measure, style.align == Align::kCentre);
     if (lines.size() <= most && !breaks_words(lines)) return SetWords{*font, std::move(lines)};
@@ -139,9 +139,8 @@ float Ui::text_height(float width, std::string_view words, const TextStyle& styl
   return static_cast<float>(set.lines.size()) * line_height(set.font);
 }
 
-/// Every glyph on a whole pixel, as FreeType drew it, while the pen between them keeps the
-/// font's own fractions: sharp letters in lines of the right length. `y` is the top of the
-/// line.
+/// Draws each glyph on a whole pixel, as FreeType drew it, while the pen keeps the font's own
+/// fractions. So letters are sharp and lines have the right length. `y` is the top of the line.
 void Ui::draw_line_of_text(float x, float y, const Drawn::Line& line, Font font_role,
                            std::uint32_t colour) {
   const std::string_view words = line.words;
@@ -202,7 +201,7 @@ float Ui::text(const Rect& place, std::string_view words, const TextStyle& style
     const float height = line_height(set->font);
     const float step = count > 1 ? std::min(height, place.height / count) : height;
     const float room = std::max(0.0f, place.height - step * (count - 1) - height);
-    // Lines that are close to one another reach over the place by what has no letters in it.
+    // Lines that are close together extend beyond the place by their empty margins.
     float y = place.y + room / 2;
     if (count > 1 && room <= 0) y = place.y + (step - height) / 2;
     for (const std::string_view line : set->lines) {
@@ -246,7 +245,7 @@ void Ui::heading(const Rect& place, std::string_view words, std::string_view uni
   if (is_cut && hovered(place)) tooltip(mouse_x(), mouse_y(), words);
   if (unit.empty()) return;
   log_text(unit);
-  // On one base line with the capitals, whose letters are smaller.
+  // The unit is on one base line with the capitals, whose letters are smaller.
   const float lift = (line_height(Font::kSmall) - line_height(font)) / 2;
   draw_line_of_text(x + width, y - lift, {.words = " · " + std::string(unit), .box = place},
                     Font::kSmall, rgba(Colour::kSoft));
@@ -275,7 +274,7 @@ float Ui::key_cap(float x, float y, const Chord& key, Colour colour) {
   const std::string words = printed_words(key);
   const Rect place = {x, y, key_cap_width(key), kKeyCapHeight};
   log_text(words);
-  // On a filled button the cap is drawn in the colour of its letters, on a card in that of
+  // On a filled button, the cap's border has the colour of its letters; on a card, that of
   // lines.
   const bool is_on_filled = colour == Colour::kOnFilled || colour == Colour::kOnStop;
   const std::uint32_t border = is_on_filled ? rgba(colour, 0.55f) : rgba(Colour::kLine);
@@ -284,7 +283,7 @@ float Ui::key_cap(float x, float y, const Chord& key, Colour colour) {
   const float pixel = std::max(1.0f, std::round(px(1)));
   if (!is_on_filled) draw_list().AddRectFilled(low, high, rgba(Colour::kCard), px(4));
   draw_list().AddRect(low, high, border, px(4), 0, pixel);
-  // A key is seen from the front: its lower edge is thicker.
+  // The lower edge is thicker, because a key is seen from the front.
   draw_list().AddRectFilled(ImVec2(low.x + px(3), high.y - 2 * pixel),
                             ImVec2(high.x - px(3), high.y - pixel), border);
   const float width = run_width_px(*theme_.font(Font::kKeyCap), words);

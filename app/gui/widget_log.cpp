@@ -12,7 +12,7 @@
 namespace jnd::app::gui {
 namespace {
 
-/// A JSON string. What is no UTF-8 cannot come from a drawn text, whose sources are JSON.
+/// Writes a JSON string. Drawn texts are valid UTF-8, because they come from JSON.
 std::string json_string(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {

@@ -9,22 +9,22 @@
 
 namespace jnd::app::gui {
 
-/// What was drawn as JSON, with places in the window's pixels:
+/// What was drawn, as JSON with places in the window's pixels:
 ///     {"view": "run", "frame": 12, "scale": 1, "widgets": [{"name": "yes", "label": "Thicker",
 ///      "key": "Y", "x": 1, "y": 2, "width": 3, "height": 4, "enabled": true}], "texts":
 ///      ["..."]}
 [[nodiscard]] std::string widgets_json(const Drawn& drawn, float scale);
 
-/// Writes a frame that shows something new, whole or not at all: the file is replaced.
-/// FILE.texts beside it grows by each text that no frame before has shown, one a line: whatever
-/// stood on the screen however shortly; and by a sentence for each key that two controls share.
+/// Writes each frame that shows something new into the file, and replaces the file as a whole.
+/// Beside it, FILE.texts collects every text that was on the screen, however shortly, once and
+/// one on a line, and a sentence for each key that two controls share.
 class WidgetLog {
  public:
-  /// An empty path switches it off.
+  /// An empty path switches the log off.
   explicit WidgetLog(std::filesystem::path file) : file_(std::move(file)) {}
-  /// Throws `core::Error` where the file cannot be written.
+  /// Throws `core::Error` if the file cannot be written.
   void write(const Drawn& drawn, float scale);
-  /// Of another window: its texts alone.
+  /// Collects the texts of another window, and nothing else of it.
   void keep_texts(const Drawn& drawn);
 
  private:

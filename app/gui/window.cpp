@@ -20,7 +20,8 @@ namespace {
 constexpr double kFrameIntervalS = 1.0 / 30;
 constexpr double kIterationIntervalS = 0.05;
 constexpr double kIdleIntervalS = 1.0;
-// A hover, a closed dialog, a field that gets the keyboard: things that show one frame later.
+// Some changes show one frame later: a highlight under the mouse, a closed dialog, a field that
+// gets the keyboard.
 constexpr int kFramesAfterEvent = 3;
 
 }  // namespace
@@ -28,8 +29,8 @@ constexpr int kFramesAfterEvent = 3;
 void Window::Implementation::prepare_fonts() {
   float monitor_scale = 1.0f;
   glfwGetWindowContentScale(main, &monitor_scale, nullptr);
-  // Letters of a new size take a tenth of a second to make: not for each of many steps in a
-  // row.
+  // Letters of a new size take a tenth of a second to make. They are not made for each of many
+  // quick steps.
   constexpr double kStepsInARowS = 0.12;
   if (has_renderer && glfwGetTime() - zoomed_s < kStepsInARowS) {
     frames_left = std::max(frames_left, 2);
@@ -40,7 +41,7 @@ void Window::Implementation::prepare_fonts() {
   theme.set_scale(scale_with_room(monitor_scale * zoom, static_cast<float>(width),
                                   static_cast<float>(height)));
   if (!theme.fonts_are_stale()) return;
-  // This is no window that hangs.
+  // The heartbeat goes on, because the window does not hang while letters are made.
   if (window.on_iteration) window.on_iteration();
   ImGui::SetCurrentContext(context);
   if (has_renderer) ImGui_ImplOpenGL3_DestroyFontsTexture();
@@ -52,8 +53,8 @@ void Window::Implementation::prepare_fonts() {
 }
 
 void Window::Implementation::sharpen_letters() {
-  // Letters stand on whole pixels, so there is nothing to blend between; a processor that draws
-  // takes a third less time without.
+  // Letters are on whole pixels, so no blending is needed. Without blending, a processor that
+  // draws takes a third less time.
   const auto texture = reinterpret_cast<std::uintptr_t>(ImGui::GetIO().Fonts->TexID);
   glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(texture));
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -64,7 +65,7 @@ void Window::Implementation::draw(const Frame& frame) {
   int width = 0;
   int height = 0;
   glfwGetFramebufferSize(main, &width, &height);
-  if (width <= 0 || height <= 0) return;  // Iconified.
+  if (width <= 0 || height <= 0) return;  // The window is iconified.
   prepare_fonts();
   const double now_s = glfwGetTime();
   const auto passed_s = static_cast<float>(std::max(now_s - last_frame_s, 1e-4));

@@ -12,14 +12,15 @@ namespace jnd::app::gui {
 
 struct WindowSettings {
   std::string title = "jnd";
-  float width = 1600;  ///< Logical pixels; less where the monitor has less.
+  float width = 1600;  ///< In logical pixels; less if the monitor is smaller.
   float height = 1000;
   bool dark = false;
-  float zoom = 1.0f;  ///< What the person chose, on top of the monitor's scale.
+  /// The scale that the person chose; it multiplies the monitor's scale.
+  float zoom = 1.0f;
 };
 
-/// An OpenGL context beside the window's, whose textures are the window's too: for one other
-/// thread, which makes it current and lets go of it. Made and destroyed on the main thread.
+/// An OpenGL context that shares its textures with the window's. It is for one other thread,
+/// which makes it current and lets it go. The main thread makes and destroys it.
 class SharedContext {
  public:
   virtual ~SharedContext() = default;
@@ -27,17 +28,19 @@ class SharedContext {
   virtual void let_go() = 0;
 };
 
-/// The window on the screen: GLFW, OpenGL and ImGui's renderer, of which nothing else knows. It
-/// draws when something happened and sleeps otherwise. One at a time, on the main thread.
+/// The window on the screen: GLFW, OpenGL and ImGui's renderer, which nothing else knows. It
+/// draws when something has happened, and sleeps otherwise. There is one at a time, on the main
+/// thread.
 ///
-/// With the environment variable JND_WIDGETS=FILE every frame that shows something new is also
-/// written to FILE (`widget_log.h`), for tests that click. With JND_FRAME_TIMES=FILE
-/// what each frame cost is appended to FILE (`frame_times.h`); each then waits for OpenGL.
-/// With JND_MONITORS=FILE the monitors are those that FILE tells (`told_monitors`), whenever it
-/// is looked for them.
+/// With the environment variable JND_WIDGETS=FILE, every frame that shows something new is also
+/// written to FILE (`widget_log.h`), for tests that click. With JND_FRAME_TIMES=FILE, the cost
+/// of each frame is appended to FILE (`frame_times.h`), and each frame waits for OpenGL. With
+/// JND_MONITORS=FILE, the monitors are those that FILE lists (`told_monitors`), which is read
+/// each time.
 class Window {
  public:
-  /// Throws `core::Error` beginning with "no display was found", or when there is no OpenGL.
+  /// Throws `core::Error`, beginning with "no display was found" if that is the reason, or if
+  /// there is no OpenGL.
   explicit Window(const WindowSettings& settings = {});
   ~Window();
   Window(const Window&) = delete;
@@ -45,56 +48,61 @@ class Window {
 
   using Frame = std::function<void(Ui&)>;
 
-  /// Draws frames until `close`.
+  /// Draws frames until `close` is called.
   void run(const Frame& frame);
   void close() noexcept;
-  /// Once for each time the person wanted to close it; the application asks, and calls `close`.
+  /// Returns true once for each time that the person wanted to close the window. The
+  /// application then asks, and calls `close`.
   [[nodiscard]] bool close_requested() noexcept;
   /// Neither minimised nor hidden, as far as the system says so; Wayland does not.
   [[nodiscard]] bool is_in_sight() const noexcept;
 
-  /// From any thread: there is something new to draw.
+  /// There is something new to draw; any thread may call it.
   void wake() noexcept;
-  /// Frames even without events, at most 30 a second: something moves.
+  /// If `wanted`, draws frames even without events, at most 30 a second, because something
+  /// moves.
   void wants_frames(bool wanted) noexcept;
-  /// `on_iteration` is called at least every 50 ms, drawn or not: the heartbeat.
+  /// If `wanted`, calls `on_iteration` at least every 50 ms, with or without a frame, as the
+  /// heartbeat needs it.
   void wants_iterations(bool wanted) noexcept;
 
-  /// Escape went down, in any window of ours: called before any frame is drawn. Escape then
-  /// goes the way of all keys, too.
+  /// Called when Escape goes down in any of our windows, before any frame is drawn. Escape then
+  /// is also queued like every key.
   std::function<void()> on_escape;
-  /// A key went down or up, in any window of ours: called before any frame is drawn; also when
-  /// the window loses the keyboard while it is held.
+  /// Called when a key goes down or up in any of our windows, before any frame is drawn; also
+  /// when the window loses the keyboard while the key is held.
   std::function<void(Key key, bool is_down)> on_key_changed;
-  /// The left button went down: called before any frame is drawn; logical pixels. The press
-  /// then goes the way of all others, too.
+  /// Called when the left mouse button goes down, before any frame is drawn; the place is in
+  /// logical pixels. The press then is also queued like every other.
   std::function<void(float x, float y)> on_mouse_pressed;
-  /// Files or folders were dropped on the window from elsewhere.
+  /// Called when somebody drops files or folders on the window.
   std::function<void(const std::vector<std::filesystem::path>& paths)> on_dropped;
-  /// Each time the loop comes round, on the main thread.
+  /// Called on the main thread in each round of the loop.
   std::function<void()> on_iteration;
-  /// The mouse moved, as often as the system says so: logical pixels.
+  /// Called whenever the system says that the mouse has moved; the place is in logical pixels.
   std::function<void(float x, float y)> on_mouse_moved;
 
   [[nodiscard]] Theme& theme() noexcept;
   [[nodiscard]] float zoom() const noexcept;
-  /// Within 0.5 to 2; the letters follow before the next frame.
+  /// Limits the zoom to 0.5 to 2; the letters follow before the next frame.
   void set_zoom(float zoom);
 
-  /// Those that are plugged in: as they were half a second ago or later.
+  /// The monitors that are plugged in, as they were at most half a second ago.
   [[nodiscard]] const std::vector<Monitor>& monitors();
-  /// A second window, for the participant: without a frame and filling the monitor of that
-  /// name, or, where the name is "", a plain one beside ours, behind it where there is no room.
-  /// It never takes the keyboard; what is typed into it counts as typed into the first. What is
-  /// drawn into it is drawn whenever the first is, in large letters (`scale_from_afar`). It
-  /// moves where it is open already and somewhere else. Throws `core::Error`.
+  /// Opens a second window, for the participant. It fills the monitor of that name and has no
+  /// frame. If the name is "", it is an ordinary window beside ours, or behind ours if there is
+  /// no room. It never takes the keyboard; what is typed into it counts as typed into the first
+  /// window. It is drawn whenever the first window is, in large letters (`scale_from_afar`). If
+  /// it is already open elsewhere, it moves. Throws `core::Error`.
   void open_second(const std::string& title, Frame frame, const std::string& monitor);
   void close_second();
-  /// Once for each time that somebody wanted to close it by its own button.
+  /// Returns true once for each time that somebody wanted to close the second window by its own
+  /// close button.
   [[nodiscard]] bool second_close_requested() noexcept;
   [[nodiscard]] bool second_is_open() const noexcept;
 
-  /// Throws `core::Error` where there cannot be one. It has to be gone before the window is.
+  /// Throws `core::Error` if the context cannot be made. It has to be destroyed before the
+  /// window is.
   [[nodiscard]] std::unique_ptr<SharedContext> make_shared_context();
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kOutside = -1e6f;
 
-/// The system counts in its own units, frames in pixels; here they are mostly the same.
+/// How many pixels of a frame there are for each of the system's units, mostly 1.
 double pixels_per_unit(GLFWwindow* window) {
   int width = 0;
   int pixels = 0;
@@ -21,13 +21,13 @@ double pixels_per_unit(GLFWwindow* window) {
 }  // namespace
 
 void Window::Implementation::on_key(int key, int scancode, int action, int mods) {
-  // Before anything else, and whatever else it means: no frame is waited for.
+  // This comes first, whatever else the key means, and waits for no frame.
   if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS && window.on_escape) window.on_escape();
   if (action != GLFW_REPEAT && window.on_key_changed) {
     window.on_key_changed(key_of_glfw(key, scancode), action == GLFW_PRESS);
   }
   something_happened(true);
-  // With Alt or the system's own key it is meant for others.
+  // With Alt or the system's own key, the key is meant for other programs.
   if (action != GLFW_RELEASE && (mods & (GLFW_MOD_ALT | GLFW_MOD_SUPER)) != 0) return;
   queue.key({.chord = {.key = key_of_glfw(key, scancode),
                        .control = (mods & GLFW_MOD_CONTROL) != 0,
@@ -57,7 +57,7 @@ void Window::Implementation::on_mouse_moved(GLFWwindow* source, double x, double
 }
 
 void Window::Implementation::install_callbacks(GLFWwindow* target, bool with_mouse) {
-  // A lambda without captures is what GLFW can call; it finds its way back by the user pointer.
+  // GLFW can call a lambda without captures only; it finds this object by the user pointer.
   using Self = Implementation;
   glfwSetWindowUserPointer(target, this);
   static constexpr auto self = [](GLFWwindow* from) -> Self& {
@@ -74,8 +74,8 @@ void Window::Implementation::install_callbacks(GLFWwindow* target, bool with_mou
     Self& my = self(from);
     if (is_focused == GLFW_FALSE) my.queue.release_all();
     my.something_happened(false);
-    // A window manager may give the keyboard to a new window, or to one that was clicked on: it
-    // is the experimenter's, who would type into nothing that they see.
+    // A window manager may give the keyboard to a new window, or to one that was clicked. It
+    // goes back to the experimenter, who would otherwise type without seeing it.
     const bool is_taken =
         from == my.second && is_focused == GLFW_TRUE && !my.second_monitor.empty();
     if (is_taken && glfwGetWindowAttrib(my.main, GLFW_ICONIFIED) == GLFW_FALSE) {
@@ -102,7 +102,7 @@ void Window::Implementation::install_callbacks(GLFWwindow* target, bool with_mou
     if (has_entered == GLFW_FALSE) {
       self(from).queue.mouse_moved(kOutside, kOutside);
     } else {
-      // GLFW does not tell of a mouse that comes back to where it was.
+      // GLFW does not report a mouse that returns to its former place.
       double x = 0.0;
       double y = 0.0;
       glfwGetCursorPos(from, &x, &y);

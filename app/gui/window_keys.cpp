@@ -58,7 +58,7 @@ Key key_of_glfw(int key, int scancode) {
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) {
     return static_cast<Key>(static_cast<int>(Key::kF1) + key - GLFW_KEY_F1);
   }
-  // The row of digits, even where a layout wants Shift for them.
+  // Keys of the row of digits are digits, even where a layout needs Shift for them.
   if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return digit(key - GLFW_KEY_0);
   if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) return digit(key - GLFW_KEY_KP_0);
   if (const Key named = named_key(key); named != Key::kNone) return named;
@@ -67,10 +67,10 @@ Key key_of_glfw(int key, int scancode) {
   const char* name = glfwGetKeyName(key, scancode);
   const bool is_ascii = name != nullptr && name[0] > ' ' &&
                         static_cast<unsigned char>(name[0]) < 0x7f && name[1] == 0;
-  // A layout without Latin letters: where they are on an American keyboard.
+  // If a layout has no Latin letters, the letters are where an American keyboard has them.
   const int code = is_ascii ? std::toupper(static_cast<unsigned char>(name[0])) : key;
   if (code >= 0x7f) return Key::kNone;
-  // "+" is where Shift and "=" are on many keyboards, and nothing of ours is called "=".
+  // On many keyboards "+" is Shift and "=", and none of our keys is called "=".
   return code == '=' ? Key::kPlus : static_cast<Key>(code);
 }
 

@@ -4,8 +4,8 @@
 
 namespace jnd::app::gui {
 
-/// What GLFW's key means here: the letter that the person's keyboard layout prints on it, the
-/// digit of its row or keypad. `kNone` for keys we have no use for.
+/// Our key for one of GLFW's: the letter that the keyboard's layout prints on it, or the digit
+/// of its row or keypad. `kNone` for keys that we do not use.
 [[nodiscard]] Key key_of_glfw(int key, int scancode);
 
 }  // namespace jnd::app::gui

@@ -16,13 +16,13 @@
 namespace jnd::app::gui {
 namespace {
 
-// Of the work area, so that the window's frame and title fit, too.
+// A share of the work area, so that the window's frame and title fit, too.
 constexpr float kMostOfMonitor = 0.96f;
 
 std::atomic<bool> is_open = false;
 
-/// Xlib ends the program when the display goes. Then other threads are in the middle of a
-/// session, and nothing they use may be taken down: what counts is on disk already.
+/// Xlib ends the program when the display is lost. Other threads may then be in the middle of a
+/// session, so nothing that they use may be destroyed. What matters is on disk already.
 void end_at_once_while_open() {
   if (!is_open) return;
   std::fputs(
@@ -33,7 +33,7 @@ void end_at_once_while_open() {
   std::_Exit(kEnvironmentLacks);
 }
 
-/// A window that nobody sees.
+/// An invisible window, which has a context.
 class HiddenWindow final : public SharedContext {
  public:
   explicit HiddenWindow(GLFWwindow* window) : window_(window) {}
@@ -54,7 +54,8 @@ int pixels(float logical, float scale) {
 }  // namespace
 
 Glfw::Glfw() {
-  // A software renderer would otherwise take every core, the haptic loop's too.
+  // Otherwise a software renderer would take every core, including the one that the haptic loop
+  // needs.
   ::setenv("LP_NUM_THREADS", "1", 0);
   if (glfwInit() == GLFW_TRUE) return;
   const std::string display = environment("DISPLAY");
@@ -101,7 +102,8 @@ void Window::Implementation::open(const WindowSettings& settings) {
     const bool is_larger = pixels(wanted, scale) > most;
     return is_larger ? pixels(kMostOfMonitor, static_cast<float>(most)) : pixels(wanted, scale);
   };
-  // No profile and no version: whoever else draws into our context may want the old functions.
+  // No profile and no version are asked for, because others who draw into our context may need
+  // the old functions.
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "jnd");
   main = glfwCreateWindow(fitting(settings.width, area.width),
@@ -112,9 +114,10 @@ void Window::Implementation::open(const WindowSettings& settings) {
                       last_glfw_error() + "); install libgl1-mesa-dri or a graphics driver");
   }
   glfwMakeContextCurrent(main);
-  // After everything that the libraries want to have done at an exit, and so before it.
+  // Functions run at exit in reverse order, so this one runs before those that the libraries
+  // have registered.
   if (!is_open.exchange(true)) std::atexit(end_at_once_while_open);
-  // Waiting for the monitor could stop the heartbeat while the window is hidden.
+  // While the window is hidden, waiting for the monitor could stop the heartbeat.
   glfwSwapInterval(0);
   glfwSetWindowSizeLimits(main, std::min(pixels(kLeastWidth, scale), area.width),
                           std::min(pixels(kLeastHeight, scale), area.height), GLFW_DONT_CARE,

@@ -1,5 +1,5 @@
-// The participant's window: on which monitor, how it never comes between the experimenter and
-// their own, and its letters.
+// The participant's window: its monitor, its letters, and how it never comes between the
+// experimenter and their own window.
 
 #define GLFW_INCLUDE_NONE
 #include <GL/gl.h>
@@ -17,17 +17,17 @@
 namespace jnd::app::gui {
 namespace {
 
-// Beside ours, where there is room for so much.
+// The size of a window beside ours, and the least room for it.
 constexpr int kBesideWidth = 960;
 constexpr int kBesideHeight = 640;
 constexpr int kLeastBesideWidth = 400;
 constexpr int kLeastBesideHeight = 240;
-// Of a window's frame and title, where the system does not tell them.
+// The size of a window's frame and title, if the system does not tell it.
 constexpr int kAroundWindow = 40;
 
 constexpr double kBetweenLooksS = 0.5;
 
-/// What is drawn on the participant's screen.
+/// The fonts that the participant's screen uses.
 constexpr Font kLettersOfSecond[] = {Font::kHuge, Font::kTitle, Font::kAnswer, Font::kLarge,
                                      Font::kBody};
 
@@ -105,14 +105,16 @@ ScreenArea Window::Implementation::area_beside() const {
 void Window::Implementation::make_second(const std::string& title, const std::string& name) {
   const auto monitor = std::ranges::find(monitors, name, &Monitor::name);
   const bool fills = !name.empty();
-  if (fills && monitor == monitors.end()) return;  // Unplugged in this moment.
+  // The monitor was unplugged at this moment.
+  if (fills && monitor == monitors.end()) return;
   ScreenArea area =
       fills ? ScreenArea{monitor->x_px, monitor->y_px, monitor->width_px, monitor->height_px}
             : area_beside();
   const bool has_place = area.width > 0;
   if (!has_place) area = {0, 0, kBesideWidth, kBesideHeight};
-  // The keyboard stays with the experimenter. A window of the monitor's size, and not the
-  // monitor itself: its mode stays what it is, and nothing is iconified when it is left.
+  // The keyboard stays with the experimenter. The window has the monitor's size but does not
+  // take the monitor over, so the monitor keeps its mode, and the window is not iconified when
+  // it loses the focus.
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   glfwWindowHint(GLFW_FOCUSED, GLFW_FALSE);
   glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
@@ -141,12 +143,12 @@ void Window::Implementation::make_second(const std::string& title, const std::st
   ImGui::SetCurrentContext(context);
   install_callbacks(second, false);
   glfwShowWindow(second);
-  // Without room beside ours it would lie on it.
+  // Without room beside our window, the new one would cover it.
   if (!has_place) glfwFocusWindow(main);
 }
 
 void Window::Implementation::load_second_fonts(float scale) {
-  // This is no window that hangs.
+  // The heartbeat goes on, because the window does not hang while letters are made.
   if (window.on_iteration) window.on_iteration();
   ImGui::SetCurrentContext(second_context);
   second_theme.set_scale(scale);
@@ -172,7 +174,7 @@ void Window::Implementation::load_second_fonts(float scale) {
 void Window::Implementation::keep_second_on_monitor() {
   if (second_monitor.empty()) return;
   const auto monitor = std::ranges::find(monitors, second_monitor, &Monitor::name);
-  // Who asked for it looks for it, too, and closes it.
+  // The caller that asked for the monitor watches it, too, and closes this window.
   if (monitor == monitors.end()) return;
   const ScreenArea now = place_of(second);
   if (now.width != monitor->width_px || now.height != monitor->height_px) {
@@ -189,13 +191,14 @@ bool Window::Implementation::prepare_second() {
   int width = 0;
   int height = 0;
   glfwGetFramebufferSize(second, &width, &height);
-  if (width <= 0 || height <= 0) return false;  // Iconified.
+  // The window is iconified.
+  if (width <= 0 || height <= 0) return false;
   if (width != second_width_px || height != second_height_px) {
     second_resized_s = glfwGetTime();
     second_width_px = width;
     second_height_px = height;
   }
-  // Letters of a new size take a while to make: not for each of many steps in a row.
+  // Letters of a new size take a while to make. They are not made for each of many quick steps.
   constexpr double kStepsInARowS = 0.12;
   const float scale = scale_from_afar(width, height);
   if (scale != second_theme.scale() && glfwGetTime() - second_resized_s < kStepsInARowS) {
@@ -213,7 +216,7 @@ void Window::Implementation::draw_second() {
   widget_log.keep_texts(second_ui->end_frame());
   ImDrawData* data = ImGui::GetDrawData();
   glfwMakeContextCurrent(second);
-  // The first context's renderer draws both: what it made is shared by the two windows.
+  // The first context's renderer draws both windows, which share what it made.
   ImGui::SetCurrentContext(context);
   clear();
   ImGui_ImplOpenGL3_RenderDrawData(data);

@@ -19,7 +19,7 @@ struct ImGuiContext;
 
 namespace jnd::app::gui {
 
-/// GLFW from before the first window to after the last.
+/// Keeps GLFW running from before the first window until after the last.
 class Glfw {
  public:
   Glfw();
@@ -28,7 +28,7 @@ class Glfw {
   Glfw& operator=(const Glfw&) = delete;
 };
 
-/// Pixels of the whole screen.
+/// A rectangle in pixels of the whole screen.
 struct ScreenArea {
   int x = 0, y = 0, width = 0, height = 0;
 
@@ -37,13 +37,13 @@ struct ScreenArea {
   }
 };
 
-/// Without panels.
+/// The monitor's area without panels.
 [[nodiscard]] ScreenArea area_of(GLFWmonitor* monitor);
 [[nodiscard]] std::string last_glfw_error();
-/// "" where it is not set.
+/// The variable's value; "" if it is not set.
 [[nodiscard]] std::string environment(const char* name);
 
-/// For the window's own sources alone.
+/// What `Window` is made of. Only the window's own sources use it.
 struct Window::Implementation {
   explicit Implementation(Window& owner) : window(owner) {}
   ~Implementation();
@@ -51,30 +51,30 @@ struct Window::Implementation {
   Implementation& operator=(const Implementation&) = delete;
 
   void open(const WindowSettings& settings);
-  /// What the frames get to see, from GLFW's callbacks to the queue. The mouse is the first
-  /// window's alone.
+  /// Installs GLFW's callbacks, which put the frames' input into the queue. The mouse counts in
+  /// the first window only.
   void install_callbacks(GLFWwindow* target, bool with_mouse);
   void on_key(int key, int scancode, int action, int mods);
   void on_mouse_pressed(GLFWwindow* source) const;
   void on_mouse_moved(GLFWwindow* source, double x, double y);
-  /// `urgent`: shown at once, not in its turn.
+  /// Requests frames. If `urgent`, the next one is drawn at once, not in its turn.
   void something_happened(bool urgent);
 
   void prepare_fonts();
-  /// Once their texture is made.
+  /// Called after the letters' texture was made.
   static void sharpen_letters();
   void draw(const Frame& frame);
   void draw_second();
-  /// Letters for its size; true where there is something to draw into.
+  /// Makes letters for the second window's size. Returns true if that window can be drawn.
   [[nodiscard]] bool prepare_second();
   void load_second_fonts(float scale);
   void make_second(const std::string& title, const std::string& monitor);
   /// Follows a monitor whose size or place has changed.
   void keep_second_on_monitor();
-  /// Where a window has most room beside ours; empty where there is none.
+  /// The area with most room beside our window; empty if there is none.
   [[nodiscard]] ScreenArea area_beside() const;
   void look_at_monitors();
-  /// The ground, without the cost of drawing it.
+  /// Clears the window to the ground's colour, which is cheaper than drawing it.
   void clear() const;
   void close_second();
   void show_cursor();
@@ -88,7 +88,7 @@ struct Window::Implementation {
   bool has_renderer = false;
   Theme theme;
   float zoom = 1.0f;
-  double zoomed_s = -1.0;  ///< When somebody last changed it.
+  double zoomed_s = -1.0;  ///< When somebody last changed the zoom.
   std::unique_ptr<Ui> ui;
   InputQueue queue;
   WidgetLog widget_log{""};
@@ -99,16 +99,17 @@ struct Window::Implementation {
 
   GLFWwindow* second = nullptr;
   ImGuiContext* second_context = nullptr;
-  std::string second_monitor;   ///< That it fills; "" where it stands beside.
-  Theme second_theme;           ///< Its letters grow with it.
-  unsigned second_letters = 0;  ///< OpenGL's texture of them.
+  /// The monitor that the second window fills; "" if it is beside ours.
+  std::string second_monitor;
+  Theme second_theme;           ///< Its letters grow with the second window.
+  unsigned second_letters = 0;  ///< OpenGL's texture of the second window's letters.
   double second_resized_s = -1.0;
   int second_width_px = 0, second_height_px = 0;
   std::unique_ptr<Ui> second_ui;
   InputQueue no_input;
   Frame second_frame;
   bool second_is_unwanted = false;
-  bool second_close_is_wanted = false;  ///< By its own close button.
+  bool second_close_is_wanted = false;  ///< Somebody pressed the second window's close button.
 
   std::string told_monitors_file;
   std::vector<Monitor> monitors;

@@ -24,7 +24,7 @@ constexpr const char* kEnglish = "en";
 bool is_spoken = false;
 std::string spoken = kEnglish;
 
-/// The value of the first of these variables that has any; "" for none.
+/// The value of the first of these variables that is set and not empty; "" if there is none.
 template <typename... Names>
 std::string first_set(Names... names) {
   for (const char* name : {names...}) {
@@ -34,11 +34,11 @@ std::string first_set(Names... names) {
   return "";
 }
 
-/// With the locale "C" nothing is looked up. C.UTF-8 is one of every machine, and with it
-/// LANGUAGE alone says which catalogue is read.
+/// Sets the locale of messages. With the locale "C", nothing is looked up. C.UTF-8 exists on
+/// every machine, and with it LANGUAGE alone decides which catalogue is read.
 void choose_messages(const std::string& chosen) {
   if (!chosen.empty()) {
-    // Only a locale that changes has gettext look for catalogues anew.
+    // gettext looks for catalogues again only if the locale changes.
     std::setlocale(LC_MESSAGES, "C");
     setenv("LANGUAGE", chosen.c_str(), /*overwrite=*/1);
     if (chosen != kEnglish) std::setlocale(LC_MESSAGES, "C.UTF-8");
@@ -51,7 +51,7 @@ void choose_messages(const std::string& chosen) {
   if (!asked.empty()) setenv("LANGUAGE", asked.c_str(), /*overwrite=*/0);
 }
 
-/// The value of a line "NAME: VALUE" of a catalogue's description; "" where there is none.
+/// The value of a line "NAME: VALUE" in a catalogue's description; "" if there is none.
 std::string field_of(std::string_view description, std::string_view name) {
   while (!description.empty()) {
     const std::string_view line = description.substr(0, description.find('\n'));
@@ -62,8 +62,9 @@ std::string field_of(std::string_view description, std::string_view name) {
   return "";
 }
 
-/// Of a compiled catalogue: it stands in place of the empty text, which is the first of all.
-/// "" for any other file. gettext's manual, "The Format of GNU MO Files".
+/// The description of a compiled catalogue, which is the translation of the empty text, the
+/// first text of all. "" for any other file. See gettext's manual, "The Format of GNU MO
+/// Files".
 std::string description_of(const fs::path& catalogue) {
   std::ifstream stream(catalogue, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
@@ -91,13 +92,14 @@ std::string_view language_of(std::string_view locale) {
 bool begin_language(const fs::path& folder, const std::string& chosen) {
   choose_messages(chosen);
   bindtextdomain(kDomain, folder.c_str());
-  // Letters stay UTF-8 whatever the locale's are.
+  // Letters are UTF-8 whatever the locale's encoding is.
   bind_textdomain_codeset(kDomain, "UTF-8");
-  // Under "" stands a catalogue's own description, without which there is none.
+  // The translation of "" is a catalogue's own description; if there is none, there is no
+  // catalogue.
   const std::string description = dgettext(kDomain, "");
   is_spoken = !description.empty();
   spoken = is_spoken ? field_of(description, "Language") : kEnglish;
-  // The system's own sentences then stay English, too.
+  // Then the system's own sentences stay English, too.
   if (!is_spoken) std::setlocale(LC_MESSAGES, "C");
   return is_spoken;
 }
@@ -120,7 +122,8 @@ std::vector<Language> languages_in(const fs::path& folder) {
 std::string spoken_language() { return spoken; }
 
 bool writes_decimal_comma(std::string_view locale) noexcept {
-  // Of the languages of Europe and Latin America that write one. Switzerland and Mexico do not.
+  // Languages of Europe and Latin America, and some others, that write a decimal comma.
+  // Switzerland and Mexico do not.
   constexpr std::string_view kLanguages[] = {
       "af", "bg", "ca", "cs", "da", "de", "el", "es", "et", "eu", "fi", "fr",
       "gl", "hr", "hu", "id", "is", "it", "lt", "lv", "nb", "nl", "nn", "no",
@@ -157,14 +160,15 @@ std::string with_decimal_points(std::string typed, bool takes_comma) {
 }
 
 const char* tr(const char* english) noexcept {
-  // The words of "" would be the catalogue's description.
+  // The translation of "" would be the catalogue's description.
   return is_spoken && *english != '\0' ? dgettext(kDomain, english) : english;
 }
 
 namespace language_details {
 namespace {
 
-/// The translation where its holes fit what fills them; where not, it was not checked.
+/// The translation, if its holes fit the values. If not, it was not checked, and the English
+/// words are used.
 std::string filled_or(const char* words, const char* english, fmt::format_args values) {
   try {
     return fmt::vformat(words, values);

@@ -7,8 +7,8 @@
 namespace jnd::app {
 namespace {
 
-// What is the same for any tree. In `kind`: `value` for the words alone, `path` for files as
-// well, `folder`, `nothing`, and "" where no option waits for its value.
+// The part that is the same for any tree. `kind` is `value` for words only, `path` for files as
+// well, `folder`, `nothing`, or "" if no option waits for its value.
 constexpr const char* kBashBeginning =
     R"bash(# Completion of jnd for bash, from the same tables as `jnd --help`.
 _jnd() {
@@ -64,7 +64,7 @@ std::string bash_words(const ManualOption& option, const CommandWords& words) {
   return fmt::format("{}", fmt::join(all, " "));
 }
 
-/// The branch of one command: what it takes, and what each of its options takes.
+/// The branch of one command: what the command takes, and what each of its options takes.
 std::string bash_branch(const ManualCommand& command, const CommandWords& words) {
   std::vector<std::string> options, offered;
   std::string positional, values;
@@ -73,7 +73,7 @@ std::string bash_branch(const ManualCommand& command, const CommandWords& words)
     if (option.is_positional) {
       const std::string these = bash_words(option, words);
       if (!these.empty()) offered.push_back(these);
-      // Of several positional ones: whatever any of them takes.
+      // If there are several positional arguments, whatever any of them takes is offered.
       if (const std::string kind = bash_kind(option); positional != "path") positional = kind;
       continue;
     }

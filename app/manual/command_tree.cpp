@@ -7,7 +7,7 @@
 namespace jnd::app {
 namespace {
 
-/// The parts between colons, but for colons within braces.
+/// Splits a text at colons, except colons within braces.
 std::vector<std::string> parts_of(const std::string& type) {
   std::vector<std::string> parts(1);
   int depth = 0;
@@ -34,7 +34,7 @@ std::vector<std::string> words_between_commas(const std::string& list) {
   return words;
 }
 
-/// In an order that does not follow from where they lie in memory.
+/// Sorts the options by name, because the order in the set depends on their places in memory.
 std::vector<std::string> sorted_names(const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
   for (const CLI::Option* option : options) names.push_back(option->get_name());
@@ -46,7 +46,8 @@ bool is_number(const std::string& type) {
   return type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT");
 }
 
-/// What the validators say is appended to the type, each behind a colon.
+/// Reads the value's kind. CLI11 appends what the validators say to the type, each after a
+/// colon.
 void read_type(const CLI::Option& option, ManualOption& told) {
   const std::vector<std::string> parts = parts_of(option.get_type_name());
   told.value = parts.front();
@@ -64,7 +65,7 @@ void read_type(const CLI::Option& option, ManualOption& told) {
   }
 }
 
-/// A text that takes the place of the type may say itself that the option is required.
+/// Reads the text that replaces the type; it may itself say that the option is required.
 void read_own_text(const CLI::Option& option, ManualOption& told) {
   std::string text = option.get_option_text();
   if (text.empty()) return;
@@ -76,7 +77,7 @@ void read_own_text(const CLI::Option& option, ManualOption& told) {
   told.value = text;
 }
 
-/// Names of lists in `CommandWords`.
+/// The name of the option's list in `CommandWords`; "" for none.
 std::string list_of(const ManualOption& told) {
   const std::string& name = told.names.back();
   if (name == "--laboratory") return "laboratories";
@@ -105,7 +106,7 @@ ManualOption told_of(const CLI::Option& option) {
   read_type(option, told);
   read_own_text(option, told);
   told.standard = option.get_default_str();
-  // As many as this machine has processors: on another one another number.
+  // CLI11 gives the number of this machine's processors, which differs on other machines.
   if (told.names.back() == "--jobs") told.standard = "one for each processor";
   told.words = list_of(told);
   return told;

@@ -7,40 +7,41 @@
 
 namespace jnd::app {
 
-/// What a shell offers where a value is due.
+/// What a shell offers where a value is expected.
 enum class ValueKind {
-  kNone,    ///< There is no value: a flag.
-  kNumber,  ///< Nothing can be offered.
-  kPath,    ///< A file or a folder, or a name that no list holds.
+  kNone,    ///< There is no value: the option is a flag.
+  kNumber,  ///< A number, for which nothing can be offered.
+  kPath,    ///< A file or a folder, or a name that no list contains.
   kFolder,
 };
 
-/// An option or a positional argument, as `--help` tells of it.
+/// An option or a positional argument, as `--help` describes it.
 struct ManualOption {
-  std::vector<std::string> names;  ///< "-h", "--help"; of a positional one, "FILE".
+  std::vector<std::string> names;  ///< Such as "-h" and "--help"; for a positional one, "FILE".
   bool is_positional = false;
   bool is_required = false;
   bool repeats = false;
   ValueKind kind = ValueKind::kNone;
-  std::string value;                 ///< "COLUMN [num_yes]", "TEXT"; "" for a flag.
-  std::string allowed;               ///< "0 to 65535"; "" if nothing is said.
-  std::vector<std::string> choices;  ///< All there are; none if it is free.
-  std::string standard;              ///< What holds without it; "" if nothing is said.
+  std::string value;                 ///< Such as "COLUMN [num_yes]" or "TEXT"; "" for a flag.
+  std::string allowed;               ///< Such as "0 to 65535"; "" if nothing is said.
+  std::vector<std::string> choices;  ///< All possible values; empty if the value is free.
+  /// What applies without the option; "" if nothing is said.
+  std::string standard;
   std::vector<std::string> needs, excludes;
   std::string description;
-  /// The list of `CommandWords` that may stand here besides files; "" for none.
+  /// The list of `CommandWords` that may be used here besides files; "" for none.
   std::string words;
 };
 
-/// A command with its own commands, without those that help hides.
+/// A command and its own commands, without those that the help hides.
 struct ManualCommand {
-  std::string name;                   ///< "jnd fit weber"
+  std::string name;                   ///< Such as "jnd fit weber".
   std::string description;            ///< One phrase.
   std::vector<ManualOption> options;  ///< Positional ones first, in their order.
   std::vector<ManualCommand> commands;
   std::vector<CommandExample> examples;
 
-  /// Without the name of the program: "fit weber".
+  /// The name without that of the program, such as "fit weber".
   [[nodiscard]] std::string words() const;
 };
 
@@ -48,10 +49,10 @@ struct ManualCommand {
 [[nodiscard]] ManualCommand command_tree(const CLI::App& program,
                                          const CommandExamples& examples);
 
-/// The command and all below it, itself first.
+/// The command itself, followed by all commands below it.
 [[nodiscard]] std::vector<const ManualCommand*> all_commands(const ManualCommand& root);
 
-/// Words that a shell offers besides files, a list for each kind of name.
+/// Words that a shell offers besides files, one list for each kind of name.
 struct CommandWords {
   std::vector<std::string> studies, laboratories, devices;
 };

@@ -7,12 +7,12 @@
 
 namespace jnd::app {
 
-/// Scripts by which a shell completes the commands, options and values of the tree.
+/// Scripts with which a shell completes the commands, options and values of the tree.
 [[nodiscard]] std::string bash_completion(const ManualCommand& root, const CommandWords& words);
 [[nodiscard]] std::string zsh_completion(const ManualCommand& root, const CommandWords& words);
 [[nodiscard]] std::string fish_completion(const ManualCommand& root, const CommandWords& words);
 
-/// The lists by their names in `ManualOption::words`.
+/// The list with this name, as in `ManualOption::words`.
 [[nodiscard]] const std::vector<std::string>& words_named(const CommandWords& words,
                                                           const std::string& list);
 

@@ -26,7 +26,7 @@ end
 complete -c jnd -f
 )fish";
 
-/// In fish a backslash before a quote is all that quotes need.
+/// A text in quotes for fish, where a backslash escapes a quote or a backslash.
 std::string fish_quoted(const std::string& text) {
   std::string quoted = "'";
   for (const char letter : text) {
@@ -36,7 +36,7 @@ std::string fish_quoted(const std::string& text) {
   return quoted + "'";
 }
 
-/// What a value is chosen from, as switches of `complete`.
+/// What the value is chosen from, as switches of `complete`.
 std::string fish_value(const ManualOption& option, const CommandWords& words) {
   if (option.kind == ValueKind::kNone) return "";
   const auto& offered =

@@ -9,14 +9,15 @@
 namespace jnd::app {
 namespace {
 
-/// As text of a page: no letter of it is taken for a request.
+/// Escapes a text for a page, so that none of its characters is taken for a request.
 std::string roff(const std::string& text) {
   std::string safe;
   for (const char letter : text) {
     if (letter == '\\') {
       safe += "\\e";
     } else if (letter == '-') {
-      safe += "\\-";  // As it is typed, not as it is printed in books.
+      // A hyphen as it is typed, not as it is printed in books.
+      safe += "\\-";
     } else if (letter == '^') {
       safe += "\\(ha";
     } else if (letter == '~') {
@@ -43,7 +44,7 @@ std::string page_name(const std::string& command_name) {
   return name;
 }
 
-/// The words as a sentence: ends with a full stop.
+/// The words as a sentence that ends with a full stop.
 std::string as_sentence(const std::string& words) {
   if (words.empty() || words.ends_with('.')) return words;
   return words + ".";
@@ -70,7 +71,7 @@ std::string synopsis(const ManualCommand& command) {
   return text;
 }
 
-/// What `--help` says in brackets and signs, in sentences.
+/// Puts into sentences what `--help` says in brackets and signs.
 std::string rules_of(const ManualOption& option) {
   std::vector<std::string> rules;
   if (option.is_required && !option.is_positional) rules.emplace_back("Required.");
@@ -141,7 +142,7 @@ std::string exit_section() {
                 {"4", "The program itself is at fault."}});
 }
 
-/// What holds for all commands, on the page of the program.
+/// The sections on the program's page that apply to all commands.
 std::string program_sections() {
   return table("ENVIRONMENT",
                {{"JND_SHARE",
@@ -174,7 +175,7 @@ std::string see_also(const ManualCommand& command, const ManualCommand& root) {
     for (const ManualCommand* other : all_commands(root)) {
       const bool is_sibling = other->name != command.name && other->name.rfind(' ') == space &&
                               other->name.starts_with(command.name.substr(0, space + 1));
-      // The program has too many to name all of them.
+      // The program has too many commands to name all of them.
       if (is_sibling && space > root.name.size()) names.push_back(reference(other->name));
     }
   }

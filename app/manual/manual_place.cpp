@@ -23,12 +23,12 @@ fs::path installed_documents(const fs::path& shipped) {
   return (shipped / ".." / "doc" / "jnd").lexically_normal();
 }
 
-/// Where Markdown pages may be, the first that has any first.
+/// The folders that may contain Markdown pages; the first one is preferred.
 std::array<fs::path, 2> markdown_folders(const fs::path& shipped) {
   return {installed_documents(shipped), shipped};
 }
 
-/// As the site names a page: mkdocs makes index.html of a README.
+/// The page's file in the site: mkdocs makes index.html of a README.
 std::string site_file(const std::string& page) {
   const fs::path path(page);
   const bool is_index = path.filename() == "README.md";

@@ -11,7 +11,7 @@ constexpr const char* kZshBeginning = R"zsh(#compdef jnd
 # Completion of jnd for zsh, from the same tables as `jnd --help`.
 )zsh";
 
-// Finds the command among the words, and has what follows it completed as its arguments.
+// Finds the command among the words, and completes what follows it as the command's arguments.
 constexpr const char* kZshSearch = R"zsh(_jnd() {
   local command='' longer
   integer i depth=1
@@ -32,7 +32,7 @@ constexpr const char* kZshEnd = R"zsh(  esac
 if [[ $funcstack[1] == _jnd ]]; then _jnd "$@"; else compdef _jnd jnd; fi
 )zsh";
 
-/// Within brackets, colons and brackets mean something.
+/// Escapes colons and brackets, which have a meaning within brackets.
 std::string zsh_safe(const std::string& text) {
   std::string safe;
   for (const char letter : text) {
@@ -42,7 +42,7 @@ std::string zsh_safe(const std::string& text) {
   return safe;
 }
 
-/// What stands behind the second colon of an argument.
+/// What follows the second colon of an argument.
 std::string zsh_action(const ManualOption& option) {
   if (!option.choices.empty()) return fmt::format("({})", fmt::join(option.choices, " "));
   if (!option.words.empty()) return "_jnd_" + option.words;

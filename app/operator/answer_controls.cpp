@@ -12,9 +12,9 @@ namespace {
 using core::ControlReader;
 
 constexpr char kStopAction[] = "stop", kHoldAction[] = "hold";
-/// Of a keyboard that is ours alone it stays what it is everywhere.
+/// On a keyboard that only we listen to, Escape remains the emergency stop.
 constexpr char kEscapeKey[] = "KEY_ESC";
-/// That nobody has looked at: more is nobody's mapping.
+/// Presses that nobody has looked at; nobody who maps controls makes more.
 constexpr std::size_t kMostWaitingEvents = 256;
 
 bool is_stop(std::string_view action) { return action == kStopAction || action == kHoldAction; }
@@ -113,7 +113,7 @@ void AnswerControls::stop() noexcept {
   }
 }
 
-/// The reader's thread. The stop first of all.
+/// Called by the reader's thread. It treats the stop before anything else.
 void AnswerControls::take(const core::ControlEvent& event) {
   {
     const std::lock_guard guard(mutex_);

@@ -11,23 +11,25 @@
 
 namespace jnd::app {
 
-/// What the answers of a study's blocks can be, and how they are told, in one of its languages.
+/// What the answers to a study's blocks can be, and their words in one of its languages.
 struct AnswerForms {
   const experiments::Study& study;
-  std::string language;          ///< Of the study's texts; where it lacks one, its first.
-  bool hides_intensity = false;  ///< What was set in an adjustment is not told.
+  /// The language of the study's texts. If a text lacks it, the text's first language is used.
+  std::string language;
+  /// The intensity set in an adjustment is not told.
+  bool hides_intensity = false;
 
-  /// A text of the study; "" for one that is empty.
+  /// A text of the study in this language; "" for an empty text.
   [[nodiscard]] std::string words(const experiments::Text& text) const;
-  /// What yes and no are called, or the first and the second interval.
+  /// The labels of yes and no, or of the first and the second interval.
   [[nodiscard]] std::pair<std::string, std::string> labels_of(
       const experiments::Block& block) const;
   /// The intervals that can be chosen.
   [[nodiscard]] std::vector<TrialView::Choice> choices_of(
       const experiments::Block& block, const experiments::TrialForm& form) const;
   [[nodiscard]] AnswerForm form_of(const experiments::Block& block) const;
-  /// As it was given: percent, 1 and 0, the interval chosen; none is "cannot tell". A chosen
-  /// interval does not tell which held the test.
+  /// An answer in words, as it was given: a percentage, 1 and 0, or the chosen interval; none
+  /// is "cannot tell". The chosen interval does not tell which one held the test.
   [[nodiscard]] std::string in_words(const experiments::Block& block,
                                      const std::optional<double>& given) const;
 };

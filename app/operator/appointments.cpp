@@ -29,7 +29,8 @@ std::set<std::string> taken_pseudonyms(const core::StudyStore& store) {
   return taken;
 }
 
-/// All of `text`, digits and signs where the form has them: "0000-00-00".
+/// True if the whole `text` has the form, such as "0000-00-00", in which 0 stands for any
+/// digit.
 bool has_form(const std::string& text, const std::string& form) {
   return std::ranges::equal(text, form, [](char letter, char wanted) {
     return wanted == '0' ? letter >= '0' && letter <= '9' : letter == wanted;
@@ -101,7 +102,7 @@ std::optional<std::int64_t> time_of_texts(const std::string& date, const std::st
   parts.tm_min = std::stoi(hour.substr(3, 2));
   parts.tm_isdst = -1;
   const std::int64_t time_ns = std::int64_t{std::mktime(&parts)} * kNanoseconds;
-  // The 31st of June is no day: the system would take the first of July.
+  // The 31st of June does not exist, but the system would turn it into the first of July.
   if (date_text(time_ns) != date || hour_text(time_ns) != hour) return std::nullopt;
   return time_ns;
 }

@@ -11,7 +11,8 @@ namespace jnd::app {
 
 void WorkControl::progress(double ratio) {
   const double before = ratio_.load();
-  const double after = std::min(1.0, std::max(before, ratio));  // NaN leaves what was.
+  // NaN changes nothing.
+  const double after = std::min(1.0, std::max(before, ratio));
   ratio_.store(after);
   if (std::floor(100.0 * after) > std::floor(100.0 * before)) wake();
 }

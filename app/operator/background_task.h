@@ -9,23 +9,24 @@
 
 namespace jnd::app {
 
-/// Thrown out of the middle of work that was asked to stop.
+/// Thrown from within work that was asked to stop.
 struct WorkCancelled {};
 
-/// What a piece of work and whoever waits for it say to each other. Any thread.
+/// Connects a piece of work with whoever waits for it. Any thread may use it.
 class WorkControl {
  public:
   explicit WorkControl(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
 
-  /// Of the work: how much is done, 0 to 1. Never goes back; wakes at every whole percent.
+  /// The work tells how much is done, 0 to 1. The ratio never goes back; each whole percent
+  /// wakes the window.
   void progress(double ratio);
   [[nodiscard]] bool cancelled() const noexcept { return cancelled_.load(); }
-  /// Throws `WorkCancelled` if it was asked to stop.
+  /// Throws `WorkCancelled` if the work was asked to stop.
   void stop_if_cancelled() const;
-  /// Has the window draw itself anew.
+  /// Makes the window draw a frame.
   void wake() const;
 
-  /// Called by whoever waits for the work.
+  /// Asks the work to stop; called by whoever waits for it.
   void cancel() noexcept { cancelled_.store(true); }
   [[nodiscard]] double ratio() const noexcept { return ratio_.load(); }
 
@@ -39,16 +40,16 @@ enum class WorkStatus {
   kRunning,
   kDone,
   kFailed,     ///< `error` says why.
-  kCancelled,  ///< It was asked to stop, and did.
+  kCancelled,  ///< The work was asked to stop, and did.
 };
 
-/// Work on a thread of its own, begun at once; whatever it throws becomes a sentence. `wake` is
-/// called from that thread after progress and once it is over. Not real time.
+/// Work on a thread of its own, which begins at once. What it throws becomes a sentence. That
+/// thread calls `wake` after progress and when the work is over. Not real time.
 class BackgroundWork {
  public:
   explicit BackgroundWork(std::function<void(WorkControl&)> work,
                           std::function<void()> wake = {});
-  /// Asks to stop and waits until it has.
+  /// Asks the work to stop, and waits until it has.
   ~BackgroundWork();
   BackgroundWork(const BackgroundWork&) = delete;
   BackgroundWork& operator=(const BackgroundWork&) = delete;
@@ -56,22 +57,22 @@ class BackgroundWork {
   [[nodiscard]] WorkStatus status() const noexcept { return status_.load(); }
   [[nodiscard]] bool running() const noexcept { return status() == WorkStatus::kRunning; }
   [[nodiscard]] double progress() const noexcept { return control_.ratio(); }
-  /// One sentence once it has failed; "" otherwise.
+  /// One sentence if the work has failed; "" otherwise.
   [[nodiscard]] std::string error() const;
   void cancel() noexcept { control_.cancel(); }
-  /// Returns when it is over.
+  /// Waits until the work is over.
   void wait();
 
  private:
   void run(const std::function<void(WorkControl&)>& work) noexcept;
 
   WorkControl control_;
-  std::string error_;  ///< Written before `status_` says so.
+  std::string error_;  ///< Written before `status_` tells of it.
   std::atomic<WorkStatus> status_{WorkStatus::kRunning};
   std::thread thread_;
 };
 
-/// Work beside the window that comes to something: results, a backup, an export.
+/// Work in the background that has a result, such as a backup or an export.
 template <typename Result>
 class BackgroundTask {
  public:
@@ -87,13 +88,14 @@ class BackgroundTask {
   [[nodiscard]] std::string error() const { return work_.error(); }
   void cancel() noexcept { work_.cancel(); }
   void wait() { work_.wait(); }
-  /// What it came to; nullptr unless it is done.
+  /// The result; nullptr unless the work is done.
   [[nodiscard]] const Result* result() const noexcept {
     return status() == WorkStatus::kDone && result_ ? &*result_ : nullptr;
   }
 
  private:
-  std::optional<Result> result_;  ///< Outlives the thread that writes it.
+  /// Declared first, so that it outlives the thread that writes it.
+  std::optional<Result> result_;
   BackgroundWork work_;
 };
 

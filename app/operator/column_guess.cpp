@@ -24,7 +24,8 @@ std::string lower(std::string_view text) {
   return small;
 }
 
-/// How well a name goes with words: 2 for one of them, 1 for one that has one in it, else 0.
+/// How well a name fits: 2 if it is one of the words of `whole`, 1 if it contains one of
+/// `within`, otherwise 0.
 int likeness(const std::string& name, const Words& whole, const Words& within) {
   const std::string small = lower(name);
   if (std::ranges::find(whole, small) != whole.end()) return 2;
@@ -62,7 +63,7 @@ int like_trials(const std::string& name) {
       {"trial", "asked", "total", "num_of", "n_obs"});
 }
 
-/// What counts or times rows, and tells nothing of a stimulus.
+/// True for columns that count or time rows and say nothing about a stimulus.
 bool is_bookkeeping(const std::string& name) {
   return likeness(name,
                   {"trial",      "trial_index", "index",  "row",   "rt",      "time", "date",
@@ -73,7 +74,7 @@ bool is_bookkeeping(const std::string& name) {
          analysis::tells_rows_apart(name);
 }
 
-/// Rows of the preview, by columns and as numbers.
+/// Guesses from the rows of the preview, by columns and as numbers.
 class Guesser {
  public:
   explicit Guesser(const DataPreview& preview) : preview_(preview) {}
@@ -98,12 +99,14 @@ class Guesser {
   }
   [[nodiscard]] bool is_used(std::size_t place) const { return used_.contains(place); }
 
-  /// Two answers that the reader does not know, as "left" and "right", or 1 and 2.
+  /// True if a column has two answers that the reader does not know, such as "left" and
+  /// "right", or 1 and 2.
   [[nodiscard]] static bool has_two_cells(const PreviewColumn& one) {
     return !one.is_yes_or_no && !one.has_more_cells && one.cells.size() == 2;
   }
 
-  /// Whether these can be how many of how many: never more, and sometimes fewer.
+  /// True if the columns can be numbers of yes answers and of trials: the first is never more
+  /// than the second, and sometimes less.
   [[nodiscard]] bool are_counts(std::size_t yes, std::size_t trials) const {
     if (!column(yes).is_whole || !column(trials).is_whole) return false;
     bool is_fewer = false, is_several = false;
@@ -176,7 +179,7 @@ class Guesser {
     used_.insert(*found);
   }
 
-  /// The intensities of each cell of a column, in the rows that have an answer.
+  /// The intensities of each cell of a column, in rows that have an answer.
   [[nodiscard]] std::map<std::string, std::set<std::string>> intensities_by_cell(
       const CurveRequest& request, std::size_t place) const {
     const std::size_t yes = preview_.place_of(request.yes);
@@ -195,7 +198,7 @@ class Guesser {
     std::size_t num_curves = 1;
     const auto add = [&](std::size_t place, std::size_t most) {
       const auto cells = intensities_by_cell(request, place);
-      // What tells of one intensity alone is another name of it.
+      // A cell that has one intensity only is just another name of that intensity.
       const bool have_curves = std::ranges::all_of(cells, [](const auto& cell) {
         return !cell.first.empty() && cell.second.size() > 1;
       });
@@ -212,7 +215,7 @@ class Guesser {
     const auto is_condition = [](const std::string& name) {
       return likeness(name, {"condition", "cond", "group", "treatment"}, {"condition"}) > 0;
     };
-    // What is compared first, then whose answers they are.
+    // Columns of conditions come first, then columns that say whose answers they are.
     for (std::size_t i = 0; i < size(); ++i) {
       if (!is_used(i) && is_condition(column(i).name)) add(i, kMostCurves);
     }

@@ -8,14 +8,14 @@
 
 namespace jnd::app {
 
-/// What the columns of somebody's table probably are, by their names and by what they hold:
-/// intensities, answers (with the cell that is a yes, where the reader does not know it), how
-/// many trials a row is, and what tells curves apart. What cannot be guessed stays "". All else
-/// is as `jnd fit psychometric` has it where nothing is said.
+/// Guesses what the columns of somebody's table are, by their names and contents: the
+/// intensities, the answers (with the cell that means yes, if the reader does not know it), the
+/// number of trials in a row, and what separates the curves. What cannot be guessed stays "".
+/// Everything else is as `jnd fit psychometric` has it by default.
 [[nodiscard]] CurveRequest guessed_request(const DataPreview& preview);
 
-/// The cell of a column that probably is a yes: one of known words, or of two the later one in
-/// the alphabet; "" where the reader knows it by itself, and where nothing can be said.
+/// Guesses which cell of a column means yes: one of some known words, or else the later one of
+/// two in the alphabet. "" if the reader knows it by itself, or if nothing can be said.
 [[nodiscard]] std::string guessed_yes_value(const PreviewColumn& column);
 
 }  // namespace jnd::app

@@ -21,7 +21,7 @@ CurveChoice task_choice(const char* label, const std::string& task) {
       .note = {},
       .is_chosen =
           [task](const CurveRequest& request) {
-            // Where nobody said, it is one of yes and no.
+            // If nobody named a task, it is yes-no.
             return request.guess.empty() &&
                    (request.task == task || (request.task.empty() && task == "yes-no"));
           },
@@ -39,7 +39,7 @@ CurveChoice lapse_choice(const char* label, const std::string& lapse) {
               }};
 }
 
-/// Of the bootstrap and of the goodness of fit, as the window asks for them.
+/// The numbers of redraws that the window offers for the bootstrap and the goodness of fit.
 constexpr int kNumRedraws = 1000, kManyRedraws = 10'000;
 
 CurveChoice interval_choice(const char* label, std::string note, int num_bootstrap,

@@ -10,7 +10,7 @@
 namespace jnd::app {
 namespace {
 
-/// Whether the reader of answers takes it for a yes or a no by itself.
+/// Whether the reader of answers takes this cell for a yes or a no by itself.
 bool is_plain_answer(std::string_view cell, bool decimal_comma) {
   const double value = analysis::number_of(cell, decimal_comma);
   if (value == 0.0 || value == 1.0 || value == -1.0) return true;
@@ -18,7 +18,7 @@ bool is_plain_answer(std::string_view cell, bool decimal_comma) {
                              [&](const char* word) { return analysis::same_word(cell, word); });
 }
 
-/// Keeps the first rows, and what every column holds.
+/// Keeps the first rows, and what every column contains.
 class PreviewSink final : public analysis::RowSink {
  public:
   PreviewSink(const std::filesystem::path& file, WorkControl& control)
@@ -48,7 +48,7 @@ class PreviewSink final : public analysis::RowSink {
   [[nodiscard]] DataPreview finish() {
     problems().throw_problems();
     for (PreviewColumn& column : preview_.columns) {
-      // Of nothing, nothing is known.
+      // Nothing is known about a column without any cell.
       if (column.num_missing < preview_.num_rows) continue;
       column.is_numeric = column.is_whole = column.is_yes_or_no = false;
     }
@@ -78,7 +78,8 @@ class PreviewSink final : public analysis::RowSink {
 
   WorkControl& control_;
   DataPreview preview_;
-  std::vector<std::set<std::string, std::less<>>> known_;  ///< The cells of each column.
+  /// The different cells of each column.
+  std::vector<std::set<std::string, std::less<>>> known_;
 };
 
 }  // namespace

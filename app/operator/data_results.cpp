@@ -12,8 +12,8 @@ using analysis::CurveFit;
 using analysis::CurveValue;
 using analysis::FitStatus;
 
-/// Which of the intervals of a fit are shown: those that the request asks for beside the
-/// likelihood ratio's, which every fit has.
+/// Which intervals of a fit are shown. Every fit has those of the likelihood ratio; a request
+/// may ask for others.
 enum class IntervalKind { kLikelihoodRatio, kBootstrap, kPosterior };
 
 IntervalKind interval_kind_of(const CurveRequest& request) {
@@ -41,7 +41,7 @@ DataValue data_value(const CurveValue& value,
   return {number(value.value), value.value ? whole_range(interval) : ""};
 }
 
-/// What is to be known of a value beside its interval.
+/// What one should know about a value besides its interval.
 std::string remark_on(const CurveValue& value, IntervalKind kind, const std::string& remark) {
   std::string words = remark;
   const auto add = [&words](const std::string& more) {

@@ -37,7 +37,7 @@ std::string points_words(const device::DeviceCapabilities& can) {
   return fmt::format("{} ({})", can.num_contact_points(), names);
 }
 
-/// What the device says of itself.
+/// What the device says about itself.
 std::vector<DeviceLine> facts_of(const device::HapticDevice& device) {
   const device::DeviceCapabilities can = device.capabilities();
   const device::DeviceIdentity identity = device.identity();
@@ -122,7 +122,7 @@ void add_profile(DeviceView& view, const KnownProfile& known) {
                          std::back_inserter(view.checks), check_line);
 }
 
-/// What a session would say now, and what is known all the same.
+/// Adds what a session would say about the profile now, and what is known in any case.
 void look_at_profile(DeviceView& view, const DeviceOfProfile& device, const std::string& file) {
   view.profile.name = tr("Profile");
   std::vector<std::filesystem::path> folders = profile_folders();

@@ -11,7 +11,7 @@
 
 namespace jnd::app {
 
-/// A line of two columns, in words: "Force at one point", "10 N".
+/// A line of two columns in words, such as "Force at one point" and "10 N".
 struct DeviceLine {
   std::string what, value;
 };
@@ -21,12 +21,12 @@ struct DeviceQuestion {
   enum class Act { kTakeHandOut, kHome, kHold, kTouch, kLetGo, kHang, kTakeLoadOff };
   Act act = Act::kTakeHandOut;
   std::string words;
-  double load_kg = 0.0;             ///< Of `kHang`.
-  Eigen::Vector3d mark_m{0, 0, 0};  ///< Of `kTouch`, in the workspace.
-  int num_touched = 0;              ///< Marks before this one in this step.
+  double load_kg = 0.0;             ///< For `kHang`.
+  Eigen::Vector3d mark_m{0, 0, 0};  ///< For `kTouch`, in the workspace.
+  int num_touched = 0;              ///< How many marks of this step came before this one.
 };
 
-/// What goes on at the device, one thing at a time.
+/// The work at the device; there is one at a time.
 enum class DeviceWork {
   kNone,
   kLooking,
@@ -37,45 +37,47 @@ enum class DeviceWork {
   kWriting
 };
 
-/// All that the window shows of a device, in words.
+/// Everything that the window shows about a device, in words.
 struct DeviceView {
-  std::string name;       ///< As after `--device`.
-  bool is_known = false;  ///< It was looked at, and can be used.
+  std::string name;       ///< The name as it is written after `--device`.
+  bool is_known = false;  ///< The device was looked at and can be used.
   bool is_simulated = false;
-  std::string problem;  ///< Why it cannot, a sentence; "".
+  std::string problem;  ///< Why the device cannot be used, in a sentence; "" otherwise.
   std::vector<DeviceLine> facts;
 
-  /// What a session would say of its profile now.
+  /// What a session would say about its profile now.
   PreflightLine profile;
-  std::string profile_file;  ///< "": none is found.
+  std::string profile_file;  ///< "" if no profile is found.
   std::vector<DeviceLine> profile_facts, profile_numbers;
   struct Check {
     std::string day, words;
     bool passed = false;
   };
-  std::vector<Check> checks;  ///< The last one first.
+  std::vector<Check> checks;  ///< The latest check comes first.
 
   struct Step {
     std::string title, to_do;
-    std::string measured_at;  ///< "": it is not measured.
+    std::string measured_at;  ///< "" if the step was not measured.
     std::vector<DeviceLine> found;
-    bool waits = false;  ///< For another step, which has to be measured before.
+    bool waits = false;  ///< Another step has to be measured before this one.
   };
   std::array<Step, kCommissioningSteps.size()> steps;
-  std::string record;          ///< File of the measurements.
-  std::string record_problem;  ///< Why it cannot be gone on with; "".
+  std::string record;          ///< The file of the measurements.
+  std::string record_problem;  ///< Why the record cannot be continued; "" otherwise.
   std::vector<Eigen::Vector3d> marks_m, daily_marks_m;
-  std::string daily_to_do;               ///< For a daily check; sentences.
-  std::optional<std::size_t> next_step;  ///< None: the profile can be written.
+  /// What to do for a daily check, in sentences.
+  std::string daily_to_do;
+  /// None if the profile can be written.
+  std::optional<std::size_t> next_step;
 
   DeviceWork work = DeviceWork::kNone;
   std::size_t working_step = 0;
   double progress = 0.0;
-  std::string now;  ///< What the device does; "".
+  std::string now;  ///< What the device is doing; "" for nothing.
   std::optional<DeviceQuestion> question;
   bool stop_is_pressed = false;
 
-  /// Of the last work that ended; "": there is nothing to say.
+  /// How the last work ended; "" if there is nothing to say.
   std::string outcome;
   DeviceWork outcome_of = DeviceWork::kNone;
   bool outcome_is_good = true;
@@ -83,7 +85,7 @@ struct DeviceView {
     std::string what, expected, found;
     bool passed = false;
   };
-  std::vector<CheckedLine> checked;  ///< Of the last daily check.
+  std::vector<CheckedLine> checked;  ///< The lines of the last daily check.
   std::optional<bool> check_passed;
   /// What the device tells at this moment, while it is watched.
   std::vector<DeviceLine> live;

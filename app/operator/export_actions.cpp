@@ -102,7 +102,7 @@ ActionOutcome verify_study(const fs::path& folder, WorkControl& control) {
     control.stop_if_cancelled();
     check_replay(store, integrity);
   } catch (const core::Error& error) {
-    // One that cannot even be opened is a finding like any other.
+    // A study that cannot even be opened is a finding like any other.
     integrity = {.complete = false, .problems = {{0, error.what()}}};
   }
   control.progress(1.0);
@@ -162,9 +162,10 @@ ActionOutcome unblind_study(const fs::path& folder, const std::string& reason) {
            folder.string()));
   }
   store.add_unblinding(core::SystemClock().now_ns(), reason);
-  // Every session keeps the moment: answers after it were no longer given blind.
+  // Every session stores the moment, because later answers were no longer given blind.
   for (const core::SessionRow& row : sessions) {
-    if (is_unblinded(store, row.session)) continue;  // By a run that was interrupted.
+    // An earlier run that was interrupted has already done it.
+    if (is_unblinded(store, row.session)) continue;
     ReopenedSession(store, row).session().unblind(reason);
   }
   return {.sentence = trn("{1}: unblinded, and so written in the log of its {0} session",

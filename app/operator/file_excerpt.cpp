@@ -11,13 +11,14 @@ namespace {
 
 constexpr std::uintmax_t kMostBytes = 1'000'000;
 constexpr int kLinesAround = 2;
-/// A line is cut to so many characters, so that what is meant can be seen.
+/// A line is cut to so many characters, so that the place that is meant can be seen.
 constexpr std::size_t kMostCharacters = 120;
 constexpr std::size_t kCharactersBefore = 70;
 
 bool is_first_byte(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }
 
-/// Where the character of this number, from 0, begins; the end of the text beyond it.
+/// Where the character with this number, counted from 0, begins; the end of the text if there
+/// is none.
 std::size_t byte_of(const std::string& text, std::size_t character) {
   std::size_t number = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {

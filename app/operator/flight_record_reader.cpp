@@ -25,14 +25,14 @@ std::vector<std::string_view> cells_of_row(std::string_view line) {
   }
 }
 
-/// NaN for what is none.
+/// NaN if the cell is no number.
 double number_in(std::string_view cell) {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::from_chars(cell.data(), cell.data() + cell.size(), value);
   return value;
 }
 
-/// Where the three columns of a quantity stand for every point: "palm_inner_force_x_n".
+/// The places of a quantity's three columns for every point, such as "palm_inner_force_x_n".
 class PointColumns {
  public:
   PointColumns(const std::vector<std::string_view>& names, const std::string& quantity,

@@ -10,8 +10,7 @@ namespace {
 
 using namespace experiments;
 
-/// The answer of this block that was given last before the trial's own, where it is a
-/// magnitude.
+/// The last answer of this block before the trial's own, if it is a magnitude.
 std::optional<double> magnitude_before(const AnswerGiven& given) {
   const TrialState& trial = given.trial;
   std::int64_t latest = 0;
@@ -28,7 +27,8 @@ std::optional<double> magnitude_before(const AnswerGiven& given) {
   return value;
 }
 
-/// Whole strokes in each stimulus of the attempt that is no solid, by what it is called.
+/// The whole strokes in each stimulus of the attempt that is not a solid, by the stimulus's
+/// name.
 std::map<std::string, std::int64_t> strokes_in(const AnswerGiven& given) {
   std::map<std::string, std::int64_t> strokes;
   for (const PresentationState& presented : given.trial.presentations) {
@@ -51,7 +51,8 @@ GivenAnswer AnswerGiven::with(AnswerKind kind, const std::optional<double>& valu
     }
   }
   if (trial.presentations.empty()) return answer;
-  // In this attempt as a whole: who goes back to it decides sooner.
+  // The time in the whole attempt counts, because somebody who returns to a stimulus decides
+  // sooner.
   const PresentationState& last = trial.presentations.back();
   double felt_s = 0.0;
   for (const PresentationState& presented : trial.presentations) {

@@ -10,22 +10,23 @@
 
 namespace jnd::app {
 
-/// What the log does not say yet of the presentation that is under way.
+/// What the log does not yet say about the presentation that is under way.
 struct FeltSoFar {
-  std::int64_t num_strokes = 0;  ///< Whole ones.
-  std::int64_t next_tick = 0;    ///< The first that was not felt.
+  std::int64_t num_strokes = 0;  ///< Whole strokes only.
+  std::int64_t next_tick = 0;    ///< The first tick that was not felt.
 };
 
-/// What speaks for or against an answer, as far as the log of its session knows.
+/// An answer's circumstances, as far as the log of its session knows them.
 struct AnswerGiven {
   const experiments::SessionState& state;
-  const experiments::TrialState& trial;  ///< Of `state`.
-  const experiments::Block& block;       ///< Of the trial.
-  double rate_hz = 1000.0;               ///< Of the session's loop.
-  bool hides_levels = false;  ///< Nothing is said of the movement, which could tell them.
-  FeltSoFar felt{};           ///< Of a trial under way.
+  const experiments::TrialState& trial;  ///< Part of `state`.
+  const experiments::Block& block;       ///< The trial's block.
+  double rate_hz = 1000.0;               ///< The rate of the session's loop.
+  /// Nothing is said about movement, which could tell the levels.
+  bool hides_levels = false;
+  FeltSoFar felt{};  ///< Only for a trial under way.
 
-  /// `value`: as in `GivenAnswer`.
+  /// `value` is as in `GivenAnswer`.
   [[nodiscard]] GivenAnswer with(experiments::AnswerKind kind,
                                  const std::optional<double>& value) const;
 };

@@ -46,13 +46,14 @@ core::ControlMap kept_controls(const fs::path& file) {
       map.set(row["action"].get<std::string>(),
               {row["device"].get<std::string>(), row["control"].get<std::string>()});
     } catch (const core::Error&) {
-      // Of another version of the program.
+      // The row was written by another version of the program.
     }
   }
   return map;
 }
 
-/// Beside the old one, then in its place: a reader finds the one or the other.
+/// The new file is written beside the old one and then replaces it, so a reader finds one or
+/// the other.
 void keep_controls(const fs::path& file, const core::ControlMap& map) {
   if (file.empty()) return;
   json rows = json::array();

@@ -9,37 +9,40 @@
 
 namespace jnd::app {
 
-/// One short interval of how the hand moved, workspace frame.
+/// How the hand moved in a short interval, in the workspace frame.
 struct TracePoint {
-  double time_s = 0.0;  ///< Of the interval's first tick: ticks over the loop's rate.
-  double x_m = 0.0, y_m = 0.0, z_m = 0.0;  ///< Mean of the tips at the interval's end.
-  double speed_m_per_s = 0.0;  ///< The largest in the interval, of the tips' mean velocity.
-  double force_n = 0.0;        ///< The largest in the interval, of the force on the hand.
+  /// The time of the interval's first tick: its number over the loop's rate.
+  double time_s = 0.0;
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;  ///< The mean of the tips at the interval's end.
+  /// The largest speed in the interval, of the tips' mean velocity.
+  double speed_m_per_s = 0.0;
+  double force_n = 0.0;  ///< The largest force on the hand in the interval.
 };
 
-/// The last seconds of the hand, for plots: every sample goes in, about a hundred points a
-/// second are kept, and no peak of speed or force is lost between them. What is not finite is
-/// left out. Lost samples leave a gap in time; samples of an earlier time begin it anew.
+/// The last seconds of the hand's movement, for plots. Every sample goes in; about a hundred
+/// points a second are kept, without losing any peak of speed or force. Values that are not
+/// finite are left out. Lost samples leave a gap in time; a sample of an earlier time makes the
+/// trace begin anew.
 ///
-/// Samples come from one thread; a picture may be taken from any. Not real time.
+/// Samples come from one thread; any thread may take a picture. Not real time.
 class LiveTrace {
  public:
   struct Parameters {
-    double rate_hz = 1000.0;      ///< Of the loop, > 0.
+    double rate_hz = 1000.0;      ///< The loop's rate, > 0.
     double duration_s = 10.0;     ///< How much is kept, > 0.
-    double points_per_s = 100.0;  ///< > 0; at most one a tick.
+    double points_per_s = 100.0;  ///< > 0, and at most one point for each tick.
   };
 
-  /// Throws `core::Error` naming the field.
+  /// Throws `core::Error`, which names the wrong field.
   explicit LiveTrace(const Parameters& parameters);
 
   void take(const core::Sample& sample);
-  /// The points of the last `duration_s`, the oldest first; the interval under way is not in.
+  /// The points of the last `duration_s`, oldest first, without the interval under way.
   [[nodiscard]] std::vector<TracePoint> snapshot() const;
   void clear();
 
  private:
-  // With the lock held.
+  // These are called with the lock held.
   void finish_interval();
   void start_anew();
   [[nodiscard]] const TracePoint& newest() const;
@@ -50,10 +53,11 @@ class LiveTrace {
 
   mutable std::mutex mutex_;
   std::vector<TracePoint> ring_;
-  std::size_t next_ = 0;  ///< The oldest: where the next point goes once the ring is full.
+  /// The oldest point, which the next point replaces once the ring is full.
+  std::size_t next_ = 0;
   TracePoint current_;
   bool has_current_ = false;
-  std::int64_t interval_ = 0;  ///< Number of the interval under way.
+  std::int64_t interval_ = 0;  ///< The number of the interval under way.
 };
 
 }  // namespace jnd::app

@@ -8,8 +8,8 @@
 namespace jnd::app {
 namespace {
 
-/// More contrasts than these are computed only where somebody asks: each takes some hundredth
-/// of a second.
+/// More contrasts than these are computed only if somebody asks, because each takes some
+/// hundredths of a second.
 constexpr std::size_t kMostUnasked = 30;
 
 std::size_t num_contrasts(const CurveAnalysis& curves) {
@@ -78,7 +78,8 @@ void OpenData::compare() {
   view_.compare_problem.clear();
   comparing_ = std::make_unique<Comparing>(
       [curves = *curves_](WorkControl&) mutable {
-        // The page shows likelihood-ratio intervals; a bootstrap of every pair takes minutes.
+        // The page shows intervals of the likelihood ratio; a bootstrap of every pair would
+        // take minutes.
         curves.how.num_bootstrap = 0;
         add_comparison(curves);
         return data_comparison(*curves.comparison);

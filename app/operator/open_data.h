@@ -15,50 +15,53 @@
 
 namespace jnd::app {
 
-/// What is shown of somebody's table.
+/// What the window shows of somebody's table.
 struct DataView {
-  std::filesystem::path file;  ///< "" while none is open.
+  std::filesystem::path file;  ///< "" while no file is open.
   bool is_reading = false;
   std::string problem;  ///< Why the file is no table; "" otherwise.
   std::optional<DataPreview> preview;
-  CurveRequest request;  ///< Which columns, and what is fitted.
+  CurveRequest request;  ///< The columns, and what is fitted.
   bool is_computing = false;
   double progress = 0.0;
-  std::string fit_problem;  ///< Why there are no fits: the reader's or the engine's sentence.
-  std::shared_ptr<const DataResults> results;  ///< Of `request`, once they are there.
-  bool can_compare = false;                    ///< There are two curves or more.
+  /// Why there are no fits, in a sentence of the reader or the engine.
+  std::string fit_problem;
+  /// The results of `request`, as soon as there are any.
+  std::shared_ptr<const DataResults> results;
+  bool can_compare = false;  ///< There are at least two curves.
   bool is_comparing = false;
   std::string compare_problem;  ///< Why the comparison failed.
   std::shared_ptr<const DataComparison> comparison;
   std::string command;  ///< The command line that does the same.
   bool is_saving = false;
-  ActionOutcome outcome;  ///< Of what was saved last.
+  ActionOutcome outcome;  ///< How the last saving ended.
 };
 
-/// A table of anybody's answers that is looked at and fitted in the window, by the reader and
-/// the engine of `jnd fit psychometric`. All that takes time goes on beside the window. The
-/// file is read and never changed. One thread, that of the window.
+/// A table of anybody's answers that is shown and fitted in the window, by the reader and the
+/// engine of `jnd fit psychometric`. Whatever takes time runs in the background. The file is
+/// read and never changed. Only the window's thread uses it.
 class OpenData {
  public:
-  /// `wake`: draws another frame; called from any thread.
+  /// `wake` requests another frame; any thread may call it.
   explicit OpenData(std::function<void()> wake = {});
 
-  /// Reads another file, guesses its columns and fits. What goes wrong stands in the view.
+  /// Reads another file, guesses its columns and fits. Problems are told in the view.
   void open(const std::filesystem::path& file);
-  /// Other columns or another curve: fitted at once, once nothing is missing.
+  /// Takes other columns or another curve, and fits at once if nothing is missing.
   void ask(const CurveRequest& request);
-  /// Compares the groups. A few are compared without being asked.
+  /// Compares the groups. A few groups are compared without being asked for.
   void compare();
-  /// Into new files; nothing while there are no fits, or something is saved.
+  /// Saves into a new file. Does nothing while there are no fits, or while something is being
+  /// saved.
   void save_picture(const std::filesystem::path& file);
   void save_table(const std::filesystem::path& file);
 
-  /// Takes what has come, and begins what is next: before each frame.
+  /// Takes what has been computed and begins what is next; called before each frame.
   void collect();
-  /// Something goes on beside the window.
+  /// True while something goes on in the background.
   [[nodiscard]] bool works() const noexcept;
   [[nodiscard]] const DataView& view() const noexcept { return view_; }
-  /// Until nothing goes on any more: for tests.
+  /// Waits until nothing goes on any more; for tests.
   void wait();
 
  private:
@@ -77,22 +80,23 @@ class OpenData {
 
   std::function<void()> wake_;
   DataView view_;
-  std::shared_ptr<const CurveAnalysis> curves_;  ///< Of the results shown.
+  /// The curves of the results that are shown.
+  std::shared_ptr<const CurveAnalysis> curves_;
   bool fits_are_due_ = false;
-  CurveRequest computing_request_;  ///< Of `computing_`.
+  CurveRequest computing_request_;  ///< The request that `computing_` works on.
   std::unique_ptr<BackgroundTask<DataPreview>> reading_;
   std::unique_ptr<BackgroundTask<Computed>> computing_;
   std::unique_ptr<Comparing> comparing_;
-  /// Nobody waits for these any more, and they cannot be interrupted.
+  /// Comparisons that nobody waits for any more, and that cannot be interrupted.
   std::vector<std::unique_ptr<Comparing>> abandoned_;
   std::unique_ptr<BackgroundTask<ActionOutcome>> saving_;
 };
 
-/// Whether it says which columns the intensities and the answers are.
+/// Whether the request names the columns of the intensities and of the answers.
 [[nodiscard]] bool names_its_columns(const CurveRequest& request) noexcept;
 
-/// Beside the table: "NAME-curves.svg", or "NAME-curves-2.svg" and so on, whichever does not
-/// exist yet.
+/// A file beside the table that does not exist yet: "NAME-curves.svg", or else
+/// "NAME-curves-2.svg" and so on.
 [[nodiscard]] std::filesystem::path free_file_beside(const std::filesystem::path& table,
                                                      const std::string& ending);
 

@@ -17,9 +17,9 @@ std::string open_outside(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, ignored)) {
     return tr("{} is not there any more.", path.string());
   }
-  // The shell leaves after a moment, and nobody waits for the program: it is init's child. What
-  // has nothing to open the file with ends within that moment, 0.1 s. A path that begins with a
-  // dash is none of its options.
+  // The shell ends after a moment of 0.1 s, and init adopts the program, so nobody waits for
+  // it. A system without a program for the file ends within that moment. The path is absolute,
+  // so it cannot be mistaken for an option.
   constexpr int kNoProgram = 9, kRefused = 8;
   std::string shell = "sh", command = "-c", name = "open",
               script = as_is(

@@ -5,8 +5,8 @@
 
 namespace jnd::app {
 
-/// Opens a file or folder with the program that the desktop has for it (xdg-open), and goes on
-/// within 0.1 s. Returns "" or why it cannot be opened, with its path. Not real time.
+/// Opens a file or folder with the desktop's program for it (xdg-open), and returns within 0.1
+/// s. Returns "", or why it cannot be opened, with its path. Not real time.
 [[nodiscard]] std::string open_outside(const std::filesystem::path& path);
 
 }  // namespace jnd::app

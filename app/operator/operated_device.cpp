@@ -55,7 +55,8 @@ Eigen::Matrix3d rotation_in(const experiments::DeviceProfile& profile) {
       profile.frame.rotation.data());
 }
 
-/// By whichever profile is found, also one that has ended; else as the device has its axes.
+/// The frame of whichever profile is found, even an expired one; without any, the device's own
+/// axes.
 Eigen::Matrix3d frame_of(const DeviceOfProfile& device, const std::string& file) {
   if (!file.empty()) return rotation_in(read_known_profile(file).profile);
   const FoundProfile found = find_profile(device, profile_folders(), today());
@@ -75,7 +76,8 @@ std::vector<DeviceView::CheckedLine> lines_of(const DailyCheckResult& result) {
 
 }  // namespace
 
-/// Asks the person at the window. Of a simulated device, somebody simulated then does it.
+/// Asks the person at the window. For a simulated device, a simulated person then does what was
+/// asked.
 class OperatedDevice::WindowBench final : public device::Bench {
  public:
   WindowBench(OperatedDevice& of, device::Bench* simulated) : of_(of), simulated_(simulated) {}
@@ -177,7 +179,7 @@ bool OperatedDevice::may_begin() const noexcept {
   return !works() && !emergency_stop_.is_pressed();
 }
 
-/// `work` says what came of it.
+/// `work` returns how it ended.
 void OperatedDevice::begin(DeviceWork kind, const std::function<std::string()>& work) {
   {
     const std::lock_guard lock(mutex_);
@@ -353,7 +355,8 @@ void OperatedDevice::watch() {
   if (!may_begin()) return;
   begin(DeviceWork::kWatching, [this] {
     const auto made = device::make_device(device_, kDeviceRate_hz);
-    // Never armed: whoever moves the tool about or presses its switch feels no force.
+    // The device is never armed, so whoever moves its tool or presses its switch feels no
+    // force.
     GuidedRun run(*made, {.rate_hz = kDeviceRate_hz,
                           .allow_no_realtime = allow_no_realtime_,
                           .emergency_stop = &emergency_stop_,
@@ -372,7 +375,7 @@ void OperatedDevice::watch() {
       }
       if (wake_) wake_();
       if (core::is_failure(found)) throw core::Error(tr(core::words(found).data()));
-      // A simulated device runs as fast as it can.
+      // A simulated device would otherwise run as fast as it can.
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
   });
@@ -387,7 +390,7 @@ void OperatedDevice::tell(double done, const std::string& now) {
   if (wake_) wake_();
 }
 
-/// Called by the thread that measures. Throws `core::Error` where somebody leaves off.
+/// Called by the thread that measures. Throws `core::Error` if somebody ends the work.
 void OperatedDevice::ask(DeviceQuestion question) {
   std::unique_lock lock(mutex_);
   view_.question = std::move(question);
@@ -417,7 +420,7 @@ void OperatedDevice::leave_off() {
   {
     const std::lock_guard lock(mutex_);
     leaves_off_ = true;
-    // The loop ends the force as for any stop; this one is released once the step has ended.
+    // The loop ends the force as for any stop; this stop is released when the step has ended.
     if (!emergency_stop_.is_pressed()) {
       emergency_stop_.press();
       own_press_ = emergency_stop_.num_presses();
@@ -428,7 +431,8 @@ void OperatedDevice::leave_off() {
 
 void OperatedDevice::press_stop() noexcept {
   emergency_stop_.press();
-  // Whoever waits for an answer looks again. The lock orders this behind its look.
+  // Wakes the thread that waits for an answer. The lock makes sure that it is already waiting,
+  // or has yet to look.
   { const std::lock_guard lock(mutex_); }
   answered_.notify_all();
   // Last: the disk may take its time.

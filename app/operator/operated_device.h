@@ -17,9 +17,9 @@
 namespace jnd::app {
 
 /// A device that somebody at a window looks at, measures, checks and tries: one thing at a
-/// time, on a thread of its own. Whatever has to be done at the device is asked, and waits for
-/// an answer. All of it is called from the window's thread, but for the stop and the sign of
-/// life, which any thread may give.
+/// time, on a thread of its own. Whatever has to be done at the device is asked for, and the
+/// work waits for an answer. The window's thread calls everything, except the stop and the sign
+/// of life, which any thread may give.
 class OperatedDevice {
  public:
   /// `wake`: draws a frame; called from any thread.
@@ -32,27 +32,28 @@ class OperatedDevice {
   OperatedDevice(const OperatedDevice&) = delete;
   OperatedDevice& operator=(const OperatedDevice&) = delete;
 
-  /// Looks at this device. `profile`: its file; "": its own is looked for.
+  /// Looks at this device. `profile` is its profile's file; if "", its own profile is looked
+  /// for.
   void choose(const std::string& device, const std::string& profile);
   void look_again() { choose(device_, profile_); }
-  /// Whether a simulated device asks as a real one would, so that people can rehearse.
+  /// Sets whether a simulated device asks as a real one would, so that people can rehearse.
   void set_rehearsing(bool rehearses) noexcept { rehearses_ = rehearses; }
 
-  // Nothing while other work goes on, or the stop is pressed.
+  // These do nothing while other work goes on, or while the stop is pressed.
   void measure(CommissioningStep step);
   void undo(CommissioningStep step);
   void write_profile();
   void check_daily();
-  /// Along this axis of the workspace, 0 to 2, by half a newton.
+  /// Tries half a newton along this axis of the workspace, 0 to 2.
   void try_force(int axis);
   /// Shows what the device tells until `leave_off`. It has no force meanwhile.
   void watch();
 
-  /// What was asked is done.
+  /// Tells that what was asked for is done.
   void answer();
-  /// Ends what goes on; what was measured is kept.
+  /// Ends the work and keeps what was measured.
   void leave_off();
-  /// Any thread.
+  /// May be called from any thread.
   void press_stop() noexcept;
   void release_stop() noexcept;
   /// The window is alive, and its stop in sight. Without that the force of a real device fades.
@@ -61,7 +62,7 @@ class OperatedDevice {
     if (is_in_sight) watcher_.beat();
   }
 
-  /// A device may move, or waits for an answer.
+  /// True while a device may move, or waits for an answer.
   [[nodiscard]] bool is_live() const noexcept;
   [[nodiscard]] bool works() const noexcept { return work_ && work_->running(); }
   [[nodiscard]] const std::string& device() const noexcept { return device_; }
@@ -87,10 +88,10 @@ class OperatedDevice {
 
   mutable std::mutex mutex_;
   std::condition_variable answered_;
-  DeviceView view_;  ///< As the last look and the work under way have it.
+  DeviceView view_;  ///< As the last look and the work under way have set it.
   bool has_answer_ = false;
   bool leaves_off_ = false;
-  /// Of the press that only ended a step; 0: none.
+  /// The press of the stop that only ended a step; 0 for none.
   std::uint64_t own_press_ = 0;
 
   std::unique_ptr<BackgroundWork> work_;

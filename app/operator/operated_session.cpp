@@ -19,7 +19,7 @@ using namespace experiments;
 
 namespace {
 
-/// What must not wait behind a request that does: the operator has changed their mind.
+/// Requests that must not wait behind others, because the operator has changed their mind.
 bool is_urgent(const OperatorRequest& request) {
   return std::holds_alternative<operate::Pause>(request) ||
          std::holds_alternative<operate::Undo>(request) ||
@@ -97,7 +97,7 @@ OperatedSession::OperatedSession(const Parameters& parameters)
   if (is_stop_remembered(parameters_.stops, row_.device)) {
     parameters_.exchange.emergency_stop.press();
   }
-  // A session goes on in the language that it was begun in.
+  // A session keeps the language in which it began.
   language_ = !state().language.empty()      ? state().language
               : !parameters.language.empty() ? parameters.language
                                              : parameters.study.languages.front();
@@ -175,7 +175,7 @@ void OperatedSession::carry_out_requests() {
     }
     follow_session();
   }
-  // The disk may have given up: leaving is all that is left.
+  // After a failure of the disk, the operator can only leave.
   if (!failure_.empty()) {
     left_ |=
         std::any_of(requests_.begin(), requests_.end(), [](const OperatorRequest& request) {
@@ -255,7 +255,7 @@ bool OperatedSession::must_wait(const OperatorRequest& request) const {
   return false;
 }
 
-/// The medium first: whatever comes after waits for the disk.
+/// Takes the medium away first, because everything after that waits for the disk.
 void OperatedSession::abandon_presentation() {
   running_.apparatus().render(core::free_space());
   running_.apparatus().go_home();
@@ -277,7 +277,8 @@ void OperatedSession::end_feeling(bool counts) {
   presenter_.tell_exposure();
 }
 
-/// What follows of itself: the next stage, the next trial's rest, the end.
+/// Does what follows without a request: the next stage, the rest before the next trial, the
+/// end.
 void OperatedSession::follow_session() {
   if (!begun_ || left_ || !failure_.empty()) return;
   while (!state().ended && !state().paused && known_fault_ == core::Fault::kNone) {
@@ -312,7 +313,8 @@ void OperatedSession::enter_stage() {
 void OperatedSession::rest_before_trial() {
   const std::optional<std::int64_t> trial = state().current_trial();
   if (!trial || state().trial(*trial).under_way || resting_for_trial_ == *trial) return;
-  if (session_.open_question()) return;  // The rest begins when it is answered.
+  // The rest begins when the question is answered.
+  if (session_.open_question()) return;
   resting_for_trial_ = *trial;
   is_ready_told_ = false;
   rest_until_s_ = now_s() + block()->free_space_between_s;
@@ -326,7 +328,7 @@ void OperatedSession::give_up(const std::string& why) {
   try {
     abandon_presentation();
   } catch (const core::Error&) {
-    // No second failure hides the first.
+    // A second failure must not hide the first one.
   }
 }
 
@@ -343,7 +345,7 @@ void OperatedSession::forget_stop() const {
   jnd::app::forget_stop(parameters_.stops, row_.device);
 }
 
-/// Of a device that moves by itself; others take no notice.
+/// Moves a device that moves by itself; others ignore it.
 void OperatedSession::move_simulated_hand(double height_m) {
   running_.apparatus().begin_strokes(
       {.height_m = height_m},

@@ -28,56 +28,61 @@ namespace jnd::app {
 class LiveTrace;
 class ScopeTrace;
 
-/// A session that an operator runs next to a participant: takes requests in their order, moves
-/// the session on and says what it waits for. Every act is on disk before the view tells of it.
-/// One thread; see `SessionWorker` for the one beside a window. Not real time.
+/// A session that an operator runs for a participant. It takes requests in their order, moves
+/// the session on, and says what it waits for. Every act is on disk before the view tells of
+/// it. Only one thread uses it; `SessionWorker` is the thread beside a window. Not real time.
 class OperatedSession {
  public:
   struct Parameters {
     core::StudyStore& store;
-    std::int64_t session = 0;  ///< Its row is in the store already.
+    std::int64_t session = 0;  ///< The store already has the session's row.
     const experiments::Study& study;
-    /// Of the simulated hand; nullptr for a device that needs none.
+    /// The laboratory of the simulated hand; nullptr for a device that needs none.
     const experiments::Laboratory* laboratory = nullptr;
     OperatorExchange& exchange;
-    LiveTrace* trace = nullptr;    ///< Gets every sample, unless levels are hidden.
-    ScopeTrace* scopes = nullptr;  ///< Gets every sample, unless levels are hidden.
-    std::string language;          ///< Of the study's texts; "": its first.
-    /// How the device was fitted, where the session begins; empty: nobody said.
+    /// Gets every sample, unless levels are hidden.
+    LiveTrace* trace = nullptr;
+    /// Gets every sample, unless levels are hidden.
+    ScopeTrace* scopes = nullptr;
+    /// The language of the study's texts; "" for the study's first language.
+    std::string language;
+    /// How the device was fitted when the session begins; empty if nobody said it.
     std::map<std::string, std::string> fitting{};
-    bool realtime = true;  ///< Else time passes only in `advance`: for tests.
+    /// If false, time passes only in `advance`, as tests need it.
+    bool realtime = true;
     bool allow_no_realtime = false;
-    /// Where stops are remembered that nobody released; "": nowhere. See `remember_stop`.
+    /// Where stops are remembered that nobody released; "" for nowhere. See `remember_stop`.
     std::filesystem::path stops;
-    std::vector<device::ScheduledFault> injected_faults;  ///< For tests and rehearsals.
-    WantedStreams streams{};  ///< To and of other recorders, in real time.
-    SoundChoice sound{};      ///< Where the study's sound goes to.
-    WantedMarkers markers{};  ///< To another recorder by pulses, in real time.
-    /// What the participant's controls are called, by their actions; see `operate::UseControl`.
+    /// Faults for tests and rehearsals.
+    std::vector<device::ScheduledFault> injected_faults;
+    WantedStreams streams{};  ///< Streams to and from other recorders, in real time.
+    SoundChoice sound{};      ///< The output of the study's sound.
+    WantedMarkers markers{};  ///< Pulses to another recorder, in real time.
+    /// The names of the participant's controls, by action; see `operate::UseControl`.
     std::map<std::string, std::string> controls{};
-    /// Gets every sample as `trace` does, from the thread that stores it; may be empty.
+    /// Called with every sample by the thread that stores it, as `trace` gets it; may be empty.
     std::function<void(const core::Sample&)> on_sample;
     /// Asks about an unlikely answer before it is stored; see answer_doubts.h.
     bool asks_about_answers = true;
   };
 
-  /// Starts the device; throws `Error` if it cannot be.
+  /// Starts the device. Throws `Error` if it cannot be started.
   explicit OperatedSession(const Parameters& parameters);
 
   void request(OperatorRequest request);
-  /// Carries out what was requested and is due. Without real time, `duration_s` passes first.
+  /// Carries out the requests that are due. Without real time, `duration_s` passes first.
   void advance(double duration_s);
   [[nodiscard]] SessionView view() const;
-  /// The operator has left, the session is over, or nothing more can be stored.
+  /// True if the operator has left, the session is over, or nothing more can be stored.
   [[nodiscard]] bool over() const noexcept { return left_; }
-  /// Something requested has to wait: for a ramp, or the rest before a trial.
+  /// True while a request waits for a ramp, or for the rest before a trial.
   [[nodiscard]] bool has_waiting_requests() const noexcept { return !requests_.empty(); }
   /// After `over`: stores the notes, corrections and adverse events among what was requested
   /// since.
   void keep_what_was_written();
 
  private:
-  struct Act;  ///< One overload for each request.
+  struct Act;  ///< It has one overload for each request.
 
   /// A medium that is being felt outside of any trial.
   struct Feeling {
@@ -85,15 +90,16 @@ class OperatedSession {
     experiments::MediumSetting setting;
   };
 
-  /// An answer that was given and is not stored before somebody has confirmed it.
+  /// An answer that is not stored until somebody has confirmed it.
   struct Doubted {
     operate::Answer answer;
     std::int64_t attempt = 0;
-    double response_time_s = 0.0;  ///< Until it was given, not until it was confirmed.
+    /// Until the answer was given, not until it was confirmed.
+    double response_time_s = 0.0;
     std::vector<AnswerDoubt> doubts;
   };
 
-  /// What a control that was pressed asks for; none where it asks for nothing now.
+  /// What a pressed control asks for now; none if it asks for nothing.
   [[nodiscard]] std::optional<OperatorRequest> meaning_of(const operate::UseControl& use) const;
   /// How long before the end of the loop's newest tick an answer was given; 0 for one that was
   /// given in the window.
@@ -120,7 +126,7 @@ class OperatedSession {
   [[nodiscard]] GivenAnswer given_answer(const experiments::TrialState& trial,
                                          experiments::AnswerKind kind,
                                          const std::optional<double>& value) const;
-  /// What was asked about still waits for what becomes of it.
+  /// True while the operator has not decided about the doubtful answer.
   [[nodiscard]] bool doubt_stands() const;
   [[nodiscard]] std::string doubted_words() const;
   [[nodiscard]] std::optional<DoubtView> doubt_view() const;
@@ -130,19 +136,20 @@ class OperatedSession {
   void forget_stop() const;
   void move_simulated_hand(double height_m);
 
-  /// A stimulus is under way, and not free space in a trial.
+  /// True while a stimulus is under way; free space in a trial is none.
   [[nodiscard]] bool feels_stimulus() const;
-  /// Of the stimulus under way, that it has to be felt yet; 0 where there is none.
-  /// `before_s`: as it was so long before.
+  /// How much longer the stimulus under way has to be felt; 0 if there is none. `before_s` asks
+  /// for the value of so many seconds ago.
   [[nodiscard]] double least_left_s(double before_s = 0.0) const;
-  /// To answer the trial under way; none where no answer can be given yet, or at any time.
+  /// The time that is left to answer the trial under way; none if no answer can be given yet,
+  /// or if there is no deadline.
   [[nodiscard]] std::optional<double> deadline_left_s() const;
-  /// The last stimulus came to its longest time, and nothing has followed.
+  /// True if the last stimulus has reached its longest time, and nothing has followed.
   [[nodiscard]] bool stimulus_is_over() const;
 
   [[nodiscard]] bool is_alone() const { return row_.device == "mouse"; }
   [[nodiscard]] double now_s() const;
-  /// Since this visit began.
+  /// The time since this visit began.
   [[nodiscard]] double visit_s() const { return begun_ ? now_s() - begun_s_ : 0.0; }
   [[nodiscard]] const experiments::SessionState& state() const;
   [[nodiscard]] const experiments::Stage* stage() const;
@@ -171,7 +178,8 @@ class OperatedSession {
   [[nodiscard]] std::vector<AnswerLine> answer_lines() const;
   [[nodiscard]] std::pair<std::string, std::string> labels_of(
       const experiments::Block& block) const;
-  /// As it was given: percent, 1 and 0, the interval chosen; none is "cannot tell".
+  /// The answer in words, as it was given: a percentage, 1 and 0, or the chosen interval; none
+  /// is "cannot tell".
   [[nodiscard]] std::string answer_in_words(const experiments::Block& block,
                                             const std::optional<double>& given) const;
   [[nodiscard]] AnswerForm form_of(const experiments::Block& block) const;
@@ -206,13 +214,15 @@ class OperatedSession {
   double begun_s_ = 0.0;
   double rest_until_s_ = 0.0;
   std::int64_t resting_for_trial_ = 0;
-  bool is_ready_told_ = false;  ///< That the trial can begin, after the rest before it.
+  /// The participant was told that the trial can begin after the rest before it.
+  bool is_ready_told_ = false;
   double break_until_s_ = 0.0;
-  std::optional<double> first_felt_s_;  ///< The trial's reference, or first interval.
-  std::optional<Doubted> doubted_;      ///< See `doubt_stands`.
+  /// For how long the trial's reference, or its first interval, was felt.
+  std::optional<double> first_felt_s_;
+  std::optional<Doubted> doubted_;  ///< See `doubt_stands`.
 };
 
-/// An answer that did not count, for the reason that is stored.
+/// An answer that did not count, in words for the stored reason.
 [[nodiscard]] std::string given_words(const operate::Answer& answer);
 
 }  // namespace jnd::app

@@ -21,17 +21,19 @@ using namespace experiments;
 
 namespace {
 
-constexpr double kTouchingM = -0.005;  ///< Of the surface, for a solid.
-constexpr int kMostFaults = 3;         ///< In one sitting; after them somebody has to look.
+/// The height relative to the surface at which a solid is touched.
+constexpr double kTouchingM = -0.005;
+/// After so many faults in one sitting, somebody has to look at the device.
+constexpr int kMostFaults = 3;
 
 [[noreturn]] void refuse(const std::string& sentence) { throw core::Error(sentence); }
 
-/// Nothing that anybody could read.
+/// True if the words are empty or white space only.
 bool is_blank(const std::string& words) {
   return words.find_first_not_of(" \t\n") == std::string::npos;
 }
 
-/// Where the trial's intervals have an order of their own, what cannot be asked for by name.
+/// Refuses an interval that cannot be asked for now, in trials whose intervals have an order.
 void require_order(const TrialForm& form, const TrialState& trial,
                    const std::string& interval) {
   if (form.order_is_drawn && form.num_intervals > 2 && interval == "third" &&
@@ -56,7 +58,7 @@ void require_order(const TrialForm& form, const TrialState& trial,
 
 }  // namespace
 
-/// What each request does. Throws `Error` for one that is not possible now.
+/// What each request does. Each throws `Error` if it is not possible now.
 struct OperatedSession::Act {
   OperatedSession& my;
 
@@ -113,7 +115,8 @@ struct OperatedSession::Act {
 
   void operator()(const operate::FinishStage& finish) const {
     require_running();
-    if (finish.stage != my.state().stage) return;  // Pressed twice: it is finished.
+    // The button was pressed twice, and the stage is finished.
+    if (finish.stage != my.state().stage) return;
     const Step step = my.step();
     if (step == Step::kBreak) {
       if (my.now_s() < my.break_until_s_) {
@@ -169,7 +172,8 @@ struct OperatedSession::Act {
       response_time_s = since / my.parameters_.study.device.rate_hz;
     }
     response_time_s -= before_s;
-    if (!(response_time_s >= 0.0)) return;  // Pressed before there was anything to answer.
+    // The button was pressed before there was anything to answer.
+    if (!(response_time_s >= 0.0)) return;
     std::vector<AnswerDoubt> doubts =
         my.parameters_.asks_about_answers
             ? doubts_about(my.given_answer(trial, form.answer, answer.value))
@@ -246,7 +250,7 @@ struct OperatedSession::Act {
     my.session_.note(note.text);
   }
 
-  /// At any time, before the first stimulus and after the last.
+  /// May happen at any time, also before the first stimulus and after the last one.
   void operator()(const operate::ReportAdverseEvent& report) const {
     if (is_blank(report.text)) refuse(tr("expected what happened, found no words"));
     my.parameters_.store.add_adverse_event(my.row_.session, core::SystemClock().now_ns(),
@@ -263,7 +267,7 @@ struct OperatedSession::Act {
     my.session_.pause(pause.reason);
   }
 
-  /// Also after a fault has come in between.
+  /// The reason may also come after a fault in between.
   void operator()(const operate::ExplainPause& why) const {
     require_reason(why.reason);
     if (my.state().unexplained_pause == 0 || my.state().ended) {
@@ -347,9 +351,10 @@ struct OperatedSession::Act {
     my.session_.pause(leave.reason.empty() ? as_is("left by the operator") : leave.reason);
   }
 
-  // What happens by itself; as the requests, throws `Error` where that comes to something else.
+  // What happens without a request. Like requests, these throw `Error` if the result is a
+  // different one.
 
-  /// No answer came in time, but `given` too late, if anything.
+  /// No answer came in time; `given` tells of one that came too late, or is "".
   void miss_deadline(const std::string& given) const {
     if (my.presenter_.under_way()) {
       require_ticks(my.presenter_.end(Presenter::Afterwards::kFreeSpace), given);
@@ -358,7 +363,7 @@ struct OperatedSession::Act {
     my.resting_for_trial_ = 0;
   }
 
-  /// The stimulus came to its longest time. The trial goes on in free space.
+  /// The stimulus has reached its longest time. The trial goes on in free space.
   void end_stimulus() const { end_presentation(Presenter::Afterwards::kFreeSpace); }
 
  private:
@@ -374,7 +379,7 @@ struct OperatedSession::Act {
     if (!my.doubt_stands()) refuse(tr("no answer waits to be confirmed"));
   }
 
-  /// With what was felt up to now; the time is until it was given.
+  /// Stores the answer with what was felt until now; the response time ends when it was given.
   void store(const operate::Answer& answer, double response_time_s) const {
     core::AnswerMeasures measures{.response_time_s = response_time_s,
                                   .answered_by = who_gave(answer),
@@ -391,22 +396,22 @@ struct OperatedSession::Act {
     my.session_.answer(answer.value, measures, felt.last_tick);
   }
 
-  /// The window is the experimenter's, but where somebody is alone with it; a control is whose
-  /// the study says.
+  /// The window belongs to the experimenter, unless the participant is alone with it. The study
+  /// says whose a control is.
   [[nodiscard]] std::string who_gave(const operate::Answer& answer) const {
     const bool is_theirs = !answer.control.empty() && my.block()->participant_answers;
     return my.is_alone() || is_theirs ? as_is("participant") : as_is("experimenter");
   }
 
-  /// Nobody goes on from a stimulus that was not felt for as long as the study asks.
-  /// `before_s`: so long ago somebody wanted to.
+  /// Refuses to go on from a stimulus that was not felt for as long as the study asks.
+  /// `before_s` says how long ago somebody wanted to go on.
   void require_felt(double before_s = 0.0) const {
     if (const double left_s = my.least_left_s(before_s); left_s > 0.0) {
       refuse(tr("it has to be felt for {:.1f} s more", left_s));
     }
   }
 
-  /// The deadline has passed, and nobody has seen it yet.
+  /// Refuses an answer after the deadline, which nobody may have noticed yet.
   void require_in_time(const std::string& given = "", double before_s = 0.0) const {
     if (my.deadline_left_s().value_or(1.0) + before_s > 0.0) return;
     miss_deadline(given);
@@ -420,8 +425,8 @@ struct OperatedSession::Act {
     }
   }
 
-  /// Where the study says that nobody takes part without it. A session that is only to be ended
-  /// needs none.
+  /// Refuses to go on without sound if the study says that nobody takes part without it. A
+  /// session that is only to be ended needs none.
   void require_sound(const std::string& choice) const {
     SessionSound* sound = my.running_.sound();
     if (sound == nullptr || choice == "end") return;
@@ -446,7 +451,7 @@ struct OperatedSession::Act {
     my.resting_for_trial_ = 0;
   }
 
-  /// Every point that has ever held, so that none is forgotten between two trials.
+  /// Requires every point that has ever held, so that none is forgotten between two trials.
   void require_held() const {
     const std::uint8_t loose = my.loose_bits();
     if (loose == 0) return;
@@ -464,8 +469,8 @@ struct OperatedSession::Act {
     if (is_blank(reason)) refuse(tr("expected a reason, found none"));
   }
 
-  /// The trial that the operator saw must still be the one that waits: a key pressed twice
-  /// does not reach into the next.
+  /// Requires that the trial that the operator saw is still the one that waits, so that a key
+  /// pressed twice does not reach the next trial.
   const TrialState& require_trial(std::int64_t number) const {
     require_running();
     const std::optional<std::int64_t> current = my.state().current_trial();
@@ -489,8 +494,8 @@ struct OperatedSession::Act {
     if (was_first) my.first_felt_s_ = felt.duration_s;
   }
 
-  /// What was felt while the loop was held up for too long counts for nothing: the trial comes
-  /// again later. An answer that was given to it is kept in the reason.
+  /// If the loop was held up for too long, what was felt does not count, and the trial comes
+  /// again later. The stored reason keeps an answer that was given to it.
   void require_ticks(const Presenter::Felt& felt, const std::string& answer = "") const {
     const std::string reason = my.presenter_.missed_reason(felt);
     if (reason.empty()) return;
@@ -509,10 +514,10 @@ void OperatedSession::carry_out(const OperatorRequest& request) {
   std::visit(Act{*this}, request);
 }
 
-/// What a stimulus' longest time and the deadline of an answer end, without anybody's asking.
+/// Ends a stimulus at its longest time and an attempt at its deadline, without a request.
 void OperatedSession::watch_times() {
   if (!failure_.empty() || left_ || !begun_ || state().paused || block() == nullptr) return;
-  // An answer that is asked about came in time.
+  // An answer that the operator is asked about came in time.
   const bool is_late = !doubt_stands() && deadline_left_s().value_or(1.0) <= 0.0;
   const std::optional<double>& longest_s = block()->max_stimulus_s;
   const bool is_long = longest_s && presenter_.under_way() && feels_stimulus() &&

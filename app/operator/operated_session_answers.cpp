@@ -1,7 +1,7 @@
 #include "app/operator/answer_forms.h"
 #include "app/operator/operated_session.h"
 
-// What the answers of a block can be, and how they are told.
+// What the answers of a block can be, and their words.
 
 namespace jnd::app {
 

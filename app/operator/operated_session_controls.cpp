@@ -5,7 +5,7 @@
 #include "experiments/procedures/procedure.h"
 #include "experiments/session/trial_course.h"
 
-// What a pedal or a button that is pressed asks of a session.
+// What a pressed pedal or button asks of a session.
 
 namespace jnd::app {
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr char kStepAction[] = "step_";
 
-/// The interval that comes next where nobody chooses: the first that was not felt yet.
+/// The interval that comes next without a choice: the first that was not felt yet.
 std::string interval_after(const TrialForm& form, const TrialState& trial) {
   if (!trial.under_way) return first_interval(form);
   if (form.order_is_drawn) return next_interval(form, trial);
@@ -23,7 +23,8 @@ std::string interval_after(const TrialForm& form, const TrialState& trial) {
   return felt(trial, "test") ? "" : "test";
 }
 
-/// The value of the answer that the action gives; none where it gives none of this kind.
+/// The value of the answer that an action gives; none if the action gives no answer of this
+/// kind.
 std::optional<double> value_of(const std::string& action, AnswerKind kind) {
   if (kind == AnswerKind::kYesNo) {
     if (action == "yes" || action == "first") return 1.0;
@@ -78,7 +79,7 @@ std::optional<OperatorRequest> OperatedSession::meaning_of(
 
 double OperatedSession::given_before_s(const operate::Answer& answer) const {
   const core::Sample& newest = running_.apparatus().telemetry().sample;
-  // In simulated time ticks have none of the clock by which controls are pressed.
+  // In simulated time, ticks have no time of the clock by which presses are timed.
   if (answer.pressed_ns == 0 || newest.monotonic_ns == 0) return 0.0;
   const double tick_s = 1.0 / parameters_.study.device.rate_hz;
   return tick_s + 1e-9 * static_cast<double>(newest.monotonic_ns - answer.pressed_ns);

@@ -4,13 +4,15 @@
 #include "app/operator/given_answer.h"
 #include "app/operator/operated_session.h"
 
-// Answers that are asked about before they are stored, and what is said beside them afterwards.
+// Answers that the operator is asked about before they are stored, and what is said about them
+// afterwards.
 
 namespace jnd::app {
 
 using namespace experiments;
 
-/// Of an answer to the trial under way, now, or of the one that it has.
+/// The circumstances of an answer that is given now to the trial under way, or of the answer
+/// that the trial has.
 GivenAnswer OperatedSession::given_answer(const TrialState& trial, AnswerKind kind,
                                           const std::optional<double>& value) const {
   const AnswerGiven given{
@@ -32,8 +34,8 @@ bool OperatedSession::doubt_stands() const {
          state().trial(*trial).attempt == doubted_->attempt;
 }
 
-/// What was given and is not stored, for the reason why the attempt is given up; "" for
-/// nothing.
+/// An answer that was given but not stored, for the reason why the attempt is given up; "" if
+/// there is none.
 std::string OperatedSession::doubted_words() const {
   return doubt_stands() ? given_words(doubted_->answer) : "";
 }
@@ -49,7 +51,7 @@ std::optional<DoubtView> OperatedSession::doubt_view() const {
       .sentence = tr("The answer is {}: {}.", words, shown_doubts(doubted_->doubts))};
 }
 
-/// What became of an answer that was asked about, for the log.
+/// What happened to a doubtful answer, in words of the log.
 std::string OperatedSession::note_of_doubt(const char* outcome) const {
   const operate::Answer& answer = doubted_->answer;
   const bool is_match = session_.current_form().answer == AnswerKind::kMatch;

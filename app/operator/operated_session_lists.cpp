@@ -13,8 +13,8 @@
 #include "experiments/procedures/procedure_registry.h"
 #include "experiments/procedures/task.h"
 
-// What a view of a session counts and lists. The blocks of a group are one here: whose turn it
-// is would tell which stimulus comes.
+// What the view of a session counts and lists. The blocks of a group count as one block here,
+// because the block whose turn it is would tell which stimulus comes.
 
 namespace jnd::app {
 
@@ -41,8 +41,8 @@ Text instruction_of(const Stage& stage) {
 
 }  // namespace
 
-/// What is said at the begin of the current stage; of a group what is said of each of its
-/// blocks, each text once.
+/// What is said at the beginning of the current stage. For a group, it is what is said about
+/// each of its blocks, with each text once.
 std::string OperatedSession::instructions() const {
   std::vector<std::string> told;
   for (const std::int64_t index : session_.current_stages()) {
@@ -57,7 +57,7 @@ std::string OperatedSession::instructions() const {
   return all;
 }
 
-/// What the procedures of the stage under way say of its answers; "" for nothing.
+/// What the procedures of the current stage say about its answers; "" for nothing.
 std::string OperatedSession::cautions() const {
   std::string all;
   for (const std::int64_t index : session_.current_stages()) {
@@ -70,7 +70,7 @@ std::string OperatedSession::cautions() const {
   return all;
 }
 
-/// Which trial it is, and of how many.
+/// Sets the number of the trial, and the number of all trials.
 void OperatedSession::count_trials(TrialView& view) const {
   view.num_in_block = 0;
   view.in_block = 1;
@@ -80,11 +80,11 @@ void OperatedSession::count_trials(TrialView& view) const {
     for (const TrialState& trial : state().trials) {
       if (trial.stage != index || trial.is_void) continue;
       ++num;
-      // Blocks of a group have repetitions each of its own.
+      // The blocks of a group have repetitions of their own.
       if (!is_group) {
         view.num_repetitions = std::max(view.num_repetitions, trial.planned.repetition);
       }
-      // By what was answered: a trial that was put off comes later than its number.
+      // Counts answers, because a trial that was put off comes later than its number says.
       if (trial.is_answered) ++view.in_block;
     }
     const auto& its =
@@ -97,7 +97,7 @@ void OperatedSession::count_trials(TrialView& view) const {
   }
 }
 
-/// Of the stages that are run with this one.
+/// The first of the stages that are run together with this one.
 std::size_t OperatedSession::first_together(std::size_t stage) const {
   std::size_t first = 0;
   while (first + num_run_together(session_.stages(), first) <= stage) {
@@ -106,8 +106,8 @@ std::size_t OperatedSession::first_together(std::size_t stage) const {
   return first;
 }
 
-/// Indices of all trials, stage by stage as they were drawn; those of a group as they were
-/// answered, the others of it behind.
+/// The indices of all trials, stage by stage in the order in which they were drawn. Trials of a
+/// group are in the order of their answers, followed by those without an answer.
 std::vector<std::size_t> OperatedSession::trials_in_order() const {
   constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
   std::vector<std::pair<std::pair<std::size_t, std::int64_t>, std::size_t>> places;
@@ -129,10 +129,11 @@ std::vector<std::size_t> OperatedSession::trials_in_order() const {
 std::vector<AnswerLine> OperatedSession::answer_lines() const {
   std::vector<AnswerLine> lines;
   const std::optional<std::int64_t> last = state().last_answered_trial();
-  std::map<std::size_t, int> in_block;  // By the stage, or the first one of its group.
+  std::map<std::size_t, int> in_block;  // By the stage, or by the first stage of its group.
   for (const std::size_t i : trials_in_order()) {
     const TrialState& trial = state().trials[i];
-    if (trial.is_void) continue;  // It was never run.
+    // The trial was never run.
+    if (trial.is_void) continue;
     const auto its_stage = static_cast<std::size_t>(trial.stage);
     const int number = ++in_block[first_together(its_stage)];
     if (!trial.is_answered) continue;

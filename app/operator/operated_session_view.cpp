@@ -44,7 +44,7 @@ std::string OperatedSession::title_of(std::size_t stage) const {
   return shown_titles(session_.stages(), language_, hides_levels_).at(stage);
 }
 
-/// The medium of an exploring stage that waits, or of the post-experiment item that does.
+/// The medium that waits in an exploring stage, a training, or a post-experiment item.
 std::optional<Exploration> OperatedSession::next_medium() const {
   if (stage() == nullptr || !state().stage_open) return std::nullopt;
   const auto next = static_cast<std::size_t>(state().num_explored);
@@ -302,7 +302,7 @@ void OperatedSession::describe_loop(SessionView& view) const {
         presses || (feeling_ && experiments::is_pressed(feeling_->setting.medium));
     return;
   }
-  // Speed and force tell the level; within the limits or not is all that may be known.
+  // Speed and force tell the level. All that may be known is whether they are within limits.
   view.telemetry.total_force_n = {};
   view.telemetry.hand_velocity_m_per_s = {};
   view.telemetry.sample.tip_force_n = {};
@@ -342,7 +342,8 @@ SessionView OperatedSession::view() const {
     }
   }
   if (!state().ended && block() != nullptr && state().stage_open) {
-    // Told before a question it would decide how sure somebody says to have been.
+    // If it were told before a question, it would influence how sure the participant says to
+    // have been.
     if (!session_.open_question()) view.feedback_right = state().feedback_right;
     view.missed_deadline = state().missed_deadline;
     if (block()->practice && !view.trial) {

@@ -21,15 +21,15 @@ void OperatedSession::watch_apparatus() {
   watch_for_loose_points();
 }
 
-/// With the device or this machine: not a person who stopped, a switch that was opened, or a
-/// link that has to become good first.
+/// True for faults of the device or of this machine. A person who stops, an open switch, or a
+/// link that has to become good first are no such faults.
 static bool says_something_is_wrong(core::Fault fault) noexcept {
   return core::is_failure(fault) && fault != core::Fault::kEmergencyStop &&
          fault != core::Fault::kNotEnabled && fault != core::Fault::kLinkLost;
 }
 
-/// A fault is stored as soon as it is seen; the attempt it hit counts for nothing. The next one
-/// may latch before anybody has seen that the last was over.
+/// Stores a fault as soon as it is seen, and gives up the attempt that it hit. The next fault
+/// may latch before anybody has seen that the last one was over.
 void OperatedSession::watch_for_faults() {
   const core::Telemetry now = running_.apparatus().telemetry();
   if (now.fault == core::Fault::kNone) return arming_succeeded();
@@ -52,7 +52,7 @@ void OperatedSession::watch_for_faults() {
   running_.keep_timing();
 }
 
-/// The session goes on by itself only from what the fault alone had stopped.
+/// The session goes on by itself only if nothing but the fault had stopped it.
 void OperatedSession::arming_succeeded() {
   if (known_fault_ == core::Fault::kNone || !rearming_) return;
   known_fault_ = core::Fault::kNone;
@@ -66,8 +66,8 @@ std::uint8_t OperatedSession::loose_bits() const {
   return attachment_.loose_bits(running_.apparatus().telemetry());
 }
 
-/// A point that comes off while something is felt: that counts for nothing, and nothing goes on
-/// before the operator says so, even if the point holds again.
+/// When a point comes off while something is felt, that does not count, and nothing goes on
+/// until the operator says so, even if the point holds again.
 void OperatedSession::watch_for_loose_points() {
   if (known_fault_ != core::Fault::kNone || !failure_.empty()) return;
   if (!presenter_.under_way() && !feeling_) return;
@@ -84,8 +84,8 @@ void OperatedSession::watch_for_loose_points() {
   running_.apparatus().put_fingers_back();
 }
 
-/// The noise of the block, the cue that a trial can begin, and what there is to store of both,
-/// which waits until nothing is felt.
+/// Plays the block's noise and the cue that a trial can begin. What has to be stored of them
+/// waits until nothing is felt.
 void OperatedSession::watch_sound() {
   SessionSound* sound = running_.sound();
   if (sound == nullptr || !begun_ || state().ended || !failure_.empty() || left_) return;

@@ -9,64 +9,70 @@
 
 namespace jnd::app {
 
-/// What the operator asks of a session. A view returns them, the session carries them out in
-/// their order; one that is not possible any more is refused with a sentence, never half done.
+/// What the operator asks of a session. A view returns requests, and the session carries them
+/// out in their order. One that is no longer possible is refused with a sentence, and never
+/// carried out by half.
 namespace operate {
 
-/// Starts the session, or goes on after an interruption: "repeat", "restart" or "end".
+/// Starts the session, or resumes it after an interruption: "repeat", "restart" or "end".
 struct Begin {
   std::string choice = "repeat";
 };
 
-/// Ticks the item, gives the consent, answers the question. `item` is what the view showed, so
-/// that a key pressed twice does not answer the next one, too.
+/// Ticks the item, gives the consent, or answers the question. `item` is what the view showed,
+/// so that a key pressed twice does not answer the next item, too.
 struct AnswerItem {
   std::int64_t stage = 0;
   std::string item;
   std::string answer;
-  std::int64_t trial = 0;  ///< Of a question that follows a trial's answer; else 0.
+  /// For a question that follows a trial's answer, the trial; otherwise 0.
+  std::int64_t trial = 0;
 };
 
-/// Explore, training, post-experiment: feel the medium that waits, or end feeling it.
+/// Begins or ends feeling the medium that waits, in an exploring stage, a training or a
+/// post-experiment item.
 struct FeelMedium {};
 struct FinishMedium {};
 
-/// Leaves the stage when everything in it is done; a break earlier than its rest with a reason.
+/// Leaves the stage when everything in it is done. Leaving a break before its rest is over
+/// needs a reason.
 struct FinishStage {
   std::int64_t stage = 0;
   std::string reason;
 };
 
-/// The medium switched: "reference", "test" or "free_space"; "first" or "second" where the
-/// order is drawn.
+/// Switches the medium: "reference", "test" or "free_space"; "first", "second" or "third" where
+/// the order is drawn.
 struct Present {
   std::int64_t trial = 0;
   std::string interval;
 };
 
-/// Percent, 1 and 0, or the interval that was chosen. In a production `value` is ignored: it
-/// matches. None is "cannot tell".
+/// Answers by a percentage, by 1 or 0, or by the chosen interval. In a production, `value` is
+/// ignored, and the answer means that it matches. No value means "cannot tell".
 struct Answer {
   std::int64_t trial = 0;
   std::optional<double> value = 0.0;
-  std::string control{};        ///< That it was given by; "": in the window.
-  std::int64_t pressed_ns = 0;  ///< When, of CLOCK_MONOTONIC; 0: in the window, so now.
+  std::string control{};  ///< The control that gave it; "" for the window.
+  /// When it was pressed, by CLOCK_MONOTONIC; 0 for the window, which means now.
+  std::int64_t pressed_ns = 0;
 };
 
-/// A mapped pedal or button was pressed. What it means follows from what the session waits for
-/// then; nothing where that is something else.
+/// A mapped pedal or button was pressed. Its meaning depends on what the session waits for; it
+/// may mean nothing.
 struct UseControl {
   std::string action;  ///< One of `core::kControlActions`.
   std::string control;
-  std::int64_t pressed_ns = 0;  ///< Of CLOCK_MONOTONIC, as the kernel has it.
+  /// When it was pressed, by CLOCK_MONOTONIC, as the kernel says it.
+  std::int64_t pressed_ns = 0;
 };
 
-/// Of an answer that was asked about (`SessionView::doubt`): it is stored as it was given, with
-/// the time that it took.
+/// Confirms an answer that was asked about (`SessionView::doubt`). It is stored as it was
+/// given, with the time that it took.
 struct StoreDoubted {
   std::int64_t trial = 0;
 };
-/// It was none: the trial goes on.
+/// Takes back an answer that was asked about; the trial goes on.
 struct GoBack {
   std::int64_t trial = 0;
 };
@@ -75,33 +81,34 @@ struct Adjust {
   std::int64_t trial = 0;
   experiments::Direction direction = experiments::Direction::kRaise;
   experiments::StepSize size = experiments::StepSize::kCoarse;
-  bool held = false;  ///< A held key goes on: left out while the step before is not done yet.
+  /// The key is held down; such a step is skipped while the one before it is not done.
+  bool held = false;
 };
 
-/// Takes the last answer of the block back; its trial is run again.
+/// Undoes the last answer of the block; its trial is run again.
 struct Undo {
   std::string reason;
 };
-/// The same for any answer of the block under way whose loss decides nothing about the others,
-/// and for the last one.
+/// Does the same with the last answer, or with any other of the block under way whose loss
+/// changes nothing about the rest.
 struct RunAgain {
   std::int64_t trial = 0;
   std::string reason;
 };
-/// Sets an answer of any block right, its presentations untouched.
+/// Corrects an answer of any block and leaves its presentations as they are.
 struct Correct {
   std::int64_t trial = 0;
-  std::optional<double> value = 0.0;  ///< None: "cannot tell".
+  std::optional<double> value = 0.0;  ///< No value means "cannot tell".
   std::string reason;
 };
 struct AddNote {
   std::string text;
 };
-/// Kept for good, also if the person withdraws.
+/// The report is kept forever, even if the person withdraws.
 struct ReportAdverseEvent {
   std::string text;
 };
-/// Holds at once; why may be said afterwards.
+/// Pauses at once; the reason may follow later.
 struct Pause {
   std::string reason;
 };
@@ -109,14 +116,14 @@ struct ExplainPause {
   std::string reason;
 };
 struct GoOn {};
-/// Points that came off are left off, as for a sore finger: stored as a note, and nobody waits
-/// for them any more. Goes on after a pause.
+/// Points that came off remain off, as for a sore finger. A note about it is stored, and nobody
+/// waits for these points any more. The session goes on after a pause.
 struct GoOnWithout {
-  std::uint8_t point_bits = 0;  ///< All that the operator saw to be loose.
+  std::uint8_t point_bits = 0;  ///< All points that the operator saw to be loose.
   std::string reason;
 };
-/// The emergency stop is released, and there is no force yet: `Rearm` is an act of its own.
-/// Nothing of it if the stop was pressed again since `num_stop_presses` was seen.
+/// Releases the emergency stop. There is no force yet, because `Rearm` is a separate act. Does
+/// nothing if the stop was pressed again since `num_stop_presses` was seen.
 struct ReleaseStop {
   std::uint64_t num_stop_presses = 0;
 };
@@ -130,7 +137,7 @@ struct Rearm {
 struct EndEarly {
   std::string reason;
 };
-/// The session stays open and can be resumed; force to zero.
+/// Takes the force away and leaves the session, which stays open and can be resumed.
 struct Leave {
   std::string reason;
 };

@@ -43,7 +43,8 @@ void remember_screen(const fs::path& folder, const ScreenChoice& choice) {
   const bool is_beside = choice.where == ScreenChoice::Where::kWindow;
   if (!is_beside && !is_name_of_monitor(choice.monitor)) return;
   fs::create_directories(folder, ignored);
-  // Beside the old one, then in its place: a reader finds the one or the other.
+  // The new file is written beside the old one and then replaces it, so a reader finds one or
+  // the other.
   const fs::path fresh = file_of_screen(folder).string() + "." + std::to_string(::getpid());
   std::ofstream stream(fresh, std::ios::trunc);
   stream << (is_beside ? kBesideWord : kMonitorWord + choice.monitor) << '\n';

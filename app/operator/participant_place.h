@@ -9,8 +9,8 @@ namespace jnd::app {
 
 /// A monitor that is plugged in.
 struct Monitor {
-  std::string name;        ///< As the system calls it: "HDMI-1".
-  int x_px = 0, y_px = 0;  ///< Of its left upper corner on the whole screen.
+  std::string name;        ///< The system's name for it, such as "HDMI-1".
+  int x_px = 0, y_px = 0;  ///< Its upper left corner on the whole screen.
   int width_px = 0, height_px = 0;
   bool has_window = false;  ///< The experimenter's window is on it.
 
@@ -21,8 +21,8 @@ struct Monitor {
 struct ScreenChoice {
   enum class Where {
     kOff,
-    kMonitor,  ///< Fills the monitor of this name.
-    kWindow,   ///< A window beside the experimenter's.
+    kMonitor,  ///< It fills the monitor of this name.
+    kWindow,   ///< It is a window beside the experimenter's.
   };
   Where where = Where::kOff;
   std::string monitor;
@@ -30,28 +30,30 @@ struct ScreenChoice {
   friend bool operator==(const ScreenChoice&, const ScreenChoice&) = default;
 };
 
-/// Keeps the choice for the next start of the program on this machine, as one line in a file of
-/// this folder. Where the folder is "", or cannot be written, nothing is kept. Not real time.
+/// Stores the choice for the next start of the program on this machine, as one line in a file
+/// of this folder. If the folder is "" or cannot be written, nothing is stored. Not real time.
 void remember_screen(const std::filesystem::path& folder, const ScreenChoice& choice);
-/// Off where nothing was chosen, or where the file holds anything else.
+/// `kOff` if nothing was chosen, or if the file contains anything else.
 [[nodiscard]] ScreenChoice remembered_screen(const std::filesystem::path& folder);
 
-/// Where it can stand now.
+/// Where the participant's screen can be now.
 struct ScreenPlace {
-  /// On a monitor, or, where `monitor` is "", beside; not at all: `nowhere`.
+  /// If false, it is on `monitor`; if that is "", it is beside the experimenter's window.
   bool nowhere = true;
   std::string monitor;
-  std::string problem;  ///< Why it is not where it was wanted, in a sentence; "" for nothing.
+  /// Why it is not where it was wanted, in a sentence; "" if it is.
+  std::string problem;
 };
 
-/// It never lies over the experimenter's window: a monitor that this is on is not used, even if
-/// it was chosen. A monitor that is not plugged in is waited for.
+/// Finds the place for a choice. The screen never covers the experimenter's window: a monitor
+/// with that window is not used, even if it was chosen. A monitor that is not plugged in is
+/// waited for.
 [[nodiscard]] ScreenPlace place_of_screen(const ScreenChoice& choice,
                                           const std::vector<Monitor>& monitors);
 
-/// What can be chosen: off, each other monitor, and, where there is none, a window beside. A
-/// choice that stands but cannot be had now is among them. `label`: "HDMI-1", `kind`:
-/// "1920 × 1080", for people.
+/// A place that can be chosen: off, each other monitor, or, if there is none, a window beside
+/// ours. The present choice is among the options even if it is not available now. `label` and
+/// `kind` are for people, such as "HDMI-1" and "1920 × 1080".
 struct ScreenOption {
   ScreenChoice choice;
   std::string label, kind;
@@ -59,8 +61,8 @@ struct ScreenOption {
 [[nodiscard]] std::vector<ScreenOption> screen_options(const ScreenChoice& choice,
                                                        const std::vector<Monitor>& monitors);
 
-/// Lines of "NAME X Y WIDTH HEIGHT", pixels: the monitors that a test, or a screen that is cut
-/// into several, tells in place of the system's. What is no such line is left out.
+/// Reads lines of "NAME X Y WIDTH HEIGHT" in pixels. They replace the system's monitors for a
+/// test, or for a screen that is cut into several. Other lines are ignored.
 [[nodiscard]] std::vector<Monitor> told_monitors(const std::filesystem::path& file);
 
 }  // namespace jnd::app

@@ -20,7 +20,7 @@ using Word = ParticipantWord;
 constexpr std::size_t kNumParticipantWords = static_cast<std::size_t>(Word::kGoOn) + 1;
 using ParticipantWords = std::array<const char*, kNumParticipantWords>;
 
-// In the order of `ParticipantWord`.
+// The words are in the order of `ParticipantWord`.
 constexpr ParticipantWords kInEnglish = {
     as_is("Pause. Rest your hand."),
     as_is("One moment, please."),
@@ -74,7 +74,7 @@ constexpr ParticipantWords kInGerman = {
     as_is("Weiter"),
 };
 
-/// "1:23"; a second that has begun counts.
+/// Minutes and seconds, such as "1:23"; a second that has begun counts.
 std::string countdown_words(double seconds) {
   const long whole = std::lround(std::ceil(std::clamp(seconds, 0.0, 359999.0)));
   char text[32];
@@ -119,7 +119,8 @@ class ScreenWriter {
   [[nodiscard]] std::string word(Word which) const {
     return participant_word(which, view_.language);
   }
-  /// Where the study has no words for it, the label is in the language of the window.
+  /// If the study has no words for a label, it is in the window's language and has to be
+  /// replaced.
   [[nodiscard]] std::string label_of(
       const std::string& label,
       std::initializer_list<std::pair<const char*, Word>> words_of_the_window) const {

@@ -8,7 +8,7 @@
 
 namespace jnd::app {
 
-/// What the participant's screen says of itself; studies bring the rest.
+/// The words that the program itself shows on the participant's screen; studies bring the rest.
 enum class ParticipantWord {
   kPause,
   kWait,
@@ -36,35 +36,39 @@ enum class ParticipantWord {
   kGoOn,
 };
 
-/// In the language of the session ("de"); in English where the program has no words of it.
+/// The words in the session's language, such as "de"; in English if the program lacks that
+/// language.
 [[nodiscard]] std::string participant_word(ParticipantWord word, const std::string& language);
 
-/// Everything that may stand on the participant's screen. The screen is drawn from this and
-/// from nothing else, so what is not in here cannot be seen on it: no level, no name of a block
-/// or a condition, no force, no hint about an answer.
+/// Everything that may appear on the participant's screen. The screen is drawn from this alone,
+/// so what is not in here cannot be seen on it: no level, no name of a block or a condition, no
+/// force, no hint about an answer.
 struct ParticipantScreen {
   HandSign sign = HandSign::kNone;
-  std::string text;                     ///< Instruction, question, or what to wait for.
-  std::vector<std::string> paragraphs;  ///< Of a consent.
-  std::string agree, agreement;  ///< "You agree to this:", and the sentence that is agreed to.
-  /// What can be answered, and which control of theirs does it ("press FootSwitch: B"); "" for
-  /// none.
+  /// An instruction, a question, or what to wait for.
+  std::string text;
+  std::vector<std::string> paragraphs;  ///< The text of a consent.
+  /// "You agree to this:", and the sentence that is agreed to.
+  std::string agree, agreement;
+  /// A possible answer, and which of the participant's controls gives it ("press FootSwitch:
+  /// B"); "" if none does.
   struct Choice {
     std::string label, control;
   };
   std::vector<Choice> choices;
-  int num_steps = 0;  ///< Of a scale; 0 for none.
+  int num_steps = 0;  ///< The steps of a scale; 0 for none.
   std::string low_label, high_label;
-  std::string range;  ///< Of a number that is asked for: "1 – 2.5 m".
-  /// The number that they said, as far as the experimenter has typed it, with its unit, and
-  /// "You said" before it; both "" for none.
+  /// The range of a number that is asked for, such as "1 – 2.5 m".
+  std::string range;
+  /// The number that the participant said, as far as the experimenter has typed it, with its
+  /// unit, and "You said" before it; both are "" if there is none.
   std::string you_said, said;
-  std::string countdown;  ///< Of a break: "1:23"; "" for none.
-  std::string page;       ///< "Page {} of {}", for what has more than one.
+  std::string countdown;  ///< The rest of a break, such as "1:23"; "" for none.
+  std::string page;       ///< "Page {} of {}", for a text of several pages.
   double done_ratio = 0.0;
 };
 
-/// `typed`: what the experimenter is typing as the answer; "" for nothing.
+/// `typed` is what the experimenter is typing as the answer; "" for nothing.
 [[nodiscard]] ParticipantScreen participant_screen(const SessionView& view,
                                                    std::string_view typed);
 

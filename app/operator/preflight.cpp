@@ -31,7 +31,7 @@ enum Place : std::size_t {
   kLoop,
 };
 
-/// A lack of this machine is one of the session only where somebody can be hurt.
+/// What this machine lacks fails the check only if somebody can be hurt (`must`).
 PreflightLine line_of(const MachineCheck& check, const std::string& name, bool must) {
   PreflightLine line{.name = name, .found = check.ok ? tr("granted") : tr("refused")};
   line.status = check.ok ? Status::kOk : (must ? Status::kFailed : Status::kWarning);
@@ -39,7 +39,7 @@ PreflightLine line_of(const MachineCheck& check, const std::string& name, bool m
   return line;
 }
 
-/// Goes through everything, telling of each line as it comes.
+/// Goes through everything, and tells of each line as soon as it is known.
 class Look {
  public:
   Look(const PreflightRequest& request, WorkControl& control,
@@ -88,7 +88,8 @@ class Look {
       rate_hz_ = study_->device.rate_hz;
       hides_levels_ = study_->blinding == experiments::Blinding::kDouble && !store.unblinded();
     } catch (const core::Error&) {
-      study_.reset();  // Its line says so.
+      // The line of the study file tells what is wrong.
+      study_.reset();
     }
   }
 
@@ -159,14 +160,15 @@ class Look {
     });
   }
 
-  static constexpr double kQuickRatio = 0.2;  ///< The loop's test takes the rest of the time.
+  /// The loop's test takes the rest of the time.
+  static constexpr double kQuickRatio = 0.2;
 
   const PreflightRequest& request_;
   WorkControl& control_;
   const std::function<void(const std::vector<PreflightLine>&)>& on_lines_;
   std::vector<PreflightLine> lines_;
   std::optional<experiments::Study> study_;
-  std::optional<KnownProfile> profile_;  ///< Of the device.
+  std::optional<KnownProfile> profile_;  ///< What was measured of the device.
   double rate_hz_ = 1000.0;
   bool hides_levels_ = true;
 };

@@ -27,7 +27,7 @@ namespace {
 
 using Status = PreflightLine::Status;
 
-/// Recordings stay below this for the simulated hand, and keep room for others.
+/// Recordings of the simulated hand take less than this; the rest is room for other devices.
 constexpr double kBytesPerSample = 15.0;
 
 std::string size_words(double bytes) {
@@ -36,7 +36,7 @@ std::string size_words(double bytes) {
   return fmt::format("{:.0f} MB", bytes / 1e6);
 }
 
-/// Two digits of a count, rounded down: "about 940 sessions".
+/// A count with two digits, rounded down: "about 940 sessions".
 std::string about_sessions(double count) {
   if (count < 1.0) return tr("less than a session");
   if (count >= 10'000.0) return tr("more than 10000 sessions");
@@ -117,7 +117,8 @@ PreflightLine folder_line(const std::filesystem::path& folder) {
 }
 
 PreflightLine disk_line(double free_bytes, double rate_hz, double session_s) {
-  constexpr double kOtherwise_bytes = 1e6;  // Events, and the pages of the database.
+  // Events, and the pages of the database.
+  constexpr double kOtherwise_bytes = 1e6;
   constexpr double kFewSessions = 10.0;
   const double sessions =
       free_bytes / (rate_hz * session_s * kBytesPerSample + kOtherwise_bytes);
@@ -141,7 +142,8 @@ PreflightLine device_line(const std::string& device, double rate_hz, int min_con
                           min_contact_points),
               .remedy = tr("choose another device")};
     }
-    // The motors of a real one turn on only after the check for real time: in the loop's test.
+    // The motors of a real device turn on only after the check for real time, in the loop's
+    // test.
     if (!can.simulated) return {.name = name, .status = Status::kOk, .found = device};
     made->open();
     made->close();
@@ -191,7 +193,7 @@ PreflightLine stimuli_line(const std::vector<experiments::RangeEntry>& range,
   return line;
 }
 
-/// What loss and delay of the way to the device will cost in a session.
+/// Judges what loss and delay on the way to the device will cost in a session.
 static void judge_link(const device::LinkReport& link, PreflightLine& line) {
   line.found += tr("; link {}: {:.1f} % lost, {:.1f} ms there and back", link.level,
                    100.0 * link.lost_ratio, 1e3 * link.round_trip_s);

@@ -21,7 +21,7 @@ using nlohmann::json;
 
 fs::path as_kept(const fs::path& path) {
   fs::path whole = fs::absolute(path).lexically_normal();
-  // "a.study/" is "a.study".
+  // "a.study/" is the same as "a.study".
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
@@ -36,7 +36,7 @@ std::optional<RecentStudy> from_json(const json& entry) {
   return study;
 }
 
-/// Nothing for a path that JSON cannot hold.
+/// None if JSON cannot represent a path.
 std::optional<std::string> text_of(const std::vector<RecentStudy>& studies) try {
   json list = json::array();
   for (const RecentStudy& study : studies) {
@@ -90,7 +90,8 @@ void RecentStudies::remove(const fs::path& path) const {
   if (removed > 0) write(studies);
 }
 
-/// Beside the old one, then in its place: a reader finds the one or the other.
+/// The new file is written beside the old one and then replaces it, so a reader finds one or
+/// the other.
 void RecentStudies::write(const std::vector<RecentStudy>& studies) const {
   const std::optional<std::string> text = text_of(studies);
   if (file_.empty() || !text) return;

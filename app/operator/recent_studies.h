@@ -6,30 +6,33 @@
 
 namespace jnd::app {
 
-/// A study folder or file that was opened lately.
+/// A study folder or file that was opened recently.
 struct RecentStudy {
-  std::filesystem::path path;  ///< Absolute.
-  std::int64_t opened_ns = 0;  ///< Since 1970-01-01 UTC.
-  bool exists = false;         ///< Still there.
+  std::filesystem::path path;  ///< An absolute path.
+  std::int64_t opened_ns = 0;  ///< Nanoseconds since 1970-01-01 UTC.
+  bool exists = false;         ///< The folder or file is still there.
 };
 
-/// What was opened lately, for the start of the program: paths and times, nothing out of the
-/// studies, so that it cannot tell what a blind one hides. Kept in one small file, replaced
-/// whole; a damaged one counts as empty. Not real time.
+/// The studies that were opened recently, for the start of the program. It stores paths and
+/// times but nothing from the studies, so it cannot tell what a blind study hides. The list is
+/// in one small file, which is replaced as a whole; a damaged file counts as empty. Not real
+/// time.
 class RecentStudies {
  public:
   static constexpr std::size_t kMost = 12;
 
-  /// In $XDG_STATE_HOME/jnd, or ~/.local/state/jnd where that is not set; "" without a home.
+  /// The file in $XDG_STATE_HOME/jnd, or in ~/.local/state/jnd if that is not set; "" if there
+  /// is no home folder.
   [[nodiscard]] static std::filesystem::path default_file();
 
-  /// Nothing is read or written yet.
+  /// Reads and writes nothing yet.
   explicit RecentStudies(std::filesystem::path file = default_file());
 
-  /// The newest first, at most `kMost`; those that vanished are marked.
+  /// The newest study comes first; there are at most `kMost`. Those that have vanished are
+  /// marked.
   [[nodiscard]] std::vector<RecentStudy> list() const;
-  /// Puts a path first. One that is not UTF-8 is left out. Throws `core::Error` if the file
-  /// cannot be written: nothing to stop for.
+  /// Puts a path first; a path that is not UTF-8 is left out. Throws `core::Error` if the file
+  /// cannot be written, which is no reason to stop.
   void add(const std::filesystem::path& path, std::int64_t time_ns) const;
   void remove(const std::filesystem::path& path) const;
 

@@ -50,7 +50,7 @@ int exclude_trials(const fs::path& folder, std::int64_t session,
   core::StudyStore store(folder, core::StudyStore::Mode::kReadWrite);
   ReopenedSession reopened(store, store.session(session));
   const auto num_trials = std::ssize(reopened.session().state().trials);
-  // All of them can be, before the first one is.
+  // Checks all trials before it changes the first one.
   for (const std::int64_t trial : trials) {
     if (trial >= 1 && trial <= num_trials) continue;
     throw core::Error(tr("session {}: expected one of its {} trials, found trial {}", session,

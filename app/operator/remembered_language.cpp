@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "de", "pt_BR", "sr@latin": it becomes a part of a path, and a variable of the environment.
+/// True for a code such as "de", "pt_BR" or "sr@latin". The code becomes a part of a path and
+/// the value of an environment variable.
 bool is_code_of_language(const std::string& code) {
   constexpr std::size_t kMost = 32;
   return !code.empty() && code.size() <= kMost &&
@@ -29,7 +30,8 @@ void remember_language(const fs::path& folder, const std::string& code) {
   if (folder.empty() || !is_code_of_language(code)) return;
   std::error_code ignored;
   fs::create_directories(folder, ignored);
-  // Beside the old one, then in its place: a reader finds the one or the other.
+  // The new file is written beside the old one and then replaces it, so a reader finds one or
+  // the other.
   const fs::path fresh = file_of_language(folder).string() + "." + std::to_string(::getpid());
   std::ofstream stream(fresh, std::ios::trunc);
   stream << code << '\n';

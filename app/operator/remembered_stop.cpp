@@ -15,8 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "network:10.0.0.2:5000,key=robot" has signs that are none of a file name's; what stands
-/// behind the comma is how it is used, and not which it is.
+/// A device's name such as "network:10.0.0.2:5000,key=robot" contains characters that file
+/// names must not have. What follows the comma says how a device is used, not which one it is,
+/// so it is left out.
 fs::path file_for(const fs::path& folder, const std::string& device) {
   constexpr char kDigits[] = "0123456789abcdef";
   std::string name = "stop_";

@@ -5,10 +5,11 @@
 
 namespace jnd::app {
 
-/// An emergency stop that nobody has released yet, of each device: it holds for the next
-/// session and the next start of the program as well. Kept as a file in a folder of the user's,
-/// on disk when `remember_stop` returns. Where the folder is "", or cannot be written, nothing
-/// is kept: the stop itself holds either way until the program ends. Not real time.
+/// Remembers an emergency stop of a device that nobody has released yet, so that it holds for
+/// the next session and the next start of the program as well. It is a file in one of the
+/// user's folders, and on disk when `remember_stop` returns. If the folder is "" or cannot be
+/// written, nothing is stored; the stop itself holds in any case until the program ends. Not
+/// real time.
 void remember_stop(const std::filesystem::path& folder, const std::string& device);
 void forget_stop(const std::filesystem::path& folder, const std::string& device);
 [[nodiscard]] bool is_stop_remembered(const std::filesystem::path& folder,

@@ -17,7 +17,7 @@ using analysis::BlockDesign;
 using analysis::ParticipantData;
 using Values = std::vector<std::pair<std::string, double>>;
 
-/// Participants' own estimates of this name, those that have one.
+/// The participants' own estimates of this name, of those who have one.
 Values own_values(const ResultsSource& source, const std::string& block,
                   const std::string& estimate) {
   Values values;
@@ -29,7 +29,8 @@ Values own_values(const ResultsSource& source, const std::string& block,
   return values;
 }
 
-/// Whether the block's own fractions are told together with the pse free, as its primary value.
+/// True if the block's primary value is computed with the pse free, so that its own fractions
+/// are, too.
 bool has_free_pse(const ResultsSource& source, const BlockDesign& block) {
   const analysis::ResultsSection* section = source.section(block.block);
   return section != nullptr && section->own_fractions_free_pse;
@@ -54,7 +55,8 @@ void add_box(BoxFigure& figure, const std::string& label, const Values& values) 
   if (!values.empty()) figure.boxes.push_back(box_of(label, values));
 }
 
-/// Own matches by their standard, as estimates are named: "match_at_8".
+/// The participants' own matches, by the standard in the names of estimates such as
+/// "match_at_8".
 std::map<std::string, Values> matches_of(const ResultsSource& source,
                                          const std::string& block) {
   std::map<std::string, Values> matches;
@@ -68,7 +70,7 @@ std::map<std::string, Values> matches_of(const ResultsSource& source,
   return matches;
 }
 
-/// A box for each standard, the blocks one after the other.
+/// Adds a box for each standard, block after block.
 void add_matches(const ResultsSource& source, const BlockDesign& block, BoxFigure& figure) {
   const auto num_blocks =
       std::ranges::count(source.data.blocks, "matching", &BlockDesign::procedure);
@@ -98,7 +100,8 @@ std::optional<double> whole_movement(const ParticipantData& participant,
 
 bool is_magnitude(const BlockDesign& block) { return block.estimates() || block.produces(); }
 
-/// "w Group D", "a estimation": the number, then what tells it from the others of its kind.
+/// The column's title, such as "w Group D" or "a estimation": the number, and what
+/// distinguishes it from others of its kind.
 std::string column_title(const ResultsSource& source, const BlockDesign& block) {
   const auto same = std::count_if(
       source.data.blocks.begin(), source.data.blocks.end(),
@@ -113,8 +116,8 @@ std::string column_title(const ResultsSource& source, const BlockDesign& block) 
   return block.estimates() ? tr("a estimation") : tr("a production");
 }
 
-/// The participants' own estimate that stands for the primary value of the block, within its
-/// section; "" for no column.
+/// The ending of the participants' own estimate that corresponds to the block's primary value;
+/// "" for no column.
 std::string column_estimate(const ResultsSource& source, const BlockDesign& block) {
   if (block.compares() && has_free_pse(source, block)) return ".weber_fraction_free_pse";
   if (block.compares() || block.tells_apart()) return ".weber_fraction";
@@ -123,8 +126,8 @@ std::string column_estimate(const ResultsSource& source, const BlockDesign& bloc
   return is_magnitude(block) ? ".a" : "";
 }
 
-/// What was left out of this person's data and what is doubtful in it, each thing once. Not who
-/// has no fraction with the other pse than the primary value, which the tests say.
+/// What was left out of this person's data and what is doubtful in them, each thing once. It
+/// does not say who lacks a fraction with the pse treated the other way; the tests say that.
 std::string note_of(const ResultsSource& source, const std::string& participant) {
   std::set<std::string> known;
   std::string note;

@@ -42,7 +42,7 @@ std::string number(double value, const std::string& unit) {
                      unit == "1" ? "" : unit);
 }
 
-/// "95 % 0.38 to 1.04"; "" where both ends are open.
+/// The interval in words, such as "95 % 0.38 to 1.04"; "" if both ends are open.
 std::string open_interval_words(const Interval& ci95) {
   if (!ci95.low && !ci95.high) return "";
   if (!ci95.low) return tr("95 % below {:.3g}", *ci95.high);
@@ -79,15 +79,15 @@ std::string comparison_words(const analysis::NamedComparison& named) {
   return words;
 }
 
-/// "held out, tail 0.004 below": the last where simulated studies are known.
+/// Such as "held out, tail 0.004 below"; the tail is told if simulated studies are known.
 std::string basis_words(const analysis::StudyResults& results, const Estimate& estimate) {
   if (!results.simulated || !estimate.published) return "";
   const std::string tail = tail_words(estimate, results.predictive);
   return basis_of(estimate) + (tail.empty() ? "" : tr(", tail {}", tail));
 }
 
-/// "group_d - group_e: stroke_width_m, paired" by titles: "Group D - Group E: stroke width [m],
-/// paired".
+/// A comparison's name with titles: "group_d - group_e: stroke_width_m, paired" becomes "Group
+/// D - Group E: stroke width [m], paired".
 std::string with_titles(const ResultsSource& source, std::string name) {
   for (const auto& [column, words] : {std::pair{"stroke_width_m", tr("stroke width [m]")},
                                       {"max_speed_m_per_s", tr("largest speed [m/s]")}}) {
@@ -102,8 +102,8 @@ std::string with_titles(const ResultsSource& source, std::string name) {
          name.substr(colon);
 }
 
-/// A block's title; "Low: staircase" for "low_staircase", what else is reckoned of the block
-/// "low"; what another section is called in words.
+/// A section's name in words. It is a block's title; or, for what else is computed of a block
+/// "low", such as "low_staircase", "Low: staircase".
 std::string section_words(const ResultsSource& source, const std::string& name) {
   const auto found = source.titles.find(name);
   if (found != source.titles.end()) return found->second;
@@ -114,7 +114,8 @@ std::string section_words(const ResultsSource& source, const std::string& name) 
   return name_words(name, /*as_title=*/true);
 }
 
-/// "Is it solid? yes" of "questionnaire.solid_is_solid.yes"; "" of what is no question's.
+/// The words of a question's estimate: "questionnaire.solid_is_solid.yes" becomes "Is it solid?
+/// yes". "" for other estimates.
 std::string label_of_question(const ResultsSource& source, const std::string& name) {
   constexpr std::string_view kStart = "questionnaire.";
   if (!name.starts_with(kStart)) return "";
@@ -126,7 +127,7 @@ std::string label_of_question(const ResultsSource& source, const std::string& na
   return question->second + " " + name_words(name.substr(dot + 1), /*as_title=*/false);
 }
 
-/// "group_d.weber_fraction" without its block, which stands above it.
+/// An estimate's name in words, without its block, which is shown above it.
 std::string label_of(const ResultsSource& source, const std::string& name) {
   if (std::string label = label_of_question(source, name); !label.empty()) return label;
   const std::size_t dot = name.find('.');
@@ -134,8 +135,8 @@ std::string label_of(const ResultsSource& source, const std::string& name) {
   return name_words(is_own ? name.substr(dot + 1) : name, /*as_title=*/true);
 }
 
-/// "primary value: median person's w ..."; with why there is none, and how the published value
-/// beside it came about.
+/// The meaning, such as "primary value: median person's w ...". It adds why there is no value,
+/// and what the published value is.
 std::string meaning_words(const Estimate& estimate) {
   const std::string& published = estimate.published_statistic;
   const bool says_more = !published.empty() && published != estimate.meaning;
@@ -170,7 +171,7 @@ void add_numbers(const ResultsSource& source, ResultsModel& model) {
   }
   std::stable_partition(model.comparisons.begin(), model.comparisons.end(),
                         [](const ComparisonLine& line) { return line.is_primary; });
-  // What was planned comes before everything else.
+  // Planned contrasts come before everything else.
   std::vector<ComparisonLine> planned;
   for (const analysis::ContrastResult& one : source.results.contrasts) {
     std::string name = one.plan.name;
@@ -184,9 +185,9 @@ void add_numbers(const ResultsSource& source, ResultsModel& model) {
   model.comparisons.insert(model.comparisons.begin(), planned.begin(), planned.end());
 }
 
-/// Trials of every block of a session that should have answers, whether drawn yet or not;
-/// practice is none. Where the answers decide how many there are, a session that came to its
-/// end has drawn them all.
+/// The number of trials, by block, that should have answers in a session, whether they are
+/// drawn yet or not; practice does not count. If the answers decide how many trials there are,
+/// a completed session has drawn them all.
 std::map<std::string, std::int64_t> expected_trials(const experiments::Study& study,
                                                     const core::StudyStore& store,
                                                     const core::SessionRow& row) {
@@ -204,7 +205,7 @@ std::map<std::string, std::int64_t> expected_trials(const experiments::Study& st
   return expected;
 }
 
-/// What can be said without decoding a sample; a verification says the rest.
+/// What can be said about the data without decoding samples; a verification says the rest.
 class Quality {
  public:
   Quality(const core::StudyStore& store, const experiments::Study& study) {
@@ -265,7 +266,7 @@ class Quality {
         if (known.insert(text).second) chips.push_back({text, Tone::kWarning});
       }
       for (const analysis::ExcludedParticipant& one : section.excluded) {
-        // Of one person alone it is said under their own name.
+        // For a single participant, the same is said under their own name.
         if (one.participant == "everyone" && results.num_participants == 1) continue;
         const std::string text = source.in_titles(one.participant + ": " + one.reason);
         if (known.insert(text).second) chips.push_back({text, Tone::kWarning});
@@ -312,7 +313,7 @@ std::map<std::string, std::string> titles_of(const experiments::Study& study,
   return titles;
 }
 
-/// What questionnaires ask, after the experiment and after trials, in the study's first
+/// What questionnaires ask after the experiment and after trials, in the study's first
 /// language.
 std::map<std::string, std::string> questions_of(const experiments::Study& study) {
   std::map<std::string, std::string> questions;
@@ -334,8 +335,9 @@ std::map<std::string, std::string> questions_of(const experiments::Study& study)
   return questions;
 }
 
-/// What the program calls something, "stroke_width_m", in words; blocks have their titles. A
-/// name that could be any word, "production", stays what it is.
+/// Replaces the program's names in a sentence by words, such as "stroke_width_m" by "stroke
+/// width [m]", and blocks' names by their titles. A name that could be an ordinary word, such
+/// as "production", stays as it is.
 std::string told_in_words(const ResultsSource& source, const std::string& sentence) {
   const auto is_of_a_name = [](char letter) {
     return letter == '_' || std::isalnum(static_cast<unsigned char>(letter)) != 0;
@@ -355,11 +357,11 @@ std::string told_in_words(const ResultsSource& source, const std::string& senten
     if (name.find('_') == std::string::npos) {
       words += name;
     } else if (block != source.titles.end()) {
-      // "group_d.weber_fraction" is "Group D: weber fraction".
+      // "group_d.weber_fraction" becomes "Group D: weber fraction".
       words += short_title(block->second) + (has_part ? ": " : "");
       if (has_part) ++end;
     } else {
-      // Of a file or a path it is the name.
+      // A part of a file's name or path stays as it is.
       const bool is_of_a_file = has_part || (at > 0 && sentence[at - 1] == '/');
       words += is_of_a_file ? name : name_words(name, /*as_title=*/false);
     }
@@ -368,7 +370,7 @@ std::string told_in_words(const ResultsSource& source, const std::string& senten
   return words;
 }
 
-/// Everything that is read, so that no name of the program is.
+/// Puts everything that people read into words without the program's names.
 void tell_in_words(const ResultsSource& source, ResultsModel& model) {
   const auto tell = [&source](std::string& told) { told = told_in_words(source, told); };
   const auto tell_chart = [&tell](analysis::Chart& chart) {

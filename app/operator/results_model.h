@@ -18,7 +18,7 @@
 namespace jnd::app {
 
 /// Everything that the results view draws, as plain numbers in SI units and words. Every fitted
-/// value and interval is the one of `jnd results`.
+/// value and interval is that of `jnd results`.
 namespace results {
 
 inline constexpr const char* kEveryone = analysis::kEverybody;
@@ -30,14 +30,14 @@ struct Box {
     std::string participant;
     double value = 0.0;
   };
-  std::vector<Outlier> outliers;  ///< Beyond the whiskers.
+  std::vector<Outlier> outliers;  ///< Values beyond the whiskers.
   int n = 0;
 };
 
-/// Boxes that share an axis: Weber fraction, exponent, matches, stroke width or largest speed
+/// Boxes with a common axis: Weber fraction, exponent, matches, stroke width or largest speed
 /// by block.
 struct BoxFigure {
-  std::string name;  ///< "weber_fraction"
+  std::string name;  ///< Such as "weber_fraction".
   std::string title, unit;
   std::vector<Box> boxes;
 };
@@ -47,31 +47,35 @@ struct TableColumn {
 };
 struct TableRow {
   std::string participant;
-  std::vector<std::optional<double>> values;  ///< One a column.
+  std::vector<std::optional<double>> values;  ///< One for each column.
   std::string note;
 };
 
 /// A test between conditions.
 struct ComparisonLine {
-  std::string name;  ///< "Group D - Group E: ln ln(1 + w), paired"
+  std::string name;  ///< Such as "Group D - Group E: ln ln(1 + w), paired".
   std::optional<double> estimate;
-  std::string detail;  ///< "95 % 0.38 to 1.04, t(11) = 4.70, p = 0.0006"; or why there is none.
-  bool is_primary =
-      false;  ///< Between blocks, by their primary values; `detail` has its family.
+  /// Such as "95 % 0.38 to 1.04, t(11) = 4.70, p = 0.0006"; or why there is no estimate.
+  std::string detail;
+  bool is_primary = false;  ///< Compares blocks by primary values; `detail` names the family.
 };
 
-/// One number with what was published.
+/// One number, with the published value.
 struct NumberLine {
-  std::string section, label;              ///< In words: "Group D", "Weber fraction".
-  std::string name;                        ///< "group_d.weber_fraction"
-  std::string value, interval, published;  ///< In words; "" for what there is not.
+  /// In words, such as "Group D" and "Weber fraction".
+  std::string section, label;
+  std::string name;  ///< Such as "group_d.weber_fraction".
+  /// In words; "" for what does not exist.
+  std::string value, interval, published;
   std::string meaning;
-  /// Simulated and published: "calibrated", "implied", "held out"; and the tail, where known.
+  /// How the simulated and the published value are related ("calibrated", "implied" or "held
+  /// out"), and the tail if it is known.
   std::string basis;
-  std::string caution{};  ///< Why it may be wrong for these data; "" where nothing says so.
+  /// Why the value may be wrong for these data; "" if nothing suggests it.
+  std::string caution{};
 };
 
-/// A chip: how good the data are.
+/// A chip that tells how good the data are.
 struct QualityChip {
   enum class Tone { kGood, kNeutral, kWarning };
   std::string text;
@@ -83,36 +87,39 @@ struct QualityChip {
 struct ResultsModel {
   std::string study, title;
   bool simulated = false;
-  std::string citation;  ///< Of the published values; "" without any.
+  std::string citation;  ///< The source of the published values; "" if there are none.
   int num_participants = 0;
-  std::vector<analysis::ChartSet> charts;  ///< Those of the report.
+  std::vector<analysis::ChartSet> charts;  ///< The report's charts.
   std::vector<results::BoxFigure> boxes;
   std::vector<results::TableColumn> columns;
   std::vector<results::TableRow> rows;
-  std::vector<results::ComparisonLine> comparisons;  ///< Primary ones first.
+  std::vector<results::ComparisonLine> comparisons;  ///< Primary comparisons come first.
   std::vector<results::NumberLine> numbers;
   std::vector<results::QualityChip> quality;
 };
 
-/// Reads the folder and computes everything; seconds for a large study, so for a
-/// `BackgroundTask`. Throws `core::Error`: double-blind and not unblinded, in the words of
-/// every command; nobody has taken part; damaged. `WorkCancelled` between its parts.
+/// Reads the folder and computes everything. It takes seconds for a large study, so call it in
+/// a `BackgroundTask`. Throws `core::Error` if the study is double-blind and not unblinded (in
+/// the words of every command), if nobody has taken part, or if the study is damaged. Throws
+/// `WorkCancelled` between its parts.
 [[nodiscard]] ResultsModel results_model(const std::filesystem::path& folder,
                                          WorkControl& control);
 
-// Its parts, without a folder.
+// The parts of a `ResultsModel`, without a folder.
 
-/// What was read, what it comes to, and what blocks are called.
+/// What was read, its results, and what blocks are called.
 struct ResultsSource {
   const analysis::StudyData& data;
   const analysis::StudyResults& results;
-  std::map<std::string, std::string> titles;       ///< By block; its name where there is none.
-  std::map<std::string, std::string> questions{};  ///< What is asked, by the name of the item.
+  /// Titles by block; a block without one is called by its name.
+  std::map<std::string, std::string> titles;
+  /// What is asked, by the item's name.
+  std::map<std::string, std::string> questions{};
 
   [[nodiscard]] std::string title(const std::string& block) const;
-  /// A sentence with the titles of blocks in place of their names.
+  /// The sentence with blocks' names replaced by their titles.
   [[nodiscard]] std::string in_titles(std::string sentence) const;
-  /// Nothing for a block without results.
+  /// nullptr for a block without results.
   [[nodiscard]] const analysis::ResultsSection* section(const std::string& name) const;
   [[nodiscard]] const analysis::ParticipantEstimate* own(const std::string& section_name,
                                                          const std::string& participant,
@@ -120,10 +127,10 @@ struct ResultsSource {
 };
 
 [[nodiscard]] std::vector<results::BoxFigure> boxes_of(const ResultsSource& source);
-/// `values`: participant and number, at least one.
+/// `values` are pairs of participant and number; there is at least one.
 [[nodiscard]] results::Box box_of(const std::string& label,
                                   const std::vector<std::pair<std::string, double>>& values);
-/// Columns and rows of the participants' table.
+/// Adds the columns and the rows of the participants' table.
 void add_table(const ResultsSource& source, ResultsModel& model);
 
 }  // namespace jnd::app

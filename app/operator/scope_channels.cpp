@@ -11,7 +11,7 @@
 namespace jnd::app {
 namespace {
 
-// The longer one first where one ends like another.
+// If an ending is also the end of another one, the longer one comes first.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kUnits = {
     {{"_m_per_s", "m/s"}, {"_n_m", "N m"}, {"_rad", "rad"}, {"_n", "N"}, {"_m", "m"}}};
 

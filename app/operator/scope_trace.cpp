@@ -11,7 +11,8 @@ namespace jnd::app {
 namespace {
 
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t kFirstColumn = 1;  // After the tick.
+// The first column after the tick.
+constexpr std::size_t kFirstColumn = 1;
 
 }  // namespace
 
@@ -45,7 +46,7 @@ void ScopeTrace::take(const core::Sample& sample) {
   for (std::size_t i = 0; i < current_.size(); ++i) {
     const auto value = static_cast<float>(values[kFirstColumn + i]);
     if (!std::isfinite(value)) continue;
-    // `fmin` and `fmax` take the number where the other one is NaN.
+    // If one argument is NaN, `fmin` and `fmax` return the other one.
     current_[i] = {std::fmin(current_[i].low, value), std::fmax(current_[i].high, value)};
   }
 }

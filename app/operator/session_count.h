@@ -8,15 +8,16 @@
 
 namespace jnd::app {
 
-/// Answers of a session among all that it will have, in every one of its blocks.
+/// How many answers a session has, and how many it will have in all of its blocks.
 struct SessionCount {
   std::int64_t num_answers = 0;
   std::int64_t num_trials = 0;
-  bool is_expected = false;  ///< The answers of a block to come decide how many there will be.
+  /// Answers still to come decide how many trials there will be.
+  bool is_expected = false;
 };
 
-/// `stages`: the participant's own. Blocks that nobody has entered count as well. Not real
-/// time.
+/// `stages` are those of the participant. Blocks that nobody has entered count as well. Not
+/// real time.
 [[nodiscard]] SessionCount count_of_session(
     const experiments::SessionState& state,
     const std::vector<const experiments::Stage*>& stages);

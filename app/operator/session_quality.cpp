@@ -34,7 +34,7 @@ class QualityCount {
   void count(const PresentationStarted& e) { first_tick_ = e.first_tick; }
   void count(const PresentationEnded& e) {
     const std::int64_t missed = e.summary.measures.missed_ticks;
-    // Those that never ran are left out of the numbers of ticks.
+    // Ticks that never ran have no number, so they are added.
     quality_.num_ticks += e.last_tick - first_tick_ + 1 + missed;
     quality_.num_missed_ticks += missed;
   }

@@ -23,12 +23,12 @@ struct SessionQuality {
   int num_without_force = 0;  ///< Presentations in which none acted, though one was asked for.
   std::string problem;        ///< Why its log cannot be read; "" where it can.
 
-  /// Something of it should be looked at.
+  /// True if somebody should look at the session.
   [[nodiscard]] bool is_doubtful() const noexcept;
 };
 
-/// Reads the log of one session. Of a damaged one `problem` says so: throws nothing for it.
-/// `hides_levels`: nothing is counted that a movement could tell. Not real time.
+/// Reads the log of one session. If the log is damaged, it throws nothing, and `problem` tells
+/// so. With `hides_levels`, nothing is counted that movement could tell. Not real time.
 [[nodiscard]] SessionQuality quality_of(const core::StudyStore& store,
                                         const core::SessionRow& row, bool hides_levels);
 

@@ -29,19 +29,20 @@ namespace fs = std::filesystem;
 
 std::string quoted(const std::string& words) { return tr("“{}”", words); }
 
-/// "REASON" behind what was done, where there is one.
+/// Adds the reason to what was done, if there is one.
 std::string with_reason(const std::string& done, const std::string& reason) {
   return reason.empty() ? done : tr("{}: {}", done, reason);
 }
 
-/// "14:05 on the day", or since the begin for a session without a date.
+/// The day and the time, such as "today at 14:05"; for a session without a date, the time since
+/// it began.
 std::string moment_words(std::int64_t time_ns, std::int64_t now_ns, double at_s) {
   const std::string day = day_in_words(time_ns, now_ns);
   if (!day.empty()) return day + hour_in_words(time_ns);
   return at_s < 0.0 ? std::string("-") : tr("{} after the begin", duration_words(at_s));
 }
 
-/// What a trial presents, for who may know it.
+/// What a trial presents, for people who may know it.
 std::string presented_words(const Block& block, const PlannedTrial& trial) {
   std::string words;
   const std::optional<double> level =
@@ -82,7 +83,7 @@ class RecordReader {
   void read(const Event& event) {
     const bool was_over = state_.ended;
     const std::int64_t before_ns = state_.visit_last_ns;
-    // Before, for what becomes of an answer tells what it was.
+    // Called before the event is applied, because the history tells what an answer was before.
     std::visit([&](const auto& data) { before(data); }, event.data);
     apply(state_, event);
     // What is done to a session afterwards belongs to no visit.
@@ -93,7 +94,7 @@ class RecordReader {
     }
   }
 
-  /// What the whole log comes to.
+  /// Fills in what the whole log decides.
   void finish(const std::vector<fs::path>& flight_records) {
     record_.duration_s = told_;
     end_pause(told_);
@@ -107,10 +108,10 @@ class RecordReader {
   }
 
  private:
-  /// What somebody knows of a trial beside its state.
+  /// What is known about a trial besides its state.
   struct Past {
-    double at_s = 0.0;                ///< When it was answered last.
-    std::int64_t given_sequence = 0;  ///< The event of that.
+    double at_s = 0.0;                ///< When it was last answered.
+    std::int64_t given_sequence = 0;  ///< The number of the event of that answer.
     std::vector<std::string> history;
   };
 
@@ -134,7 +135,7 @@ class RecordReader {
     past_[trial].history.push_back(std::move(words));
   }
 
-  // Of what is about to become another state.
+  // These see the state before the event changes it.
   template <typename Data>
   void before(const Data&) const {}
   void before(const AnswerUndone& e) {
@@ -155,7 +156,7 @@ class RecordReader {
     tell(e.trial, with_reason(tr("taken into results again"), e.reason));
   }
 
-  // Of what has become another state.
+  // These see the state after the event has changed it.
   template <typename Data>
   void after(const Data&, const Event&, bool) const {}
   void after(const StageEntered& e, const Event&, bool) {
@@ -190,7 +191,7 @@ class RecordReader {
     if (!e.reason.empty()) add_note(RecordNote::Kind::kEnd, e.reason, event, told_);
   }
   void after(const FaultRaised& e, const Event&, bool) {
-    // Stored in English, as the loop has it.
+    // The event stores the fault in English, as the loop names it.
     const std::string words = tr(e.fault.c_str());
     RecordFault fault{.words = words, .where = where(), .at_s = told_};
     if (!pause_is_open_) {
@@ -242,7 +243,7 @@ class RecordReader {
                              .at_s = at_s});
   }
 
-  /// Where the session is now.
+  /// Where the session is now, in words.
   [[nodiscard]] std::string where() const {
     std::string stage = title_of_stage(state_.stage);
     const std::optional<std::int64_t> trial = state_.current_trial();
@@ -257,7 +258,8 @@ class RecordReader {
     }
     return first;
   }
-  /// As the list of a session under way counts: in a group by the answers, else by its place.
+  /// The trial's number as the list of a session under way counts it: in a group by the
+  /// answers, otherwise by its place.
   [[nodiscard]] int number_in_block(std::int64_t number) const {
     const TrialState& its = state_.trial(number);
     const std::size_t first = first_together_of(static_cast<std::size_t>(its.stage));
@@ -316,8 +318,9 @@ class RecordReader {
     return line;
   }
 
-  /// A file is named by the tick of its fault, which comes after all that was felt before it.
-  /// From the last one back, for a fault may have kept none.
+  /// Assigns flight records to faults. A file is named by the tick of its fault, which comes
+  /// after everything that was felt before the fault. The search goes backwards from the last
+  /// one, because a fault may have stored no file.
   void add_flight_records(const std::vector<fs::path>& files) {
     std::size_t fault = record_.faults.size();
     for (std::size_t later = files.size(); later > 0; --later) {
@@ -347,9 +350,9 @@ class RecordReader {
   SessionRecord& record_;
   std::int64_t now_ns_;
   SessionState state_;
-  double told_ = 0.0;  ///< When the last event was, as `RecordSpan`.
+  double told_ = 0.0;  ///< The time of the last event, as in `RecordSpan`.
   bool pause_is_open_ = false;
-  std::map<std::int64_t, Past> past_;  ///< By trial.
+  std::map<std::int64_t, Past> past_;  ///< The answers so far, by trial number.
   std::vector<std::int64_t> fault_ticks_;
   std::map<std::string, std::int64_t> num_warnings_;
 };

@@ -18,7 +18,7 @@ std::string own_words(ParticipantWord word, const SessionView& view) {
   return participant_word(word, view.language);
 }
 
-/// The sentences of a trial for two people, and for one alone.
+/// The sentences of a trial, for two people or for one alone.
 struct TrialSentences {
   const char *present_reference, *present_fluid, *present_surface, *resting;
   const char *while_feeling_reference, *back_to_fluid, *back_to_surface, *production,
@@ -52,7 +52,8 @@ constexpr TrialSentences kForTwo = {
     .over_rating = tr_later("Ask for a step of the scale:"),
     .over_choice = tr_later("Ask:"),
 };
-/// The same where the participant answers by a control: what is not asked by the experimenter.
+/// The sentences for a participant who answers by a control, so that the experimenter does not
+/// ask.
 constexpr TrialSentences for_a_participant_who_answers() {
   TrialSentences sentences = kForTwo;
   sentences.comparison = tr_later("The participant answers:");
@@ -87,7 +88,7 @@ constexpr TrialSentences kForOne = {
     .over_choice = tr_later("Answer:"),
 };
 
-/// What is told of the answer before, in front of what is said anyway.
+/// Puts what is told about the last answer in front of the other words.
 void add_feedback(SessionView& view) {
   if (!view.feedback_right && !view.missed_deadline) return;
   const std::string told = own_words(view.missed_deadline   ? ParticipantWord::kTooLate
@@ -99,7 +100,8 @@ void add_feedback(SessionView& view) {
       told + (view.participant_text.empty() ? "" : "\n" + view.participant_text);
 }
 
-/// A stimulus has ended by itself: the question, or what has to be felt first.
+/// Adds the words for a stimulus that has ended by itself: the question, or what has to be felt
+/// first.
 void add_words_of_over(SessionView& view, const TrialSentences& sentences) {
   const TrialView& trial = *view.trial;
   view.heading = tr("The stimulus is over");

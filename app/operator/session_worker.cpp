@@ -10,7 +10,7 @@
 namespace jnd::app {
 
 namespace {
-/// How often the session looks at the loop, and a window at the session.
+/// How often the session looks at the loop, and how often a window gets a new picture.
 constexpr auto kGlance = std::chrono::milliseconds(15);
 constexpr auto kBetweenPictures = std::chrono::milliseconds(33);
 }  // namespace
@@ -88,7 +88,7 @@ void SessionWorker::run() noexcept {
   try {
     work();
   } catch (const std::exception& error) {
-    // The session is gone, and its device with it.
+    // The session is gone, and so is its device.
     const std::lock_guard guard(mutex_);
     failure_ = error.what();
   }
@@ -121,7 +121,7 @@ void SessionWorker::work() {
     for (const OperatorRequest& request : requests) session.request(request);
     const double now_s = simulated_now_s();
     session.advance(now_s - std::exchange(last_look_s, now_s));
-    // What was asked for is shown at once, what only moves on at the window's pace.
+    // Results of requests are shown at once; mere movement is shown at the window's pace.
     const auto now = std::chrono::steady_clock::now();
     if (requests.empty() && now < next_picture) continue;
     publish(session);

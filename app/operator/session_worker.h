@@ -28,32 +28,34 @@ namespace jnd::app {
 
 class OperatedSession;
 
-/// A session on a thread of its own, so that a slow disk holds up neither the window nor its
-/// heartbeat: requests in, pictures out. It owns everything that the session needs.
+/// Runs a session on a thread of its own, so that a slow disk delays neither the window nor its
+/// heartbeat. Requests go in, pictures come out. It owns everything that the session needs.
 class SessionWorker {
  public:
   struct Parameters {
     std::unique_ptr<core::StudyStore> store;  ///< Open for writing.
-    std::int64_t session = 0;                 ///< Its row is in the store already.
+    std::int64_t session = 0;                 ///< The store already has the session's row.
     experiments::Study study;
-    std::unique_ptr<experiments::Laboratory> laboratory;  ///< Of a simulated hand; else empty.
+    /// The laboratory of a simulated hand; otherwise empty.
+    std::unique_ptr<experiments::Laboratory> laboratory;
     std::string language;
-    std::map<std::string, std::string> fitting{};  ///< As `OperatedSession::Parameters`.
+    std::map<std::string, std::string> fitting{};  ///< As in `OperatedSession::Parameters`.
     bool allow_no_realtime = false;
-    std::filesystem::path stops;                    ///< As `OperatedSession::Parameters`.
-    WantedStreams streams{};                        ///< Likewise.
-    SoundChoice sound{};                            ///< Likewise.
-    WantedMarkers markers{};                        ///< Likewise.
-    std::map<std::string, std::string> controls{};  ///< Likewise.
-    /// As `WindowRequest::simulated_clock_s`; asked from the thread.
+    std::filesystem::path stops;  ///< As in `OperatedSession::Parameters`.
+    WantedStreams streams{};      ///< As in `OperatedSession::Parameters`.
+    SoundChoice sound{};          ///< As in `OperatedSession::Parameters`.
+    WantedMarkers markers{};      ///< As in `OperatedSession::Parameters`.
+    /// As in `OperatedSession::Parameters`.
+    std::map<std::string, std::string> controls{};
+    /// As `WindowRequest::simulated_clock_s`; the session's thread calls it.
     std::function<double()> simulated_clock_s{};
-    /// Called from the thread whenever there is a newer picture; may be empty.
+    /// The session's thread calls it whenever there is a newer picture; may be empty.
     std::function<void()> wake;
   };
 
-  /// Starts; `exchange` must outlive it.
+  /// Starts the thread. `exchange` must outlive this object.
   SessionWorker(Parameters parameters, OperatorExchange& exchange);
-  /// Leaves a session that is still open; it can be resumed.
+  /// Leaves a session that is still open, so that it can be resumed.
   ~SessionWorker();
   SessionWorker(const SessionWorker&) = delete;
   SessionWorker& operator=(const SessionWorker&) = delete;
@@ -61,15 +63,17 @@ class SessionWorker {
   void request(OperatorRequest request);
   /// The newest picture; nullptr until the device has started.
   [[nodiscard]] std::shared_ptr<const SessionView> view() const;
-  /// What is asked for has not been looked at yet; else `view` shows what it came to.
+  /// True while some request was not looked at yet. If false, `view` shows what the requests
+  /// led to.
   [[nodiscard]] bool is_behind() const;
-  /// It was looked at and has to wait, for a ramp or a rest.
+  /// True while a request was looked at but has to wait for a ramp or a rest.
   [[nodiscard]] bool has_waiting_requests() const;
   [[nodiscard]] const LiveTrace& trace() const noexcept { return trace_; }
   [[nodiscard]] const ScopeTrace& scopes() const noexcept { return scopes_; }
   /// Why the session could not be opened; "" if it could.
   [[nodiscard]] std::string failure() const;
-  /// The thread is through: left, or never started. The store is closed then.
+  /// True if the thread has ended, because the session was left or never started. The store is
+  /// closed then.
   [[nodiscard]] bool over() const noexcept { return over_.load(std::memory_order_acquire); }
 
  private:

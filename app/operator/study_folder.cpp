@@ -39,7 +39,7 @@ std::tm local(std::int64_t time_ns) {
   return parts;
 }
 
-/// Days since some day, for counting from one to another.
+/// The number of a day, so that days can be counted from one to another.
 std::int64_t day_number(std::tm parts) {
   constexpr std::int64_t kSecondsPerDay = 86'400;
   return ::timegm(&parts) / kSecondsPerDay;
@@ -50,15 +50,16 @@ experiments::Study study_of(const core::StudyStore& store, const core::ProtocolR
                                         store.folder().string() + as_is(": stored protocol"));
 }
 
-/// What the log of an open session comes to.
+/// What the log of an open session says.
 class Interruption {
  public:
   Interruption(const core::StudyStore& store, const experiments::Study& study,
                bool hides_levels)
       : store_(store), study_(study), hides_levels_(hides_levels) {}
 
-  /// All that a session will have, whether it is drawn yet or not.
-  /// Those drawn so far where its log cannot be read or its orders are of another study.
+  /// Sets how many trials a session will have, whether they are drawn yet or not. If its log
+  /// cannot be read, or its orders belong to another study, the number of those drawn so far
+  /// stays.
   void try_to_count(const core::SessionRow& row, SessionLine& line) const try {
     const SessionCount count =
         count_of_session(state_of(row), stages_of_session(study_, row.cells));
@@ -98,8 +99,8 @@ class Interruption {
     }
     return state;
   }
-  /// Those of a block that is under way. Where answers decide, those drawn so far are not all
-  /// there will be.
+  /// Adds the trials of a block under way. If the answers decide, more trials may come than are
+  /// drawn so far.
   static void add_trials(const experiments::SessionState& state, std::int64_t index,
                          const experiments::Stage& stage, InterruptedSession& session) {
     auto num_trials = decltype(session.num_trials)(0);
@@ -218,11 +219,11 @@ StudyFolder open_study_folder(const fs::path& folder, std::int64_t now_ns) {
     const core::SessionOverview& overview = overviews[row.session];
     SessionLine line = line_of(row, overview, now_ns);
     if (!opened.hides_levels) line.cells = cells_in_words(study, row.cells);
-    // One that came to its end has drawn them all.
+    // A completed session has drawn all of its trials.
     if (line.status != SessionStatus::kCompleted) interruption.try_to_count(row, line);
     count(line, overview, done, opened);
     last_ns = std::max(last_ns, overview.last_time_ns.value_or(row.started_time_ns));
-    // What was interrupted goes on in the study itself.
+    // An interrupted session is resumed in the study itself, not in a backup.
     if (line.status == SessionStatus::kOpen && !opened.is_backup) {
       InterruptedSession open{.session = row.session,
                               .participant = row.participant,
@@ -241,7 +242,7 @@ StudyFolder open_study_folder(const fs::path& folder, std::int64_t now_ns) {
   }
   opened.num_participants_done = static_cast<int>(done.size());
   opened.last_session = day_in_words(last_ns, now_ns);
-  // Two studies of one day are told apart by the hour.
+  // The hour distinguishes two studies of the same day.
   if (!opened.last_session.empty() && day_number(local(last_ns)) == day_number(local(now_ns))) {
     opened.last_session += hour_in_words(last_ns);
   }

@@ -21,7 +21,7 @@ namespace {
 
 using namespace experiments;
 
-/// A number without a unit is told with what it is: "scale 0.5, 2".
+/// The values with the quantity's name if it has no unit, such as "scale 0.5, 2".
 std::string of_quantity(const std::string& quantity, const std::string& values) {
   if (!experiments::quantity_unit(quantity).empty()) return values;
   return quantity == "scale" ? tr("scale {}", values) : name_words(quantity) + " " + values;
@@ -35,7 +35,7 @@ std::string questions_words(std::size_t count) {
   return trn("{} question", "{} questions", static_cast<std::int64_t>(count));
 }
 
-/// Writes the lines of a study's stages, those in counterbalances further in.
+/// Writes the lines of a study's stages; those in counterbalances are indented.
 class Outliner {
  public:
   Outliner(const Study& study, StudyOutline& outline)
@@ -45,7 +45,8 @@ class Outliner {
 
   double add(const std::vector<Stage>& stages, int depth) {
     double duration_s = 0.0;
-    std::size_t group = 0;  // Place of its line.
+    // The index of the group's line.
+    std::size_t group = 0;
     for (std::size_t i = 0; i < stages.size(); ++i) {
       const bool is_mixed = stages[i].interleaving.has_value();
       const bool is_next =
@@ -140,7 +141,7 @@ class Outliner {
     }
   }
 
-  // One overload a kind.
+  // These describe the kinds of stages, one overload each.
 
   void describe(const Checklist& checklist, OutlineStage& line) const {
     line.kind = tr("Checklist");
@@ -303,8 +304,8 @@ std::string blinding_words(Blinding blinding) {
   return "";
 }
 
-/// "Group D: 2.1, 1.2 Pa s"; a production begins each target anew; where the answers decide,
-/// how they do.
+/// The order of a block, such as "Group D: 2.1, 1.2 Pa s". In a production, each target begins
+/// a new part. If the answers decide, it says how they do.
 std::string order_line(const PlannedBlock& planned, const std::string& language) {
   const auto& block = std::get<Block>(planned.stage->content);
   std::string line = title_of(*planned.stage, language) + ": ";
@@ -330,7 +331,7 @@ std::string order_line(const PlannedBlock& planned, const std::string& language)
   return line + (unit.empty() ? "" : " " + unit);
 }
 
-/// Which blocks are mixed, and their turns by their places in the group.
+/// Which blocks a group mixes, and their turns by their places in the group.
 std::string group_line(const PlannedGroup& group, const std::string& language) {
   std::string blocks, turns;
   for (std::size_t i = 0; i < group.blocks.size(); ++i) {

@@ -16,86 +16,96 @@ namespace jnd::app {
 /// A stage as its author reads it.
 struct OutlineStage {
   std::string title;
-  std::string kind;     ///< "Checklist", "Discrimination", "Order" ...
-  bool is_arm = false;  ///< No stage, but an arm of a counterbalance, whose stages follow.
-  int depth = 0;        ///< Within a counterbalance: 1, in an arm of it: 2, and so on.
-  std::string what;     ///< "7 items", "8 stimuli 5 times: 40 trials".
-  std::vector<std::string> details;  ///< Stimuli with units, a line each.
-  std::string only_for;              ///< "only where priming is primed"; "" for everyone.
-  double duration_s = 0.0;           ///< Expected; of a counterbalance, for one participant.
-  int line = 0;                      ///< In the file, from 1.
+  std::string kind;  ///< Such as "Checklist", "Discrimination" or "Order".
+  /// Not a stage but an arm of a counterbalance; its stages follow.
+  bool is_arm = false;
+  /// 1 in a counterbalance, 2 in one of its arms, and so on.
+  int depth = 0;
+  /// Such as "7 items" or "8 stimuli 5 times: 40 trials".
+  std::string what;
+  std::vector<std::string> details;  ///< Stimuli with units, one line each.
+  /// Such as "only where priming is primed"; "" for everyone.
+  std::string only_for;
+  /// Expected; for a counterbalance, the time of one participant.
+  double duration_s = 0.0;
+  int line = 0;  ///< The line in the file, from 1.
 };
 
-/// A study file for the person who writes it. Of a double-blind one levels are left out.
+/// A study file, for the person who writes it. Levels of a double-blind study are left out.
 struct StudyOutline {
   std::filesystem::path file;
   std::string name, title, description;
-  std::string authors, languages, blinding, device, sound;  ///< In words.
-  std::string citation;  ///< Of the study it follows; may be empty.
+  std::string authors, languages, blinding, device, sound;  ///< Each is in words.
+  std::string citation;  ///< The publication that the study follows; may be empty.
   bool hides_levels = false;
   std::vector<OutlineStage> stages;
-  int num_trials = 0;                        ///< Trials of the participant with the most.
-  double shortest_s = 0.0, longest_s = 0.0;  ///< Expected, over all cells.
-  /// Every problem, as the file has them; the rest is empty if there is one.
+  int num_trials = 0;  ///< The trials of the participant who has the most.
+  /// The shortest and the longest expected time over all cells.
+  double shortest_s = 0.0, longest_s = 0.0;
+  /// Every problem, in the order of the file. If there is one, the rest is empty.
   std::vector<experiments::StudyProblem> problems;
-  /// What a sound study may not mean, as `jnd validate` warns of it; none where levels are
+  /// What a valid study may not mean, as `jnd validate` warns of it; none where levels are
   /// hidden.
   std::vector<experiments::StudyProblem> doubts;
-  /// The text around each of these: the problems' first, then the doubts'. Empty ones where the
-  /// file cannot be read, or where its text is hidden.
+  /// The text around each problem and then around each doubt. They are empty if the file cannot
+  /// be read or its text is hidden.
   std::vector<FileExcerpt> excerpts;
 };
 
-/// `shows_levels`: somebody unblinded the folder it is read for.
+/// `shows_levels` tells that somebody has unblinded the folder to which the study belongs.
 [[nodiscard]] StudyOutline outline_of(const experiments::Study& study,
                                       bool shows_levels = false);
-/// The outline of a study file. Throws nothing for what is wrong with it: that is `problems`.
+/// The outline of a study file. It throws nothing for a wrong file, because `problems` tells
+/// what is wrong.
 [[nodiscard]] StudyOutline read_outline(const std::filesystem::path& file);
 
-/// How long the longest session of the study is expected to take, whatever the cell.
+/// The expected time of the study's longest session, over all cells.
 [[nodiscard]] double longest_session_s(const experiments::Study& study);
 
 /// What one of the next participants will get.
 struct PlannedOrder {
   std::string participant;
-  std::string cells;                ///< "first low, then high"; "" for one cell.
-  std::vector<std::string> blocks;  ///< "Group D: 2.1, 1.2, 3.3 ... Pa s", a line each.
+  std::string cells;  ///< Such as "first low, then high"; "" for one cell.
+  /// Such as "Group D: 2.1, 1.2, 3.3 ... Pa s", one line each.
+  std::vector<std::string> blocks;
   double duration_s = 0.0;
 };
 
 struct OrdersRequest {
-  std::filesystem::path folder;  ///< Whose completed sessions count; "" for none.
+  /// The folder whose completed sessions count; "" for none.
+  std::filesystem::path folder;
   int num_participants = 10;
   std::uint64_t seed = 1;
 };
 
-/// As the sessions will draw them with this seed. None where levels are hidden: double-blind,
-/// and nobody has unblinded the folder. Throws `core::Error` for a folder that cannot be read.
+/// The orders as the sessions will draw them with this seed. None where levels are hidden, that
+/// is, if the study is double-blind and nobody has unblinded the folder. Throws `core::Error`
+/// if the folder cannot be read.
 [[nodiscard]] std::vector<PlannedOrder> planned_orders(const experiments::Study& study,
                                                        const OrdersRequest& request);
 
-/// A study file that is edited elsewhere, read again whenever it was saved. Editors replace
-/// files, so one that is missing or empty for a moment is no change yet.
+/// A study file that is edited in another program; it is read again whenever it was saved.
+/// Editors replace files, so a file that is missing or empty for a moment has not changed yet.
 class StudyWatch {
  public:
-  /// Reads it at once. Never throws for what is wrong with the file. `shows_levels` as in
-  /// `outline_of`; `shows_text`: whoever looks may read the file.
+  /// Reads the file at once, and never throws for what is wrong with it. `shows_levels` is as
+  /// in `outline_of`. `shows_text` tells that the person may read the file's text.
   explicit StudyWatch(std::filesystem::path file, bool shows_levels = false,
                       bool shows_text = true);
 
-  /// Looks whether the file changed, twice a second at most. True if there is a new outline.
-  /// `now_s`: seconds on any clock that goes forward.
+  /// Looks, at most twice a second, whether the file has changed. Returns true if there is a
+  /// new outline. `now_s` is in seconds of any clock that goes forward.
   bool look(double now_s);
   [[nodiscard]] const StudyOutline& outline() const noexcept { return outline_; }
-  /// The study as it is in the file; nothing while it has problems.
+  /// The study in the file; none while it has problems.
   [[nodiscard]] const std::optional<experiments::Study>& study() const noexcept {
     return study_;
   }
-  /// How often it was read again.
+  /// How often the file was read again.
   [[nodiscard]] int num_reloads() const noexcept { return num_reloads_; }
 
  private:
-  /// What tells one saved file from the next.
+  /// What distinguishes one saved file from the next.
   struct Stamp {
     std::int64_t changed_ns = 0;
     std::uint64_t size = 0, inode = 0;

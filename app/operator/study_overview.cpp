@@ -24,10 +24,11 @@ using namespace experiments;
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kNsPerDay = 86'400'000'000'000;
-/// So many cells are listed one by one; of more each thing that differs by itself.
+/// Up to so many cells are listed one by one; otherwise each factor that differs is listed by
+/// itself.
 constexpr std::size_t kMostCells = 12;
 
-/// The cells of sessions that count, by whether they came to their end.
+/// The cells of sessions that count, completed or open.
 struct CountedCells {
   std::vector<std::string> done, open;
 };
@@ -66,7 +67,7 @@ BalanceGroup balance_of_factor(const Study& study, const Factor& factor,
         const Assignment* its = find_assignment(cell, factor.name);
         return its != nullptr && its->arms == arms;
       } catch (const core::Error&) {
-        return false;  // Of another version of the study.
+        return false;  // The cell belongs to another version of the study.
       }
     }));
   };
@@ -90,7 +91,8 @@ std::vector<BalanceGroup> balance_of(const Study& study, const CountedCells& cou
   return groups;
 }
 
-/// All that a participant may bring; one that is empty where nobody brings anything.
+/// Every combination of values of the participant's fields; one empty combination if the study
+/// asks nothing.
 std::vector<FieldValues> all_that_people_bring(const Study& study) {
   std::vector<FieldValues> all = {{}};
   for (const ParticipantField& field : study.participant_fields) {

@@ -32,7 +32,7 @@ const Stage* block_named(const Study& study, const std::string& name) {
 std::string name_words(std::string name, bool as_title) {
   if (name.starts_with("num_")) name = tr("number of {}", name.substr(4));
   std::replace(name.begin(), name.end(), '_', ' ');
-  // Not "Pse" and "Jnd".
+  // "Pse" and "Jnd" would be wrong.
   for (const auto& [small, capitals] : {std::pair{"pse", "PSE"}, {"jnd", "JND"}}) {
     const std::string_view word = small;
     const bool is_first =
@@ -51,7 +51,7 @@ const std::string& shown_language(const std::vector<std::string>& languages) {
   return spoken == "en" || found == languages.end() ? languages.front() : *found;
 }
 
-/// In this language or another; in words of the name where there is none.
+/// The title in this language, or else in another one; without a title, the name in words.
 static std::string title_or_name(const Text& title, const std::string& name,
                                  const std::string& language) {
   const auto asked = title.find(language);
@@ -130,7 +130,7 @@ std::string duration_words(double duration_s) {
                            : tr("{} h {} min", minutes / 60, minutes % 60);
 }
 
-/// By what each arm is called, counterbalance by counterbalance; else by its name.
+/// The titles of arms by counterbalance; an arm without one is called by its name.
 using ArmTitles = std::map<std::string, std::map<std::string, std::string>>;
 
 static std::string cell_words_by(const ArmTitles& titles, const Cell& cell) {
@@ -148,7 +148,7 @@ static std::string cell_words_by(const ArmTitles& titles, const Cell& cell) {
   return words;
 }
 
-/// Nothing where an arm has no block or several, or two arms would be called the same.
+/// Empty if an arm does not have exactly one block, or if two arms would have the same title.
 static std::map<std::string, std::string> titles_of_arms(const Counterbalance& counterbalance,
                                                          const std::string& language) {
   std::map<std::string, std::string> titles;

@@ -8,7 +8,8 @@ namespace jnd::app {
 struct SurroundingsView {
   core::Immersion immersion;
   bool surface_is_solid = false;  ///< In the medium being felt.
-  bool has_walls = false;         ///< Wall and floor, where the immersion ends.
+  /// There are walls and a floor where the immersion ends.
+  bool has_walls = false;
 };
 
 }  // namespace jnd::app

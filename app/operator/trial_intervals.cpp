@@ -6,7 +6,8 @@ namespace jnd::app {
 
 using namespace experiments;
 
-/// "test" and "reference" are "first" and "second", or "third", where the order is drawn.
+/// Where the order is drawn, "test" and "reference" are called "first" and "second", or
+/// "third".
 std::string shown_name(const PresentationState& presented, const PlannedTrial& trial) {
   if (presented.place > 0) return interval_name(static_cast<int>(presented.place));
   if (!trial.test_interval || presented.interval == "free_space") return presented.interval;

@@ -27,7 +27,7 @@ using namespace experiments;
 
 constexpr double kLapseRate = 0.03;
 
-/// How often each level comes, of everybody together.
+/// How often each level comes, for everybody together.
 struct Asked {
   const Stage* stage = nullptr;
   std::map<double, double> num_trials;
@@ -57,10 +57,12 @@ std::vector<Asked> asked_in(const std::vector<ParticipantPlan>& plans) {
   return all;
 }
 
-/// Log-likelihood and Weber fraction of the answers that such people would be expected to give.
+/// The log-likelihood and the Weber fraction of the answers that such people would give on
+/// average.
 analysis::PsychometricFit expected_fit(const Asked& asked, double reference, double fraction,
                                        bool free_lapse) {
-  constexpr double kManyTimes = 1e4;  // Shares of answers in whole numbers.
+  // Multiplies the trials, so that shares of answers become whole numbers.
+  constexpr double kManyTimes = 1e4;
   std::vector<analysis::AnswerCount> rows;
   for (const auto& [intensity, num] : asked.num_trials) {
     const double z = std::log(intensity / reference) / std::log1p(fraction);
@@ -88,7 +90,8 @@ std::optional<PlannedLapses> lapses_of(const Asked& asked, const Laboratory& lab
   try {
     lapses.weber_fraction = median_curve_fraction(laboratory, block, map);
   } catch (const core::Error&) {
-    return std::nullopt;  // Nobody there answers such a block, as the durations say.
+    // Nobody in the laboratory answers such a block; the durations say so.
+    return std::nullopt;
   }
   if (!(lapses.weber_fraction > 0.0) || !std::isfinite(lapses.weber_fraction)) {
     return std::nullopt;

@@ -23,7 +23,7 @@ bool adapts(const PlannedBlock& block) {
          std::get<Block>(block.stage->content).practice;
 }
 
-/// Of seconds and trials.
+/// The decimals of seconds and of numbers of trials.
 constexpr int kNumDecimals = 6;
 
 ordered_json to_json(const Spread& spread) {
@@ -46,7 +46,7 @@ std::string times(const CountRange& range) {
                                     : fmt::format("{} to {} times", range.fewest, range.most);
 }
 
-/// What speaks against the levels of an adaptive block, where simulated people pile up.
+/// Warns of an adaptive block if simulated people are often at the end of its levels.
 void print_ends(const std::string& block, int width,
                 const std::map<std::string, LevelEnds>& all) {
   constexpr double kOften = 1.0 / 3.0;
@@ -83,8 +83,8 @@ Spread spread_of(const std::vector<double>& values) {
 PlanStatistics plan_statistics(const Study& study, const std::vector<ParticipantPlan>& plans,
                                const Laboratory& laboratory, std::uint64_t seed) {
   PlanStatistics statistics{.orders = order_statistics(plans)};
-  std::map<std::string, std::vector<double>> num_trials;  // Of adaptive blocks.
-  std::map<std::string, std::vector<double>> felt_s;      // Of a trial, of all blocks.
+  std::map<std::string, std::vector<double>> num_trials;  // By the name of an adaptive block.
+  std::map<std::string, std::vector<double>> felt_s;      // The time of a trial, by block.
   for (const ParticipantPlan& plan : plans) {
     for (const PlannedBlock& block : plan.blocks) {
       if (adapts(block)) num_trials.try_emplace(block.stage->name);

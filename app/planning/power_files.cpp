@@ -23,7 +23,7 @@ using nlohmann::ordered_json;
 
 constexpr char kKind[] = "jnd power shard";
 
-/// One shard, read.
+/// A shard that was read.
 struct ReadShard {
   fs::path file;
   PowerShard shard;
@@ -66,7 +66,7 @@ ReadShard read_shard(const fs::path& file) {
   }
 }
 
-/// Throws for the first thing in which two shards were asked for differently.
+/// Throws for the first difference between the requests of two shards.
 void require_same_design(const ReadShard& first, const ReadShard& other) {
   if (other.shard.count != first.shard.count) {
     refuse(
@@ -120,7 +120,7 @@ fs::path write_power_shard(const fs::path& folder, const PowerDesign& design,
                                  {"design", to_json(design)},
                                  {"runs", std::move(all)}};
   fs::path file = folder / shard_file_name(shard);
-  // The process's own name: another task may write the same shard again.
+  // The process's id is part of the name, because another process may write the same shard.
   const fs::path unfinished = file.string() + ".unfinished-" + std::to_string(::getpid());
   try {
     analysis::write_text_file(unfinished, document.dump() + "\n");

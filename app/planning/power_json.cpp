@@ -103,7 +103,7 @@ constexpr std::pair<SpendingFunction, const char*> kSpendings[] = {
 constexpr std::pair<Tail, const char*> kTails[] = {
     {Tail::kTwoSided, "either"}, {Tail::kGreater, "greater"}, {Tail::kLess, "less"}};
 
-/// The rule of the looks; null where none are planned.
+/// The rule of the looks; null if none are planned.
 ordered_json rule_json(const std::optional<PlannedSequential>& planned) {
   if (!planned) return nullptr;
   const SequentialRule& rule = planned->boundaries.rule;
@@ -231,7 +231,7 @@ PowerDesign power_design_of(const ordered_json& json) {
     design.durations.push_back({.mean_s = one.at(0), .total_s = one.at(1)});
   }
   design.left_out = json.at("left_out").get<std::vector<std::string>>();
-  // Shards of programs that knew no contrasts have none.
+  // Shards of programs that knew no contrasts contain none.
   for (const ordered_json& one : json.value("contrasts", ordered_json::array())) {
     design.analysis.contrasts.push_back({.name = one.at("name"),
                                          .meaning = one.at("meaning"),

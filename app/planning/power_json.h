@@ -10,12 +10,12 @@
 
 namespace jnd::app {
 
-/// Everything that says what the runs are about; equal for all shards of one study.
+/// Everything that says what the runs are about; it is the same for all shards of a study.
 [[nodiscard]] nlohmann::ordered_json to_json(const PowerDesign& design);
-/// Reads that form back. Throws `core::Error` or a JSON exception for anything else.
+/// Reads that JSON. Throws `core::Error` or a JSON exception for anything else.
 [[nodiscard]] PowerDesign power_design_of(const nlohmann::ordered_json& json);
 
-/// One run, every number as it was computed.
+/// One run, with every number exactly as it was computed.
 [[nodiscard]] nlohmann::ordered_json to_json(const analysis::PlannedRun& run);
 [[nodiscard]] analysis::PlannedRun planned_run_of(const nlohmann::ordered_json& json,
                                                   const analysis::PlannedAnalysis& analysis);

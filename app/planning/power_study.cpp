@@ -37,7 +37,7 @@ using analysis::PlannedQuantity;
 
 constexpr double kRatioPerPercent = 0.01;
 
-/// The one place that says what a block's answers are analysed for.
+/// Decides for what a block's answers are analysed; no other place does.
 PlannedQuantity quantity_of(const Block& block) {
   const TrialForm form = procedure_named(block.procedure).form(block);
   switch (form.answer) {
@@ -99,15 +99,15 @@ PlannedPerson person_of(const PlannedAnalysis& analysis,
   return person;
 }
 
-/// Magnitudes, matches, ratings and comparisons; no practice, and none of those that ask
-/// whether anything is there or different, or which of three it is.
+/// True for magnitudes, matches, ratings and comparisons. False for practice, and for tasks
+/// that ask whether anything is there or different, or which of three intervals it is.
 bool is_planned_for(const Block& block) {
   if (block.practice) return false;
   return !block.settings.has("task") || task_of(block) == Task::kReminder ||
          task_of(block) == Task::kTwoInterval;
 }
 
-/// Blocks that any participant gets, each once, in the order of the study's cells.
+/// The blocks that any participant gets, each once, in the order of the study file.
 std::vector<const Stage*> blocks_of(const Study& study) {
   std::vector<const Stage*> blocks;
   for (const Cell& cell : cells_of(study)) {
@@ -120,13 +120,13 @@ std::vector<const Stage*> blocks_of(const Study& study) {
       if (!known) blocks.push_back(instance.stage);
     }
   }
-  // As written, whoever begins with which.
+  // The order of the file counts, whichever block some participants begin with.
   std::stable_sort(blocks.begin(), blocks.end(),
                    [](const Stage* a, const Stage* b) { return a->line < b->line; });
   return blocks;
 }
 
-/// The other blocks but practice, in the order of the study's cells, with what they ask.
+/// The other blocks without practice, in the order of the study's cells, with their tasks.
 std::vector<std::string> left_out_of(const Study& study) {
   std::vector<std::string> names;
   for (const Cell& cell : cells_of(study)) {
@@ -142,7 +142,7 @@ std::vector<std::string> left_out_of(const Study& study) {
   return names;
 }
 
-/// Of a study that has no block to plan for.
+/// The message for a study that has no block to plan for.
 std::string unplanned_words(const Study& study) {
   std::string blocks;
   for (const std::string& name : left_out_of(study)) {
@@ -216,7 +216,7 @@ std::optional<std::pair<std::size_t, std::size_t>> compared_places(
   return places;
 }
 
-/// Whether anybody gets both blocks.
+/// True if some participant gets both blocks.
 bool somebody_gets_both(const Study& study, const std::string& first,
                         const std::string& second) {
   for (const Cell& cell : cells_of(study)) {
@@ -229,9 +229,10 @@ bool somebody_gets_both(const Study& study, const std::string& first,
   return false;
 }
 
-/// What the same fit makes of very many people of the laboratory. Unlike a Weber fraction, an
-/// exponent is not a person's own apart from its procedure: noise, lapses and settings that end
-/// short of the target (Stevens and Greenbaum 1966) belong to what is measured.
+/// The value that the same fit finds for very many people of the laboratory. Unlike a Weber
+/// fraction, an exponent is not a person's own apart from its procedure: noise, lapses and
+/// settings that end short of the target (Stevens and Greenbaum 1966) are part of what is
+/// measured.
 std::optional<double> value_of_everybody(const Study& study, const Laboratory& laboratory,
                                          const PlannedBlock& block) {
   constexpr std::uint64_t kPeople = 1000;
@@ -252,7 +253,8 @@ std::optional<double> value_of_everybody(const Study& study, const Laboratory& l
   return std::nullopt;
 }
 
-/// As `jnd plan` tells them: of adaptive blocks, what simulated participants take.
+/// The durations as `jnd plan` tells them; for adaptive blocks, those of simulated
+/// participants.
 std::vector<PlannedDuration> durations_of(const Study& study, const Laboratory& laboratory,
                                           const PowerRequest& request) {
   PlanRequest plan{
@@ -283,7 +285,8 @@ std::string contrast_meaning(const PlannedContrast& plan) {
   return meaning + "; Student's t of people's own contrasts";
 }
 
-/// The contrasts of the study file; those whose blocks are not simulated are named.
+/// The contrasts of the study file. Those whose blocks are not simulated are added to
+/// `left_out`.
 std::vector<analysis::PowerContrast> contrasts_of(const Study& study,
                                                   const std::vector<const Stage*>& blocks,
                                                   std::vector<std::string>& left_out) {
@@ -330,7 +333,8 @@ std::vector<analysis::PowerContrast> contrasts_of(const Study& study,
   return contrasts;
 }
 
-/// The looks of the study file; named as left out where the contrast that decides is.
+/// The looks of the study file. If the deciding contrast is left out, they are added to
+/// `left_out`.
 std::optional<analysis::PlannedSequential> sequential_of(
     const Study& study, const std::vector<analysis::PowerContrast>& contrasts,
     std::vector<std::string>& left_out) {
@@ -384,7 +388,7 @@ PowerStudy::PowerStudy(const Study& study, const Laboratory& laboratory,
   std::vector<std::string> left_out = left_out_of(study);
   planned.contrasts = contrasts_of(study, blocks, left_out);
   planned.sequential = sequential_of(study, planned.contrasts, left_out);
-  // What the study plans goes before two blocks that nobody asked to compare.
+  // Planned contrasts take precedence over two blocks that nobody asked to compare.
   if (request.compare || planned.contrasts.empty()) {
     planned.compared = compared_places(blocks, request);
   }

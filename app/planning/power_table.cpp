@@ -14,7 +14,7 @@ std::string decimals(const std::optional<double>& value) {
   return value ? fmt::format("{:.4f}", *value) : "-";
 }
 
-/// Of a ratio its geometric mean over the runs.
+/// The mean effect over the runs; for a ratio, its geometric mean.
 std::optional<double> effect_of(const PlannedPower& power, const PlannedName& name) {
   if (!power.mean_difference || !name.is_ratio) return power.mean_difference;
   return std::exp(*power.mean_difference);
@@ -30,7 +30,7 @@ std::string heading(const PowerDesign& design) {
       design.request.seed);
 }
 
-/// What comes of the looks; "" where none are planned.
+/// The results of the looks; "" if none are planned.
 std::string sequential_table(const PlannedSequential& planned, const SequentialPower& power,
                              bool alike) {
   const SequentialRule& rule = planned.boundaries.rule;

@@ -29,7 +29,7 @@ std::string words(const Json& value) {
   return text;
 }
 
-/// "contrast" of "contrasts": what one of such a list is called.
+/// The word for one item of a list, such as "contrast" for "contrasts".
 std::string one_word_of(const std::string& list) {
   return list.ends_with('s') ? list.substr(0, list.size() - 1) : list;
 }
@@ -52,7 +52,8 @@ const Json* named(const Json& list, const Json& name) {
   return nullptr;
 }
 
-/// Wherever two designs differ, once at the innermost place that says what it is of.
+/// Finds where two designs differ. Each difference is told once, at the innermost place that
+/// says what it is about.
 void compare(const std::string& topic, const Json& planned, const Json& found,
              std::vector<Deviation>& deviations) {
   if (planned == found) return;
@@ -92,7 +93,7 @@ void compare_designs(const Json& plan, const analysis::StudyData& data,
   if (!is_changed) return;
   const std::size_t num_before = deviations.size();
   Json found = planned_design(data.written);
-  // Where neither plans looks, nothing differs.
+  // If neither design plans looks, nothing differs.
   if (!found.contains("sequential")) found["sequential"] = nullptr;
   if (!found.contains("interleaved")) found["interleaved"] = Json::array();
   for (const auto& [key, value] : found.items()) {
@@ -114,7 +115,7 @@ std::string names_words_of(const std::set<std::string>& words) {
   return all;
 }
 
-/// What the sessions of the study say of how it was run.
+/// What the sessions of the study say about how it was run.
 class Conduct {
  public:
   Conduct(const core::StudyStore& store, const Json& plan, bool with_pilots) : store_(store) {
@@ -132,7 +133,7 @@ class Conduct {
       if (overview.ended_early) ended_early.insert(session.participant);
       if (!overview.completed && !overview.ended_early) open.insert(session.participant);
       if (++sessions_of[session.participant] > 1) came_again.insert(session.participant);
-      // A simulated session has no time of the world.
+      // A simulated session has no real date.
       if (!session.simulated && session.started_time_ns < registered_ns) {
         before.insert(session.participant);
       }
@@ -163,7 +164,7 @@ void compare_conduct(const Json& plan, const Conduct& conduct, const analysis::S
                      const core::StudyStore& store, std::vector<Deviation>& deviations) {
   int planned = plan.at("num_participants");
   if (data.ended_by_rule()) {
-    // The rule has said how many.
+    // The rule has decided the number.
     planned = 0;
     for (const analysis::TakenLook& look : data.looks) planned += look.num_sessions;
   }

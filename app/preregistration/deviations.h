@@ -8,20 +8,22 @@
 
 namespace jnd::app {
 
-/// How the results at hand were computed, where that is a choice.
+/// How the present results were computed, where that is a choice.
 struct AnalysisChoices {
-  bool delivered = false;     ///< Of delivered intensities.
-  bool inverted_out = false;  ///< Without those who answer the wrong way round.
-  bool with_pilots = false;   ///< Pilot sessions among the others.
-  std::string compared;       ///< Blocks that were asked for with --compare; "" none.
+  bool delivered = false;  ///< They are about delivered intensities.
+  /// They leave out people who answer the wrong way round.
+  bool inverted_out = false;
+  bool with_pilots = false;  ///< Pilot sessions are included.
+  /// Blocks that were asked for by --compare; "" for none.
+  std::string compared;
 };
 
-/// The study beside what it registered before: nothing where it registered nothing. Looks at
-/// the study file of every session, the number of complete sessions (where looks ended the
-/// study, of those they rest on), results that were unsealed before that, sessions from before
-/// the registration, sessions that were not finished or are of people who took part before,
-/// trials that were set aside, withdrawals, the device, the version of the program, when the
-/// study was unblinded, and at `choices`. Throws `Error` where what is kept is no
+/// Compares the study with its preregistration; the result is empty if it registered nothing.
+/// It looks at the study file of every session, the number of complete sessions (if looks ended
+/// the study, of those that the looks used), results that were unsealed before that, sessions
+/// from before the registration, sessions that were not finished or belong to people who took
+/// part before, trials that were set aside, withdrawals, the device, the version of the
+/// program, the time of unblinding, and `choices`. Throws `Error` if the stored text is no
 /// preregistration.
 [[nodiscard]] analysis::PreregisteredStudy preregistered_study(
     const core::StudyStore& store, const analysis::StudyData& data,

@@ -15,7 +15,7 @@ namespace {
 using namespace experiments;
 using Json = nlohmann::ordered_json;
 
-/// In the language that a study is shown in unless another is chosen.
+/// The text in the study's first language, in which it is shown unless another one is chosen.
 std::string shown(const Text& text, const Study& study) {
   const auto found = text.find(study.languages.front());
   return found == text.end() ? "" : found->second;
@@ -75,7 +75,7 @@ std::string blinding_word(Blinding blinding) {
                                               : "none";
 }
 
-/// Of interleaved blocks, one entry a group.
+/// Adds an interleaved block to its group; each group has one entry.
 void add_to_group(const Stage& stage, Json& groups) {
   if (!stage.interleaving) return;
   if (groups.empty() || groups.back().at("name") != stage.interleaving->name) {

@@ -134,7 +134,7 @@ std::string blinding_words(const std::string& blinding) {
                                    : "Nobody is blind to the stimuli.";
 }
 
-/// When a study ends whose looks are planned; "" where none are.
+/// When a study with planned looks ends; "" if no looks are planned.
 std::string looks_words(const Json& plan) {
   if (!plan.contains("sequential")) return "";
   const Json& rule = plan.at("sequential");

@@ -22,11 +22,11 @@ std::chrono::sys_days day_of(const std::string& date) {
 }  // namespace
 
 KnownProfile read_known_profile(const std::filesystem::path& file) {
-  // A file that does not open, or is much too long, is told of by the reader.
+  // The reader tells about a file that cannot be opened or is much too long.
   (void)experiments::read_device_profile(file);
   std::ifstream stream(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
-  // Of the text that is kept, not of what stood there a moment before.
+  // Reads the text that is stored, and not what was in the file a moment before.
   experiments::DeviceProfile profile =
       experiments::read_device_profile_text(text, file.string());
   return {.profile = std::move(profile), .text = std::move(text), .place = file.string()};

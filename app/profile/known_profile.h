@@ -10,48 +10,53 @@
 
 namespace jnd::app {
 
-/// A device profile with the text that it was read from.
+/// A device profile with the text from which it was read.
 struct KnownProfile {
   experiments::DeviceProfile profile;
-  std::string text;   ///< That a session keeps.
-  std::string place;  ///< For messages: its file, or the study folder that keeps it.
+  std::string text;  ///< The text, which a session stores.
+  /// For messages: its file, or the study folder that stores it.
+  std::string place;
 };
 
-/// Throws `experiments::ProtocolError` with every problem of the file, an edited measurement
-/// among them. Not real time.
+/// Throws `experiments::ProtocolError` with every problem of the file; an edited measurement is
+/// one. Not real time.
 [[nodiscard]] KnownProfile read_known_profile(const std::filesystem::path& file);
 
-/// What a session was begun with; throws `core::Error` where the folder lacks it or it is
-/// damaged.
+/// The profile with which a session began. Throws `core::Error` if the folder lacks it, or if
+/// it is damaged.
 [[nodiscard]] KnownProfile stored_profile(const core::StudyStore& store,
                                           const std::string& sha256);
 
-/// Today's day where this machine is, as 2026-11-25.
+/// Today's date in the machine's time zone, such as 2026-11-25.
 [[nodiscard]] std::string today();
 
-/// Days from one date to another.
+/// The number of days from one date to another.
 [[nodiscard]] int days_between(const std::string& from, const std::string& until);
 
-/// "`wam` 17": model and serial, if it says one.
+/// The model, and the serial if it is known, such as "`wam` 17".
 [[nodiscard]] std::string device_words(const std::string& model, const std::string& serial);
 
-/// "measured on 2026-11-20, 5 days ago, valid until 2027-11-20", with "SIMULATED" where it is.
+/// Such as "measured on 2026-11-20, 5 days ago, valid until 2027-11-20", with "SIMULATED" for a
+/// simulated device.
 [[nodiscard]] std::string age_words(const experiments::DeviceProfile& profile,
                                     const std::string& on_day);
 
-/// Why the profile is not of this device, a sentence with its place; "" if it is. A serial that
-/// the device does not tell before it is open is no difference until `is_open`.
+/// Why the profile does not belong to this device, in a sentence with the profile's place; ""
+/// if it does. Some devices tell their serial only when they are open, so a missing serial is
+/// no difference until `is_open`.
 [[nodiscard]] std::string foreign_words(const KnownProfile& known,
                                         const device::DeviceIdentity& device, bool is_simulated,
                                         bool is_open);
 
-/// Why the profile has no meaning on this day, likewise: it ended.
+/// Why the profile does not hold on this day, in such a sentence: it has expired. "" if it
+/// holds.
 [[nodiscard]] std::string ended_words(const KnownProfile& known, const std::string& on_day);
 
-/// Why the profile cannot be used on this day, likewise: it ended, or its last check failed.
+/// Why the profile cannot be used on this day, in such a sentence: it has expired, or its last
+/// check failed. "" if it can.
 [[nodiscard]] std::string outdated_words(const KnownProfile& known, const std::string& on_day);
 
-/// What the device is asked for by the profile.
+/// The parameters that the profile sets for the device.
 [[nodiscard]] device::ProfiledDevice::Parameters device_parameters(
     const experiments::DeviceProfile& profile);
 

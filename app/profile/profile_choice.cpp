@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Every file of a profile in these folders, each once, in the order of folders and names.
+/// Every profile's file in these folders, each once, in the order of folders and names.
 std::vector<fs::path> profile_files(const std::vector<fs::path>& folders) {
   std::vector<fs::path> files;
   for (const fs::path& folder : folders) {
@@ -39,8 +39,8 @@ std::vector<fs::path> profile_files(const std::vector<fs::path>& folders) {
   return files;
 }
 
-/// The last one measured is the greatest; of those, the one checked last, for copies of one
-/// have the checks that came before.
+/// Orders profiles by age: the greatest is the one measured last. Among equals, the one checked
+/// last is greater, because a copy of a profile contains the checks that came before.
 std::tuple<std::string, std::string, std::size_t> newness(const KnownProfile& known) {
   return {known.profile.measured_on, experiments::last_checked_on(known.profile),
           known.profile.checks.size()};
@@ -102,7 +102,8 @@ FoundProfile find_profile(const DeviceOfProfile& device, const std::vector<fs::p
         fitting.push_back(std::move(known));
       }
     } catch (const core::Error& error) {
-      const std::string words = error.what();  // The first of its problems will do.
+      // The first of its problems is enough.
+      const std::string words = error.what();
       found.remarks.push_back(words.substr(0, words.find('\n')));
     }
   }
@@ -183,7 +184,7 @@ bool asks_for_force(const experiments::Study& study) {
     } else if (const auto* post = std::get_if<experiments::PostExperiment>(&stage.content)) {
       for (const auto& item : post->items) asks |= is_felt(item.setting);
     } else {
-      // What a block asks about is there to be felt, whatever its levels are.
+      // What a block asks about can be felt, whatever its levels are.
       asks |= std::holds_alternative<experiments::Block>(stage.content);
     }
   });

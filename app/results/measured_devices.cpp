@@ -18,7 +18,7 @@ namespace {
 using analysis::DevicePart;
 using analysis::Estimate;
 
-/// By name: sections may differ where an estimate does not exist at one end.
+/// Values by name, because sections may differ if an estimate does not exist at one end.
 std::map<std::string, double> values_of(const analysis::StudyResults& results) {
   std::map<std::string, double> values;
   for (const analysis::ResultsSection& section : results.sections) {
@@ -69,7 +69,7 @@ analysis::DeliveredStudy delivered_study(const core::StudyStore& store,
 void tell_device_part(analysis::StudyResults& results, const core::StudyStore& store,
                       const analysis::StudyData& as_commanded, const MeasuredDevices& devices,
                       const analysis::ResultsOptions& options, bool leaves_out_inverted) {
-  // Values alone are wanted of these.
+  // Only the values of these results are needed.
   analysis::ResultsOptions quick = options;
   constexpr int kFewestResamples = 100;
   quick.num_resamples = kFewestResamples;
@@ -82,7 +82,7 @@ void tell_device_part(analysis::StudyResults& results, const core::StudyStore& s
 
 std::vector<std::string> measured_device_words(const core::StudyStore& store,
                                                const MeasuredDevices& devices) {
-  std::map<std::string, int> num_sessions;  // By the profile's sum.
+  std::map<std::string, int> num_sessions;  // By the SHA-256 of the profile.
   for (const core::SessionRow& session : store.sessions()) {
     if (devices.parts.contains(session.session)) ++num_sessions[session.device_profile_sha256];
   }

@@ -7,12 +7,12 @@
 
 namespace jnd::app {
 
-/// Has the study remember that what it holds is about to be written to `out`, a new or empty
-/// folder, so that a withdrawal names it; anything else is refused by who writes, and is not
-/// remembered. `kind`: "csv", "bids", "hdf5", "xdf", "report"; `pilot`: pilot sessions, too.
-/// Returns
-/// "" or, for a study that cannot be written to, the sentence that it does not remember: who
-/// reads a study on a read-only disk is not kept from it. Not real time.
+/// Makes the study remember that its contents are about to be written to `out`, so that a
+/// withdrawal names that place. If `out` is neither new nor empty, nothing is remembered,
+/// because the writer refuses it. `kind` is "csv", "bids", "hdf5", "xdf", "figures" or
+/// "report"; `pilot` tells that pilot sessions are included. Returns "", or, if nothing can be
+/// written to the study, a sentence that it does not remember: a study on a read-only disk can
+/// still be exported. Not real time.
 [[nodiscard]] std::string noted_export(const core::StudyStore& store,
                                        const std::filesystem::path& out,
                                        const std::string& kind, bool pilot);

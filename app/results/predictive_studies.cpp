@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr int kGroup = 52;
 constexpr int kFewestGroups = 2;
 
-/// Gone with everything in it when it goes out of scope.
+/// A temporary folder, which is removed with all its contents by the destructor.
 class ScratchFolder {
  public:
   ScratchFolder() {

@@ -130,14 +130,15 @@ json contrast_json(const analysis::ContrastResult& one) {
   return contrast;
 }
 
-/// Text of the shipped laboratory of this name; "" if there is none.
+/// The text of the shipped laboratory with this name; "" if there is none.
 std::string shipped(const std::string& name) {
   std::ifstream file(shipped_folder() / "data" / "laboratories" / (name + ".json"),
                      std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// Before the work is done: what is asked for there is not is a wrong use of the option.
+/// Checks the blocks to compare before any work is done: asking for blocks that do not exist is
+/// a wrong use of the option.
 void require_compared(const analysis::StudyData& data,
                       const analysis::ResultsOptions& options) {
   try {
@@ -147,7 +148,7 @@ void require_compared(const analysis::StudyData& data,
   }
 }
 
-/// Of the people given, or those shipped; or says why there are none.
+/// Compares with the people given, or with the shipped ones; or says why there are none.
 void compare_with_simulated(analysis::StudyResults& results, const analysis::StudyData& data,
                             const analysis::Published& published,
                             const analysis::PredictivePeople* people) {

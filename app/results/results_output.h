@@ -9,26 +9,27 @@
 
 namespace jnd::app {
 
-/// Results of a study folder, with the published values that are shipped and, where it was
-/// simulated in a shipped laboratory, what studies of simulated people come to.
+/// The results of a study folder, with the published values that the program ships. If the
+/// study was simulated in a shipped laboratory, they include what studies of simulated people
+/// find.
 [[nodiscard]] analysis::StudyResults results_of_folder(
     const std::filesystem::path& folder, const analysis::ResultsOptions& options = {});
 
-/// The same of what was read from a folder already; whether it may be seen is the caller's.
-/// `people`: of that study and laboratory, in place of those that are shipped.
+/// The results of data that were read already; the caller decides whether they may be seen.
+/// `people` of the same study and laboratory replace the shipped ones.
 [[nodiscard]] analysis::StudyResults results_of_data(
     const analysis::StudyData& data, const analysis::ResultsOptions& options = {},
     const analysis::PredictivePeople* people = nullptr);
 
-/// The contract's JSON: study, simulated, sections.
+/// The results as the JSON that the contract describes: study, simulated, sections.
 [[nodiscard]] nlohmann::json results_json(const analysis::StudyResults& results);
 
-/// Every estimate with interval and published value, a table a section.
+/// Every estimate with its interval and published value, one table for each section.
 [[nodiscard]] std::string to_table(const analysis::StudyResults& results);
 
-/// Only what has a published value: ours beside it and, where they are known, what simulated
-/// studies come to, with the share of them as far out; first what the laboratory was calibrated
-/// on, then what was held out.
+/// Only estimates with a published value: ours beside the published one and, if there are
+/// simulated studies, their values and the share of them that is as far out. Values on which
+/// the laboratory was calibrated come first, then those that were held out.
 [[nodiscard]] std::string to_comparison_table(const analysis::StudyResults& results);
 
 }  // namespace jnd::app

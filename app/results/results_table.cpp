@@ -25,13 +25,14 @@ std::string text(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? fmt::format("{:.4f}", *value) : "-";
 }
 
-/// "num_zeros" of "match.num_zeros", "criterion_met": a whole number, or the mean of some.
+/// True for numbers such as "match.num_zeros" and "criterion_met": they are whole, or means of
+/// whole numbers.
 bool is_count(const std::string& name) {
   const std::string last = name.substr(name.rfind('.') + 1);
   return last.starts_with("num_") || last == "criterion_met";
 }
 
-/// Of the number of this name: a count that is whole has no decimals.
+/// The text of the number with this name; a whole count has no decimals.
 std::string text_of(const std::string& name, const std::optional<double>& value) {
   const bool is_whole = value && std::isfinite(*value) && *value == std::floor(*value);
   return is_whole && is_count(name) ? fmt::format("{:.0f}", *value) : text(value);
@@ -47,7 +48,7 @@ std::string text(const Interval& whole, const std::optional<double>& value) {
   return text(analysis::bounded_by_data(whole, value));
 }
 
-/// Of an estimate, or of a participant's own.
+/// The interval of an estimate, or of a participant's own estimate.
 template <typename AnyEstimate>
 std::string interval_text(const AnyEstimate& one) {
   return text(analysis::told_interval(one.name, one.ci95, one.value));
@@ -66,7 +67,7 @@ std::string published_text(const Estimate& estimate) {
   return value + " (sd " + analysis::shortest_words(*estimate.published_sd) + ")";
 }
 
-/// "2 sessions open: P13, P14"; "" for none.
+/// Such as "2 sessions open: P13, P14"; "" if there are none.
 std::string named_sessions(const std::vector<std::string>& participants,
                            const std::string& how) {
   if (participants.empty()) return "";
@@ -74,7 +75,7 @@ std::string named_sessions(const std::vector<std::string>& participants,
                      fmt::join(participants, ", "));
 }
 
-/// A line of what did not come to its end or is not told of; "" where every session did.
+/// A line about sessions that were not completed or are left out; "" if there are none.
 std::string missing_words(const analysis::MissingSessions& sessions) {
   std::vector<std::string> parts = {named_sessions(sessions.open, "open"),
                                     named_sessions(sessions.ended_early, "ended early")};
@@ -108,7 +109,7 @@ std::string comparison_header(bool has_simulated) {
          "  " + std::string(121, '-') + "\n";
 }
 
-/// "0.7013 (0.4434 .. 1.0189)": median and middle 95 %.
+/// The median and the middle 95 %, such as "0.7013 (0.4434 .. 1.0189)".
 std::string simulated_text(const Estimate& estimate) {
   if (!estimate.predictive) return "-";
   const analysis::PredictiveTail& of = *estimate.predictive;
@@ -128,15 +129,16 @@ std::string published_row(const Estimate& estimate, const analysis::Predictive& 
                      has_simulated ? tail_words(estimate, predictive) : z);
 }
 
-/// Who has no answers, and what has no value. Nobody is left out of a published statistic for
-/// lacking a fit of their own with another pse.
+/// True for people without answers, and for values that do not exist. Nobody is left out of a
+/// published statistic for lacking a fit of their own with another pse.
 bool bears_on_published(const analysis::ResultsSection& section,
                         const analysis::ExcludedParticipant& one) {
   return section.name == "as_published" || one.participant == "everyone" ||
          one.reason.starts_with("no answers in ");
 }
 
-/// "all, 15 together 0.012 (standard error 0.004)"; "" without any.
+/// A line such as "all, 15 together: as far out are 0.012 of the simulated studies (standard
+/// error 0.004)"; "" if there is no joint tail.
 std::string joint_text(const std::optional<analysis::JointTail>& joint,
                        const std::string& which) {
   if (!joint) return "";
@@ -146,7 +148,8 @@ std::string joint_text(const std::optional<analysis::JointTail>& joint,
       which, joint->num_statistics, joint->p_value, joint->standard_error);
 }
 
-/// Of the column of names: of the longest one, but long ones alone do not widen it for ever.
+/// The width of the column of names: that of the longest name, but very long names do not
+/// count.
 int name_width(const analysis::StudyResults& results) {
   constexpr std::size_t kUsual = 46, kMost = 72;
   std::size_t width = kUsual;
@@ -162,7 +165,7 @@ int name_width(const analysis::StudyResults& results) {
   return static_cast<int>(width);
 }
 
-/// A line for each, below the number that it is of.
+/// One line for each caution, below the number that it is about.
 std::string caution_lines(const std::vector<std::string>& cautions) {
   std::string lines;
   for (const std::string& caution : cautions) {
@@ -171,7 +174,7 @@ std::string caution_lines(const std::vector<std::string>& cautions) {
   return lines;
 }
 
-/// A row of `jnd results`: what the number is, and what was published if anything was.
+/// A row of `jnd results`: the number, what it means, and what was published, if anything.
 std::string explained_row(const Estimate& estimate, int width,
                           const analysis::Predictive& predictive) {
   std::string line =
@@ -186,7 +189,7 @@ std::string explained_row(const Estimate& estimate, int width,
   return line + "\n" + caution_lines(estimate.cautions);
 }
 
-/// "d 0.50 (0.10 .. 0.90)", with the name of the effect size; "" without one.
+/// The effect size with its name, such as "d 0.50 (0.10 .. 0.90)"; "" if there is none.
 std::string effect_text(const analysis::Comparison& c) {
   const std::tuple<const char*, std::optional<double>, Interval> kEffects[] = {
       {"dz", c.cohen_dz, c.cohen_dz_ci95},
@@ -228,7 +231,7 @@ std::string comparison_row(const analysis::NamedComparison& named) {
   return line + "\n" + caution_lines(named.cautions);
 }
 
-/// What each block was asked for, before everything else.
+/// The primary value of each block, which comes before all other numbers.
 std::string in_short(const analysis::StudyResults& results, int width) {
   std::string table;
   for (const analysis::ResultsSection& section : results.sections) {
@@ -252,7 +255,7 @@ std::string in_short(const analysis::StudyResults& results, int width) {
   return table.empty() ? "" : "\nin short: the primary values, explained below\n" + table;
 }
 
-/// What the study was planned to answer, a sentence each, before everything else.
+/// The planned contrasts, one sentence each, which come before everything else.
 std::string planned(const analysis::StudyResults& results) {
   if (results.contrasts.empty()) return "";
   std::string table = "\nplanned contrasts\n";
@@ -270,7 +273,7 @@ std::string planned(const analysis::StudyResults& results) {
   return table;
 }
 
-/// What deviates from what was planned; "" where nothing was registered.
+/// What deviates from the preregistration; "" if nothing was registered.
 std::string deviations(const analysis::PreregisteredStudy& plan) {
   if (plan.registered_on.empty()) return "";
   std::string table = fmt::format(
@@ -283,7 +286,8 @@ std::string deviations(const analysis::PreregisteredStudy& plan) {
   return table;
 }
 
-/// Names of numbers that nobody has an interval or a reason for: they fit into columns.
+/// Names of numbers for which nobody has an interval, a reason or a caution, so that they fit
+/// into columns.
 std::vector<std::string> plain_names(const analysis::ResultsSection& section) {
   std::vector<std::string> names;
   for (const analysis::ParticipantEstimate& own : section.participants) {
@@ -298,7 +302,7 @@ std::vector<std::string> plain_names(const analysis::ResultsSection& section) {
   return names;
 }
 
-/// What stands above a column: a question without its prefix, any other name as it is.
+/// The title of a column: a question without its prefix, any other name as it is.
 std::string title_of(const std::string& name) {
   constexpr std::string_view kPrefix = "questionnaire.";
   return name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name;
@@ -308,7 +312,7 @@ std::size_t width_of(const std::string& name) {
   return 2 + std::max<std::size_t>(8, title_of(name).size());
 }
 
-/// A row a participant, some names in columns.
+/// Some numbers in columns, with one row for each participant.
 std::string columns_of(const analysis::ResultsSection& section,
                        std::span<const std::string> names) {
   std::vector<std::string> participants;
@@ -356,13 +360,13 @@ std::string participants_rows(const analysis::ResultsSection& section, int colum
   return table;
 }
 
-/// "group_d, 1.853", "group_d, catch trials", "matching".
+/// The place of a loss, such as "group_d, 1.853", "group_d, catch trials" or "matching".
 std::string level_text(const analysis::LevelLoss& loss) {
   if (loss.is_catch) return loss.block + ", catch trials";
   return loss.block + (loss.level ? fmt::format(", {:.4g}", *loss.level) : "");
 }
 
-/// Trials that did not go as they were meant to, level by level; "" without any.
+/// Trials that did not go as planned, by level; "" if there are none.
 std::string losses_table(const std::vector<analysis::LevelLoss>& losses, int width) {
   const auto row = [width](const std::string& name, const auto&... counts) {
     std::string line = fmt::format("  {:<{}}", name, width);
@@ -385,7 +389,7 @@ std::string losses_table(const std::vector<analysis::LevelLoss>& losses, int wid
          rows;
 }
 
-/// What an open end means, where there is one.
+/// Explains what an open end means, if the table has one.
 std::string note_of(const std::string& table) {
   const bool any = table.find("open .. ") != std::string::npos ||
                    table.find(" .. open") != std::string::npos;
@@ -432,7 +436,8 @@ std::string to_comparison_table(const analysis::StudyResults& results) {
     for (const analysis::ResultsSection& section : results.sections) {
       for (const Estimate& estimate : section.estimates) {
         if (!estimate.is_published() || basis_of(estimate) != basis) continue;
-        // Of a stiff hand, say, whose fingers cannot trail.
+        // Such a value does not exist, for example, for a stiff hand, whose fingers cannot
+        // trail.
         if (!estimate.value && estimate.published_positive) continue;
         if (first && results.simulated) {
           table += std::string("  ") + title +

@@ -36,7 +36,7 @@ std::vector<CompleteSession> complete_sessions(const core::StudyStore& store) {
   return complete;
 }
 
-/// The looks of a study, those taken and those that are due.
+/// The looks of a study that were taken, and those that are due.
 class Looks {
  public:
   explicit Looks(core::StudyStore& store)
@@ -55,10 +55,10 @@ class Looks {
     return !taken_.empty() && taken_.back().decision == "stop";
   }
   [[nodiscard]] std::size_t num_taken() const { return taken_.size(); }
-  /// Those who withdrew after a look that they came to stay counted: the look was taken.
+  /// People who withdrew after a look remain counted if the look included them.
   [[nodiscard]] std::size_t num_complete() const { return num_used_ + further_.size(); }
 
-  /// Whether the next look of the rule has its people.
+  /// True if enough people are there for the next look of the rule.
   [[nodiscard]] bool is_due(const analysis::SequentialRule& rule) const {
     return !has_ended() && taken_.size() < rule.looks.size() &&
            num_complete() >= static_cast<std::size_t>(rule.looks[taken_.size()]);
@@ -77,7 +77,7 @@ class Looks {
       row.sessions.push_back(one->session);
       people.back().push_back(one->participant);
     }
-    // After the looks before it was told to go on, whatever trials were set aside since.
+    // The earlier looks decided to go on, and this holds even if trials were set aside since.
     const bool ends = analysis::crosses(boundaries, taken_.size(),
                                         analysis::estimates_at_looks(data, people).back());
     const bool is_last = taken_.size() + 1 == boundaries.rule.looks.size();
@@ -105,7 +105,7 @@ class Looks {
   core::StudyStore& store_;
   std::vector<core::SequentialLookRow> taken_;
   std::vector<CompleteSession> complete_, further_;
-  std::size_t num_used_ = 0;  ///< Sessions that the looks taken rest on.
+  std::size_t num_used_ = 0;  ///< How many sessions the earlier looks have used.
 };
 
 }  // namespace

@@ -19,7 +19,7 @@
 namespace jnd::app {
 namespace {
 
-/// What `jnd results --json` says; "" if there is no session but pilots.
+/// The output of `jnd results --json`; "" if all sessions are pilots.
 std::string results_text(const core::StudyStore& store, const core::Progress& progress) {
   const std::vector<core::SessionRow> sessions = store.sessions();
   const bool any = std::any_of(sessions.begin(), sessions.end(),
@@ -29,8 +29,8 @@ std::string results_text(const core::StudyStore& store, const core::Progress& pr
       results_json(results_of_data(analysis::load_study(store), {.on_progress = progress})));
 }
 
-/// `studies`: those that were read, by their hash; reading one for each session would take most
-/// of the time.
+/// `studies` holds the studies read so far, by their hash, because reading one for each session
+/// would take most of the time.
 std::vector<std::string> stage_names_of(const core::StudyStore& store,
                                         const core::SessionRow& session,
                                         std::map<std::string, experiments::Study>& studies) {
@@ -46,7 +46,7 @@ std::vector<std::string> stage_names_of(const core::StudyStore& store,
   return names;
 }
 
-/// What is to be said of samples.
+/// What is said about samples.
 std::string samples_text(const analysis::ExportOutcome& outcome, bool asked) {
   if (outcome.samples) return " with samples";
   return asked ? "; the study has no samples to write" : "";
@@ -55,7 +55,7 @@ std::string samples_text(const analysis::ExportOutcome& outcome, bool asked) {
 StudyExport export_as(const core::StudyStore& store, const StudyExportRequest& options) {
   const bool asked = options.data.recordings;
   if (options.format == "bids") {
-    // The results in it take most of the time.
+    // Computing the results takes most of the time.
     constexpr double kComputed = 0.7;
     const core::Progress& progress = options.data.on_progress;
     const std::string results = results_text(store, core::part_of(progress, 0.0, kComputed));
@@ -98,7 +98,7 @@ StudyExport write_study_export(const core::StudyStore& store,
   filled.data.stage_names = [&](const core::SessionRow& session) {
     return stage_names_of(store, session, studies);
   };
-  // BIDS has them in its results.
+  // A BIDS data set has the preregistration in its results.
   if (request.format != "bids" && kept_preregistration(store)) {
     filled.data.preregistration = preregistered_study(store, analysis::load_study(store));
   }

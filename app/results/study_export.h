@@ -10,24 +10,24 @@
 
 namespace jnd::app {
 
-/// What a study can be exported as.
+/// The formats in which a study can be exported.
 inline constexpr std::array<const char*, 4> kExportFormats = {"csv", "bids", "hdf5", "xdf"};
 
 struct StudyExportRequest {
-  std::string format;         ///< One of `kExportFormats`.
-  std::filesystem::path out;  ///< New or empty.
-  analysis::ExportOptions
-      data;  ///< Program, names of stages and preregistration are filled in.
+  std::string format;            ///< One of `kExportFormats`.
+  std::filesystem::path out;     ///< A new or empty folder.
+  analysis::ExportOptions data;  ///< `write_study_export` adds program, stage names, plan.
 };
 
 struct StudyExport {
-  std::string what;  ///< What the data set consists of, for a person.
+  std::string what;  ///< What the data set consists of, in words for people.
   std::vector<std::string> problems;
-  std::string forgotten;  ///< That the study does not remember it; "" where it does.
+  /// A sentence that the study does not remember the export; "" if it does.
+  std::string forgotten;
 };
 
-/// Writes a study as a data set for other programs, and has the study remember where. Refuses a
-/// double-blind study that nobody has unblinded. Throws `core::Error`. Not real time.
+/// Writes a study as a data set for other programs, and makes the study remember where. Refuses
+/// a double-blind study that nobody has unblinded. Throws `core::Error`. Not real time.
 [[nodiscard]] StudyExport write_study_export(const core::StudyStore& store,
                                              const StudyExportRequest& request);
 

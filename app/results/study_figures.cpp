@@ -93,7 +93,7 @@ StudyFigures write_study_figures(const StudyFiguresRequest& request) {
                                  .gnuplot = gnuplot,
                                  .on_progress = core::part_of(request.on_progress, 0.4, 1.0)});
   } catch (...) {
-    // Nothing half drawn stays; the place was free before.
+    // Removes the unfinished figures; nothing else was there before.
     std::error_code ignored;
     fs::remove_all(request.out, ignored);
     throw;

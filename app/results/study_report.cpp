@@ -21,7 +21,7 @@ namespace {
 
 using analysis::DeliveredReport;
 
-/// Where sessions keep what was measured of their devices: what these delivered.
+/// What the devices delivered, if the sessions have stored what was measured of them.
 std::optional<DeliveredReport> delivered_report(const core::StudyStore& store,
                                                 const analysis::StudyData& as_commanded,
                                                 const StudyReportRequest& request) {
@@ -55,7 +55,7 @@ void write_reports_in(const std::string& language) {
 }
 
 StudyReport write_study_report(const StudyReportRequest& request) {
-  // Of many people the fits take most of the time, of recordings the movement.
+  // For many people the fits take most of the time, for recordings the movement.
   constexpr double kRead = 0.05, kComputed = 0.5, kMoved = 0.65;
   const core::StudyStore store(request.folder, core::StudyStore::Mode::kReadOnly);
   require_results_open(store);

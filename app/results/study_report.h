@@ -9,19 +9,21 @@
 
 namespace jnd::app {
 
-/// Has all reports that follow written in this language ("de"), of which the program has a
-/// catalogue; "en" is English. Throws `Error` for any other, naming those that there are. While
-/// no other thread of the program runs.
+/// Makes the program write all further reports in this language, such as "de"; "en" is English.
+/// Throws `Error`, which names the possible languages, if the program has no catalogue for it.
+/// Call it while no other thread of the program runs.
 void write_reports_in(const std::string& language);
 
 struct StudyReportRequest {
-  std::filesystem::path folder;  ///< NAME.study
-  std::filesystem::path out;     ///< New or empty.
+  std::filesystem::path folder;  ///< The folder NAME.study.
+  std::filesystem::path out;     ///< A new or empty folder.
   bool pilot = false;
-  int jobs = 2;  ///< >= 1; the report is the same for any.
+  int jobs = 2;  ///< At least 1; the report is the same for any number.
   analysis::ResultsOptions results;
-  bool leaves_out_inverted = false;  ///< Those who answer the wrong way round in a block.
-  /// Told how much is done, 0 to 1; what it throws ends the work, and nothing of it stays.
+  /// Leaves out people who answer the wrong way round in a block.
+  bool leaves_out_inverted = false;
+  /// Told how much is done, 0 to 1. What it throws ends the work, and nothing of the report
+  /// remains.
   std::function<void(double)> on_progress;
 };
 
@@ -30,9 +32,9 @@ struct StudyReport {
   analysis::ReportOutcome outcome;
 };
 
-/// Reads a study, computes everything and writes its report with the programs that this machine
-/// has. Refuses a double-blind study that nobody has unblinded; throws as
-/// `analysis::write_report`. Not real time.
+/// Reads a study, computes everything, and writes its report with the programs that this
+/// machine has. Refuses a double-blind study that nobody has unblinded. Throws as
+/// `analysis::write_report` does. Not real time.
 [[nodiscard]] StudyReport write_study_report(const StudyReportRequest& request);
 
 }  // namespace jnd::app

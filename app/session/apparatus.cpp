@@ -32,8 +32,9 @@
 namespace jnd::app {
 namespace {
 
-// Powers of two. In real time: at 1 kHz more than half a minute of a storage that is held up.
-// In simulation the samples are taken after each batch, while they are still in the cache.
+// Both are powers of two. In real time at 1 kHz, the queue holds more than half a minute while
+// storage is held up. In simulated time, samples are taken after each batch, while they are
+// still in the cache.
 constexpr std::size_t kRealtimeQueueCapacity = 32768;
 constexpr std::size_t kSimulatedQueueCapacity = 256;
 
@@ -96,7 +97,7 @@ device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& para
   loop.rate_hz = parameters.rate_hz;
   loop.first_tick = parameters.first_tick;
   if (laboratory != nullptr) {
-    // A laboratory may ask for less than the loop allows, and never for more.
+    // A laboratory may lower the loop's limits but never raise them.
     loop.limits.per_point_n =
         std::min(loop.limits.per_point_n, laboratory->device.max_force_per_point_n);
     loop.limits.total_n = std::min(loop.limits.total_n, laboratory->device.max_total_force_n);
@@ -106,8 +107,8 @@ device::HapticLoop::Parameters loop_parameters(const Apparatus::Parameters& para
   return loop;
 }
 
-/// As it was measured; nullptr where that is not known. Throws `core::Error` where it has to
-/// be.
+/// The device as it was measured; nullptr if there is no profile. Throws `core::Error` if the
+/// device needs one.
 std::unique_ptr<device::HapticDevice> as_measured(device::HapticDevice& bare,
                                                   const Apparatus::Parameters& parameters) {
   if (parameters.profile != nullptr) {
@@ -120,7 +121,7 @@ std::unique_ptr<device::HapticDevice> as_measured(device::HapticDevice& bare,
                     "force, found none; measure it with `jnd commission`");
 }
 
-/// nullptr where nothing is to go wrong.
+/// The device with injected faults; nullptr if there are none.
 std::unique_ptr<device::HapticDevice> with_faults(
     device::HapticDevice& sound, const std::vector<device::ScheduledFault>& faults) {
   if (faults.empty()) return nullptr;
@@ -182,7 +183,7 @@ struct Apparatus::Implementation {
   }
 
   ~Implementation() {
-    // No force from the loop's last tick on: storage may take its time.
+    // There is no force after the loop's last tick, because storage may take its time.
     if (running) {
       running->stop();
     } else {
@@ -191,8 +192,8 @@ struct Apparatus::Implementation {
     storage.reset();
   }
 
-  /// Only now that it is open does every device say which one it is. It is disarmed as yet, or
-  /// simulated.
+  /// Checks that the profile belongs to the device, because some devices tell which one they
+  /// are only when they are open. The device is still disarmed, or simulated.
   void require_own_profile() {
     if (parameters.profile == nullptr) return;
     const std::string problem =
@@ -230,7 +231,7 @@ struct Apparatus::Implementation {
     };
   }
 
-  /// Does `work` once every sample up to now has been taken.
+  /// Does `work` once every sample up to now was taken.
   void after_samples(std::int64_t last_tick, const std::function<void()>& work) {
     if (storage) return storage->after(last_tick, work, beats_while_waiting());
     work();
@@ -253,8 +254,9 @@ struct Apparatus::Implementation {
         std::llround(static_cast<double>(num_ticks) * 1e9 / parameters.rate_hz));
   }
 
-  /// As somebody beside the device asked for. A connection has to be good for a while before it
-  /// may be armed; whatever else is wrong is for a person to look at. Throws `core::Error`.
+  /// Arms the device as somebody beside it has asked for. A connection has to be good for a
+  /// while before the device may be armed; any other problem needs a person. Throws
+  /// `core::Error`.
   void arm() {
     constexpr auto kPatience = std::chrono::seconds(10);
     const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -289,15 +291,19 @@ struct Apparatus::Implementation {
   }
 
   Parameters parameters;
-  std::optional<SleepInhibitor> awake;  ///< In real time.
-  OperatorExchange own_exchange;        ///< Used where there is no window.
+  /// Only in real time.
+  std::optional<SleepInhibitor> awake;
+  OperatorExchange own_exchange;  ///< Used if there is no window.
   OperatorExchange& exchange;
   core::Heartbeat session_heartbeat;  ///< Where there is a window.
   std::unique_ptr<device::HapticDevice> bare_device;
-  std::unique_ptr<device::HapticDevice> measured_device;  ///< Where there is a profile of it.
-  std::unique_ptr<device::HapticDevice> faulty_device;  ///< Where faults are injected into it.
-  device::HapticDevice* device;                         ///< The outermost of them.
-  device::SimulatedHand* simulated_hand;  ///< Where a simulated arm moves the hand.
+  /// Exists if there is a profile of the device.
+  std::unique_ptr<device::HapticDevice> measured_device;
+  /// Exists if faults are injected into the device.
+  std::unique_ptr<device::HapticDevice> faulty_device;
+  device::HapticDevice* device;  ///< The outermost of these devices.
+  /// nullptr unless a simulated arm moves the hand.
+  device::SimulatedHand* simulated_hand;
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::SpscQueue<core::Sample> samples;

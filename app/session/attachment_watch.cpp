@@ -9,7 +9,7 @@
 namespace jnd::app {
 namespace {
 
-/// In the order of `core::ContactPoint`.
+/// The names are in the order of `core::ContactPoint`.
 constexpr std::array<const char*, core::kNumContactPoints> kWords = {
     core::for_people("the inner palm"), core::for_people("the outer palm"),
     core::for_people("the thumb"), core::for_people("the index finger"),

@@ -45,7 +45,8 @@ void require_device_keeps_pace(const std::string& name, const std::string& place
 void require_device_starts(const std::string& name, double rate_hz) {
   try {
     const std::unique_ptr<device::HapticDevice> device = device::make_device(name, rate_hz);
-    // The motors of a real one turn on only after the check for real time, in `start_haptics`.
+    // The motors of a real device turn on only after the check for real time, in
+    // `start_haptics`.
     if (!device->capabilities().simulated) return;
     device->open();
     device->close();

@@ -7,33 +7,33 @@
 
 namespace jnd::app {
 
-// Whether a device that was asked for by its name is one that a session can run on.
+// Whether a session can run on a device that was named.
 
 /// Throws `UsageError` if no device has this name.
 void require_device(const std::string& name);
 
-/// Simulated participants have no hand of their own: throws `UsageError` "PLACE: expected a
-/// device that moves by itself, ..." for a device that a person has to move. `place` says where
-/// the name is from, "--device mouse".
+/// Simulated participants have no hand of their own, so this throws `UsageError` "PLACE:
+/// expected a device that moves by itself, ..." for a device that a person has to move. `place`
+/// says where the name comes from, such as "--device mouse".
 void require_device_moves_by_itself(const std::string& name, const std::string& place);
 
-/// "expected a device that holds 5 points of the hand, ...": where it holds fewer than the
-/// study asks for; else "".
+/// A message such as "expected a device that holds 5 points of the hand, ..." if the device
+/// holds fewer than the study asks for; otherwise "".
 [[nodiscard]] std::string missing_points_words(const std::string& device,
                                                const device::DeviceCapabilities& can,
                                                int min_contact_points);
-/// Throws `UsageError` with these words.
+/// Throws `UsageError` with that message.
 void require_device_holds(const std::string& name, double rate_hz, int min_contact_points);
 
-/// Whether a session on it runs in real time whatever was asked for.
+/// True if a session on the device runs in real time, whatever was asked for.
 [[nodiscard]] bool has_own_clock(const std::string& device);
 
-/// For many sessions as fast as they go: throws `UsageError` for a device with a clock of its
-/// own. `place` says where the name is from, "--device mouse".
+/// For many sessions that run as fast as possible: throws `UsageError` for a device with a
+/// clock of its own. `place` says where the name comes from, such as "--device mouse".
 void require_device_keeps_pace(const std::string& name, const std::string& place);
 
 /// Opens a simulated device once and closes it, so that nothing is stored for a session that
-/// cannot begin; a real one is left alone, for its motors may turn on. Throws
+/// cannot begin. A real device is left alone, because its motors may turn on. Throws
 /// `EnvironmentError` with what the device says.
 void require_device_starts(const std::string& name, double rate_hz);
 

@@ -13,7 +13,8 @@ std::optional<StabilityMap> stability_map_of(const std::string& device,
                                              const experiments::DeviceProfile& profile) {
   if (!profile.stability) return std::nullopt;
   const experiments::DeviceProfile::Stability& its = *profile.stability;
-  // Where the loop ends the force of a fluid because it is noisy, it does not render it.
+  // If the loop ends the force of a fluid because it is noisy, the device does not render that
+  // fluid.
   const double quiet_pa_s = its.quiet_viscosity_pa_s.value_or(its.viscosity_pa_s.value);
   const device::ExoskeletonStability limits = {
       .viscosity_pa_s = {.value = std::min(its.viscosity_pa_s.value, quiet_pa_s),
@@ -28,7 +29,7 @@ std::optional<StabilityMap> stability_map_of(const std::string& device,
                                   ? fmt::format("a phantom of {:g} kg", its.phantom_mass_kg)
                                   : "nothing in it",
                               profile.simulated ? ", SIMULATED" : "")};
-  // A finger that came off was not measured by itself.
+  // A finger that came off was not measured separately.
   for (const device::Contact contact :
        {device::Contact::kAttached, device::Contact::kDetached}) {
     map.rows.push_back(

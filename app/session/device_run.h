@@ -12,35 +12,36 @@
 
 namespace jnd::app {
 
-/// A device without a session, for whoever looks at the device itself: its loop runs in real
-/// time in free space, watched over as in a session. A real device stays disarmed, and so gets
+/// A device without a session, for somebody who looks at the device itself. Its loop runs in
+/// real time in free space, watched as in a session. A real device stays disarmed, so it gets
 /// no force at all. A thread beats the heartbeat as long as the program lives, and presses the
-/// emergency stop when the program is asked to stop, also while somebody is waited for. Not
-/// real time itself; used by one thread.
+/// emergency stop when the program is asked to stop, even while it waits for somebody. Not real
+/// time itself; used by one thread.
 class DeviceRun {
  public:
   struct Parameters {
     double rate_hz = 1000.0;
-    int cpu = -1;  ///< To pin the loop to; -1: any.
+    int cpu = -1;  ///< The processor that runs the loop; -1 for any.
     bool allow_no_realtime = false;
-    /// That reaches the device too; nullptr: one of its own.
+    /// The stop that also reaches the device; with nullptr, the run has its own.
     core::EmergencyStop* emergency_stop = nullptr;
   };
 
-  /// Throws `core::Error` if loop or device cannot be started. The device outlives this.
+  /// Throws `core::Error` if loop or device cannot be started. The device outlives this object.
   DeviceRun(device::HapticDevice& device, const Parameters& parameters);
   ~DeviceRun();
   DeviceRun(const DeviceRun&) = delete;
   DeviceRun& operator=(const DeviceRun&) = delete;
 
-  /// Of a simulated device; a real one has no force whatever is asked for.
+  /// Renders a medium on a simulated device; a real one has no force whatever is asked for.
   void render(const core::MediumAmounts& medium);
 
-  /// The samples that have come, in order; to be taken several times a second.
+  /// Takes the samples that have come, in order; call it several times a second.
   void take(const std::function<void(const core::Sample&)>& sample);
   [[nodiscard]] const core::Telemetry& telemetry() noexcept;
 
-  /// No force, motors off, the device closed; what was measured can still be read.
+  /// Ends the force, turns the motors off, and closes the device. What was measured can still
+  /// be read.
   void stop() noexcept;
   [[nodiscard]] const device::RealtimeThread& thread() const noexcept;
   [[nodiscard]] std::uint64_t num_dropped_samples() const noexcept;

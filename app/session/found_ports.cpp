@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "0" is how the kernel calls a place for a port without a port.
+/// False for a place where a port could be but is none; the kernel gives it the type "0".
 bool has_hardware(const fs::path& root, const std::string& port) {
   if (!port.starts_with("ttyS")) return true;
   std::string type;

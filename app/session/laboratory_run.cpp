@@ -18,9 +18,10 @@ namespace {
 
 using namespace experiments;
 
-/// Plays the experimenter and the participant of one session.
+/// Stored as the reason why a real device was armed.
 constexpr char kArmedBy[] = "armed by --arm";
 
+/// Plays the experimenter and the participant of one session.
 class SimulatedSession {
  public:
   explicit SimulatedSession(const LaboratoryRun& run)
@@ -78,14 +79,14 @@ class SimulatedSession {
             missing_force_words(state.num_without_force, state.missing_force_cause));
       }
     } catch (const Cancelled&) {
-      // First of all: the disk may take its time.
+      // The medium is taken away first, because the disk may take its time.
       running_.apparatus().render(core::free_space());
       running_.keep_timing();
       running_.close_streams();
       session_.pause("stopped by the operator");
     } catch (const core::Error&) {
       running_.apparatus().render(core::free_space());
-      // A fault of the loop is an event of the session, whatever else it ends.
+      // A fault of the loop is an event of the session, even if it also ends the session.
       if (core::is_failure(running_.apparatus().telemetry().fault)) {
         running_.keep_arming(kArmedBy);
         running_.keep_fault();
@@ -120,7 +121,7 @@ class SimulatedSession {
                      static_cast<double>(session_.stages().size()));
   }
 
-  // The stages, one overload a kind. Forms and breaks take no simulated time.
+  // These run the stages, one overload for each kind. Forms and breaks take no simulated time.
 
   void run_stage(const Checklist& checklist) {
     for (std::size_t item = 0; item < checklist.items.size(); ++item) {
@@ -157,7 +158,7 @@ class SimulatedSession {
   void run_stage(const Block&) {
     player_.answer_questions(session_.current_block_as_drawn());
     while (session_.state().current_trial()) {
-      // Of interleaved blocks the one whose turn it is.
+      // In interleaved blocks, this is the block whose turn it is.
       const Block block = session_.current_block_as_drawn();
       player_.run_trial(block);
       player_.answer_questions(block);
@@ -176,7 +177,7 @@ class SimulatedSession {
 
   void answer_item(const std::string& item, const std::string& answer) {
     stop_if_cancelled(run_);
-    // A resumed stage goes on after the items that are answered.
+    // A resumed stage goes on after the items that were answered.
     if (!is_answered(item)) session_.answer_item(item, answer);
   }
 
@@ -184,7 +185,7 @@ class SimulatedSession {
     return session_.state().answers.contains({session_.state().stage, item});
   }
 
-  /// A resumed stage goes on after the media that were explored.
+  /// Explores media; a resumed stage goes on after those that were explored.
   void explore_media(const std::vector<Exploration>& media) {
     const auto begin =
         std::min(static_cast<std::size_t>(session_.state().num_explored), media.size());

@@ -37,7 +37,7 @@ std::string words_of_limit(int resource, std::int64_t unit) {
   return std::to_string(static_cast<std::int64_t>(limit.rlim_cur) / unit);
 }
 
-/// The first line of a file that the system keeps; "" if it cannot be read.
+/// The first line of a file of the system; "" if it cannot be read.
 std::string line_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;
@@ -95,7 +95,7 @@ MachineCheck cpu_governor() {
           ok ? "" : "run `sudo jnd doctor --fix`, or: cpupower frequency-set -g performance"};
 }
 
-/// The device file is only opened: what is asked for lasts as long as it is open.
+/// The device file is only opened here; what it is asked for lasts as long as it is open.
 MachineCheck idle_states() {
   const int file = ::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
   const bool ok = file >= 0;
@@ -136,8 +136,8 @@ MachineCheck shipped_files() {
           ok ? "" : "set JND_SHARE to the folder that holds protocols/ and data/"};
 }
 
-/// Of where pulses go, and of what answers by a press. Of input devices nobody knows here which
-/// is a pedal: a keyboard that nobody else may read is as it should be.
+/// Checks the ports for pulses and the devices that answer by a press. Nobody knows here which
+/// input device is a pedal, and a keyboard that nobody else may read is as it should be.
 MachineCheck ports() {
   int num_ports = 0, num_inputs = 0, num_read = 0;
   std::string closed, groups;

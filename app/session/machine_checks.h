@@ -7,27 +7,30 @@
 
 namespace jnd::app {
 
-/// One thing about this machine that a session needs, or is better off with.
+/// A property of this machine that a session needs, or that is good for it.
 struct MachineCheck {
   std::string name;
   bool ok = false;
   std::string found;
-  std::string remedy;  ///< What mends it; "" if nothing needs to be.
+  std::string remedy;  ///< What would remedy it; "" if nothing needs to be done.
 };
 
-/// Whether the system would grant SCHED_FIFO; what was in force is so again afterwards. Asks on
-/// behalf of the calling thread. None of these is real time.
+/// Whether the system would grant SCHED_FIFO to the calling thread; the thread's policy is
+/// restored afterwards. None of these functions is real time.
 [[nodiscard]] MachineCheck check_realtime_priority();
-/// Whether it would lock memory. Unlocks the process's memory: not while a loop runs.
+/// Whether the system would lock memory. It unlocks the process's memory, so do not call it
+/// while a loop runs.
 [[nodiscard]] MachineCheck check_memory_lock();
 
-/// Whether the machine can be kept from falling asleep in a session; it is not afterwards.
+/// Whether the machine can be kept from falling asleep in a session. The lock is released
+/// afterwards.
 [[nodiscard]] MachineCheck check_sleep();
 
-/// Everything `jnd doctor` tells, in its order.
+/// Everything that `jnd doctor` tells, in its order.
 [[nodiscard]] std::vector<MachineCheck> machine_checks();
 
-/// Free for this user where `path` is or will be; nothing if the system does not say.
+/// The bytes that are free for this user at `path`, which need not exist yet; none if the
+/// system does not say it.
 [[nodiscard]] std::optional<double> free_bytes(const std::filesystem::path& path);
 
 }  // namespace jnd::app

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The loop asks for 80, what watches over it for more.
+/// The loop asks for 80, and the thread that watches it for more.
 constexpr int kWantedRealtimePriority = 95;
 
 std::vector<std::string> lines_of(const fs::path& file) {
@@ -27,7 +27,7 @@ std::vector<std::string> lines_of(const fs::path& file) {
   return lines;
 }
 
-/// Files of these folders with this ending, sorted by path.
+/// The files of these folders with this ending, sorted by path.
 std::vector<fs::path> files_in(const std::vector<fs::path>& folders,
                                const std::string& ending) {
   std::vector<fs::path> files;
@@ -43,7 +43,8 @@ std::vector<fs::path> files_in(const std::vector<fs::path>& folders,
 
 bool is_this_machine(const FixedSystem& system) { return system.root == "/"; }
 
-/// Fields of the line of this name in etc/passwd or etc/group; none if there is no such line.
+/// The fields of the line with this name in etc/passwd or etc/group; none if there is no such
+/// line.
 std::optional<std::vector<std::string>> entry_of(const fs::path& file,
                                                  const std::string& name) {
   for (const std::string& line : lines_of(file)) {
@@ -60,14 +61,14 @@ std::optional<std::vector<std::string>> group_entry(const FixedSystem& system) {
   return entry_of(system.root / "etc/group", kSessionGroup);
 }
 
-/// With the words that make a tool of the system look below another root.
+/// A tool of the system, with the words that make it work on another root.
 std::string tool(const FixedSystem& system, const std::string& name) {
   if (is_this_machine(system)) return name;
   return name + " --prefix " + shell_word(system.root.string());
 }
 
 std::string installed(const FixedSystem& system, const char* shipped, const fs::path& file) {
-  // What is there already is kept beside it, with a ~ behind its name.
+  // A file that exists already is kept beside it, with a ~ after its name.
   return "install -D -b -m 0644 " + shell_word((system.shipped / shipped).string()) + " " +
          shell_word(file.string());
 }
@@ -93,7 +94,7 @@ bool lists_member(const FixedSystem& system) {
   return false;
 }
 
-/// Whether this process has the group: it was given when its user logged in.
+/// Whether this process has the group, which it would have got when its user logged in.
 bool process_has_group() {
   const group* entry = ::getgrnam(kSessionGroup);
   if (entry == nullptr) return false;
@@ -132,7 +133,7 @@ MachineFix member_fix(const FixedSystem& system) {
   return fix;
 }
 
-/// A rule of pam_limits that is in force for the group or the user without a program's asking.
+/// A rule of pam_limits for the group or the user that applies without a program's request.
 struct LimitRule {
   std::string domain, type, item, value;
 };
@@ -195,7 +196,8 @@ MachineFix devices_fix(const FixedSystem& system) {
                    line.find(group) != std::string::npos;
       has_ports |= line.find("ttyUSB") != std::string::npos;
     }
-    // An older one of ours; what an administrator wrote instead is as they want it.
+    // An old file of ours is replaced; a file that an administrator wrote instead is left as it
+    // is.
     const bool is_old = file.filename() == "60-jnd.rules" && !has_ports;
     if (has_group && !is_old) {
       return {.name = "devices", .ok = true, .found = "the rules are in " + file.string()};

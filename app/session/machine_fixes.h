@@ -6,28 +6,31 @@
 
 namespace jnd::app {
 
-/// Whose files are looked at, and for whom.
+/// The system that is looked at, and the user for whom.
 struct FixedSystem {
-  std::filesystem::path root = "/";  ///< Holds etc, usr/lib/udev and sys.
-  std::filesystem::path shipped;     ///< The folder data/system.
-  std::string user;                  ///< Who runs sessions; "": nobody is named.
+  /// The folder that contains etc, usr/lib/udev and sys.
+  std::filesystem::path root = "/";
+  std::filesystem::path shipped;  ///< The folder data/system.
+  /// The user who runs sessions; "" if nobody is named.
+  std::string user;
 };
 
-/// One thing that an administrator can give to whoever runs sessions.
+/// One thing that an administrator can set up for the user who runs sessions.
 struct MachineFix {
   std::string name;
   bool ok = false;
   std::string found;
-  /// Lines for a shell of root, in their order. None where a person has to do it.
+  /// Lines for a shell of root, in order. None if a person has to do it.
   std::vector<std::string> commands;
-  std::string remedy;  ///< What a person has to do besides; "" if nothing.
+  /// What a person has to do in addition; "" if nothing.
+  std::string remedy;
 };
 
-/// The group that the rules of `data/system` are about.
+/// The group for which the rules of `data/system` are made.
 inline constexpr const char* kSessionGroup = "jnd";
 
-/// What there is and what is lacking, of the group, its members, its limits, its devices and
-/// the processors' clocks, in the order in which it is to be mended. Changes nothing.
+/// What exists and what is missing, in the order in which it has to be set up: the group, its
+/// members, its limits, its devices, and the processors' clocks. Changes nothing.
 [[nodiscard]] std::vector<MachineFix> machine_fixes(const FixedSystem& system);
 
 /// Whether the system knows a user of this name.

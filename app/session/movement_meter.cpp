@@ -20,7 +20,7 @@ core::PresentationMeasures MovementMeter::finish() noexcept {
           .finger_lag_s = lag_.finish()};
 }
 
-/// Of the points that the device has.
+/// Uses the points that the device has.
 void MovementMeter::feed_lag(const core::Sample& sample) noexcept {
   constexpr int kNumPalmPoints = 2;
   constexpr unsigned kPalmBits = 0b00011;

@@ -10,22 +10,22 @@
 
 namespace jnd::app {
 
-/// What the samples of a presentation say of it while they come: the place for whatever is
-/// measured of the hand's movement and stored with a presentation. Used by one thread at a
-/// time; no heap.
+/// Measures the hand's movement during a presentation from its samples, as they come.
+/// Everything that is stored about movement with a presentation is measured here. Used by one
+/// thread at a time; no heap.
 class MovementMeter {
  public:
-  /// Starts anew.
+  /// Begins again.
   void start() noexcept;
-  /// `period_s`: of the loop.
+  /// `period_s` is the period of the loop.
   void feed(const core::Sample& sample, double period_s) noexcept;
-  /// Whole strokes since the start.
+  /// The whole strokes since the start.
   [[nodiscard]] int num_strokes() const noexcept { return strokes_.num_strokes(); }
-  /// How the hand moved since the start. What the loop knows besides, forces and ticks, is not
-  /// in it.
+  /// How the hand moved since the start. It does not contain what else the loop knows: forces
+  /// and ticks.
   [[nodiscard]] core::PresentationMeasures finish() noexcept;
-  /// What was delivered since the start (`core::delivered_force_n`), and how fast the hand was
-  /// meanwhile.
+  /// The force that was delivered since the start (`core::delivered_force_n`), and how fast the
+  /// hand was meanwhile.
   [[nodiscard]] const core::ContactSums& sums() const noexcept { return sums_; }
 
  private:

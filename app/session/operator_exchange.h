@@ -7,9 +7,9 @@
 
 namespace jnd::app {
 
-/// What leads from the window straight to the haptic thread, past every session and every
-/// queue. The window owns it, keeps it alive while an apparatus uses it, and beats the
-/// heartbeat from its own thread: a window that hangs stops the force within 250 ms.
+/// Connects the window directly with the haptic thread, without any session or queue between
+/// them. The window owns it, keeps it alive while an apparatus uses it, and beats the heartbeat
+/// from its own thread: a window that hangs stops the force within 250 ms.
 struct OperatorExchange {
   core::EmergencyStop emergency_stop;  ///< Pressed from any thread; see `Apparatus::rearm`.
   core::Heartbeat heartbeat;  ///< At least every 100 ms, as long as there is a session.

@@ -33,7 +33,7 @@ std::string words_of(device::FingerPose pose) {
   return "";
 }
 
-/// A weight in grams; 0 for what is none.
+/// The weight in grams; 0 if the text is no valid weight.
 double grams_in(const std::string& line) {
   double grams = 0.0;
   const char* end = line.data() + line.size();

@@ -8,23 +8,24 @@
 
 namespace jnd::app {
 
-/// A finger of a real device on which a person hangs weights, told step by step what to do.
-/// Every question is answered on `in`; an answer that is none is asked for again. Throws
-/// `core::Error` where the answers end.
+/// A finger of a real device on which a person hangs weights and is told step by step what to
+/// do. Every question is answered on `in`; an invalid answer is asked for again. Throws
+/// `core::Error` if the answers end.
 class PersonBench final : public device::FingerBench {
  public:
-  /// Calls with every sample of that many seconds.
+  /// Calls the given function with every sample of that many seconds.
   using Measure =
       std::function<void(double duration_s, const std::function<void(const core::Sample&)>&)>;
 
-  /// `point`: the finger, as in `core::ContactPoint`. The streams have to outlive this.
+  /// `point` is the finger, as in `core::ContactPoint`. The streams have to outlive this
+  /// object.
   PersonBench(std::istream& in, std::ostream& out, int point, int num_repetitions,
               Measure measure);
 
   [[nodiscard]] double break_away_weight_n(device::FingerPose pose, int repetition) override;
   [[nodiscard]] device::TorqueReading torques_under(device::FingerPose pose,
                                                     double weight_n) override;
-  /// Says that, a sentence without its end, and waits for Enter.
+  /// Tells the person what to do, in a sentence without its end, and waits for Enter.
   void wait_for(const std::string& what_to_do);
 
  private:

@@ -16,7 +16,8 @@ const PresentationState& Presenter::presentation() const {
   return session_.state().trial(*session_.state().current_trial()).presentations.back();
 }
 
-/// The same whatever the stimulus holds: of an interval its name is looked at, never its level.
+/// The cue is the same whatever the stimulus contains: it depends on the interval's name and
+/// never on its level.
 void Presenter::give_cue(CueMoment moment) {
   const std::optional<std::int64_t> number = session_.state().current_trial();
   if (sound_ == nullptr || !number) return;
@@ -41,7 +42,7 @@ void Presenter::begin(const Block& block, const std::string& interval, Beginning
   } else if (!std::exchange(is_in_stimulus_, true) || beginning == Beginning::kStimulus) {
     give_cue(CueMoment::kBegin);
   }
-  // The disk may have taken its time: what is felt begins here.
+  // The disk may have taken its time; what is felt begins here.
   switched_tick_ = apparatus_.next_tick();
   under_way_ = true;
   measuring_ = false;
@@ -51,7 +52,7 @@ bool Presenter::waits_for_ramp() const { return under_way_ && !measuring_; }
 
 bool Presenter::ramp_has_passed() const {
   if (apparatus_.realtime_thread() == nullptr) return felt_s() >= needs_.ramp_s;
-  // The tick that ran while the command was sent may have missed it, the next one has not.
+  // The tick that ran while the command was sent may have missed it, but the next tick has not.
   return apparatus_.next_tick() >= switched_tick_ + 2 && apparatus_.telemetry().ramp_finished;
 }
 
@@ -78,12 +79,13 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
   if (measuring_) {
     core::ContactSums sums = last.contact_sums - sums_before_;
     const core::PresentationMeasures moved = apparatus_.finish_strokes();
-    // A solid is pressed: what its hand does along the surface is no stroke.
+    // A solid is pressed, and what the hand does along its surface is no stroke.
     const bool is_pressed = amounts_.plane().is_there();
     if (!is_pressed) measures = moved;
     if (sums.num_ticks == 0 || apparatus_.measures_force()) sums = apparatus_.metered_sums();
     felt.delivered_damping_n_s_per_m = sums.delivered_damping_n_s_per_m();
-    // Of all its motion so far: in one presentation the masses' pushing would not cancel out.
+    // This comes from all motion so far, because within one presentation the forces that
+    // accelerate masses would not cancel out.
     felt.device_damping_n_s_per_m = last.contact_sums.device_damping_n_s_per_m();
     if (!is_pressed) measures.delivered_damping_n_s_per_m = felt.delivered_damping_n_s_per_m;
   }
@@ -103,7 +105,8 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
   return felt;
 }
 
-/// Of simulated hands only where the study asks: nothing can happen to them.
+/// The exposure of a simulated hand is stored only if the study asks for it, because nothing
+/// can happen to it.
 std::optional<core::Exposure> Presenter::exposure_since_last() {
   if (apparatus_.is_simulated() && !session_.limits().limits_exposure()) return std::nullopt;
   const core::Exposure now = apparatus_.telemetry().exposure;
@@ -148,7 +151,7 @@ void Presenter::tell_exposure() {
   tell_guards();
 }
 
-/// Of a simulated hand in its own time only where somebody wants to know what guards would do.
+/// In simulated time, this is stored only if somebody wants to know what guards would do.
 void Presenter::tell_guards() {
   if (apparatus_.realtime_thread() == nullptr && !apparatus_.shadows_guards()) return;
   const core::GuardCounts now = apparatus_.telemetry().guards;

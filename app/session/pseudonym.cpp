@@ -12,8 +12,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// Letters in lower case, and numbers without the zeros before them; what stood between two
-/// numbers keeps them apart.
+/// The letters in lower case, and the numbers without leading zeros. A separator between two
+/// numbers is kept, so that they do not merge.
 std::string bare(const std::string& participant) {
   std::string bare;
   bool in_number = false;

@@ -8,23 +8,24 @@
 
 namespace jnd::app {
 
-/// A participant's name in a study; it stands in tables, file names and messages.
+/// A pseudonym is a participant's name in a study; it appears in tables, file names and
+/// messages.
 ///
-/// What one is, in words: "at most 64 letters, digits, _, - and .".
+/// This says in words what a pseudonym is: "at most 64 letters, digits, _, - and .".
 [[nodiscard]] std::string pseudonym_words();
-/// Whether this is one; "" is none.
+/// Whether the text is a pseudonym; "" is none.
 [[nodiscard]] bool is_pseudonym(const std::string& text);
 
-/// The first of those taken that a slip of the finger may have made of the same person: it
-/// differs in case, in signs or in zeros before a number alone, as P01, p01, P-1 and P001 do;
-/// "" if none does. The very same name is not among them.
+/// The first pseudonym in `taken` that may mean the same person after a typing mistake: it
+/// differs only in capital letters, in signs, or in zeros before a number, as P01, p01, P-1 and
+/// P001 do. "" if there is none. An identical pseudonym does not count.
 [[nodiscard]] std::string lookalike(const std::string& participant,
                                     const std::vector<std::string>& taken);
 
-/// "P01", "P02", ...: the next free pseudonyms of a study.
+/// The next free pseudonyms of a study: "P01", "P02", ...
 [[nodiscard]] std::vector<std::string> next_participants(const core::StudyStore& store,
                                                          int count);
-/// The same where these pseudonyms are taken.
+/// The next free pseudonyms if these are taken.
 [[nodiscard]] std::vector<std::string> next_participants(const std::set<std::string>& taken,
                                                          int count);
 

@@ -7,10 +7,11 @@
 
 namespace jnd::app {
 
-/// A stored session, open for an act outside of its visit: a trial excluded, a level unblinded.
+/// A stored session that is open for an act after its visits: a trial is excluded, or levels
+/// are unblinded.
 class ReopenedSession final : private experiments::EventLog {
  public:
-  /// Throws `Error` for a damaged log or protocol. The store must outlive it.
+  /// Throws `Error` for a damaged log or protocol. The store must outlive this object.
   ReopenedSession(core::StudyStore& store, const core::SessionRow& row);
 
   [[nodiscard]] experiments::Session& session() noexcept { return session_; }

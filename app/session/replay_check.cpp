@@ -51,7 +51,8 @@ class ReplayCheck {
     return nullptr;
   }
 
-  /// The file that an event names is there, and is the one that the event tells of.
+  /// Checks that the file named by an event exists, and that it is the one that the event
+  /// describes.
   void check_stream(const experiments::Event& event) {
     const auto* opened = std::get_if<experiments::StreamOpened>(&event.data);
     const auto* closed = std::get_if<experiments::StreamClosed>(&event.data);
@@ -62,7 +63,8 @@ class ReplayCheck {
     const std::filesystem::path path =
         store_.recording_file(session_).parent_path() / std::filesystem::path(file).filename();
     if (!std::filesystem::exists(path)) {
-      if (opened == nullptr) return;  // It was told when it was opened.
+      // The event that opened it has already told this.
+      if (opened == nullptr) return;
       integrity_.problems.push_back(
           {session_, file + ": expected a stream that was recorded, found no such file"});
       return;
@@ -72,7 +74,8 @@ class ReplayCheck {
     try {
       if (core::StreamFileReader(path).seal() == told) return;
     } catch (const core::Error&) {
-      return;  // A damaged file is told where its content is checked.
+      // A damaged file is reported where its content is checked.
+      return;
     }
     integrity_.problems.push_back(
         {session_, file + ": expected the stream as the log of events has it, found another; "

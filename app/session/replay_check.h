@@ -5,10 +5,9 @@
 
 namespace jnd::app {
 
-/// Plays every session's log again and compares what it comes to with the rows that analyses
-/// read: drawn trials, presentations, answers, exclusions. Adds what does not agree to
-/// `integrity`. Not real time.
-/// `progress`: by sessions.
+/// Replays every session's log and compares the result with the rows that analyses read: drawn
+/// trials, presentations, answers, exclusions. Adds what does not agree to `integrity`.
+/// `progress` is told after each session. Not real time.
 void check_replay(const core::StudyStore& store, core::Integrity& integrity,
                   const core::Progress& progress = {});
 

@@ -17,7 +17,8 @@ namespace {
 
 using namespace experiments;
 
-/// Where a resumed recording goes on.
+/// The last tick of the recording, after which a resumed recording continues; -1 if there is
+/// none.
 std::int64_t last_recorded_tick(const core::StudyStore& store, std::int64_t session) {
   const std::filesystem::path file = store.recording_file(session);
   return std::filesystem::exists(file) ? core::RecordingReader(file).last_tick() : -1;
@@ -26,13 +27,14 @@ std::int64_t last_recorded_tick(const core::StudyStore& store, std::int64_t sess
 std::int64_t last_tick_in(const std::vector<core::EventRow>& events) {
   std::int64_t last = -1;
   for (const core::EventRow& event : events) {
-    // A first tick was still to come when its event was stored.
+    // A first tick was still in the future when its event was stored.
     last = std::max({last, event.first_tick.value_or(0) - 1, event.last_tick.value_or(-1)});
   }
   return last;
 }
 
-/// A simulated session goes on in its own time, whenever somebody excluded a trial of it.
+/// A simulated session continues in its own time. Acts after its visits, such as the exclusion
+/// of a trial, have other times and do not count.
 std::int64_t last_time_ns(const std::vector<core::EventRow>& events) {
   const auto last =
       std::find_if(events.rbegin(), events.rend(), [](const core::EventRow& event) {
@@ -98,7 +100,7 @@ Apparatus::Parameters RunningSession::apparatus_parameters() const {
     apparatus.profile =
         std::make_shared<const KnownProfile>(stored_profile(parameters_.store, profile));
   }
-  // One that was never started is not ended, it begins.
+  // A session that never started cannot end; it begins.
   const bool only_ends = parameters_.only_ends && !history_.empty();
   apparatus.wants_profile = !only_ends && asks_for_force(parameters_.study);
   apparatus.arm &= !only_ends;

@@ -10,18 +10,20 @@
 
 namespace jnd::app {
 
-/// Runs sessions that were added, up to `jobs` at once, with progress on the terminal.
+/// Runs the sessions that were added, up to `jobs` at once.
 struct Batch {
   const experiments::Study& study;
   const experiments::Laboratory& laboratory;
   core::StudyStore& store;
   std::vector<std::int64_t> sessions;
   int jobs = 1;
-  std::function<void(double)> on_progress;  ///< 0 to 1, from several threads; may be empty.
-  std::function<bool()> is_cancelled;       ///< Leaves sessions open; may be empty.
+  /// Called with 0 to 1 from several threads; may be empty.
+  std::function<void(double)> on_progress;
+  /// If it returns true, sessions are left open; may be empty.
+  std::function<bool()> is_cancelled;
 };
-/// Throws the first error of any session, after the others have come to an end. Returns the
-/// simulated ticks of all.
+/// Throws the first error of any session after the others have ended. Returns the simulated
+/// ticks of all sessions.
 std::int64_t run_batch(const Batch& batch);
 
 }  // namespace jnd::app

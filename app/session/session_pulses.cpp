@@ -7,7 +7,7 @@
 namespace jnd::app {
 namespace {
 
-/// The end of a session may have to wait for its last pulses.
+/// The end of a session may have to wait so long for its last pulses.
 constexpr double kPatienceWithPulses_s = 0.5;
 
 }  // namespace

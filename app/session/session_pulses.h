@@ -14,15 +14,15 @@ namespace jnd::app {
 
 using core::WantedMarkers;
 
-/// The pulses by which one session tells another recorder what happens
-/// (docs/how-to/send_markers.md), on a thread of their own. A port that fails is told as an
-/// event, and the session goes on. Used by the session's thread. Not real time.
+/// The pulses by which a session tells another recorder what happens
+/// (docs/how-to/send_markers.md), on a thread of their own. If the port fails, an event tells
+/// so, and the session goes on. Used by the session's thread. Not real time.
 class SessionPulses {
  public:
   struct Parameters {
     WantedMarkers wanted;
-    core::MarkerCodes codes;  ///< Of the study.
-    /// Opens the port, on the thread; of another kind in tests.
+    core::MarkerCodes codes;  ///< The codes of the study.
+    /// Opens the port on the pulses' thread; tests open another kind.
     std::function<std::unique_ptr<core::MarkerPort>(const WantedMarkers&)> open =
         core::open_marker_port;
   };
@@ -30,13 +30,13 @@ class SessionPulses {
   /// Never throws for a port that cannot be opened.
   explicit SessionPulses(const Parameters& parameters);
 
-  /// An event that was committed: its pulse, if it has any.
+  /// Sends the pulse of a committed event, if it has one.
   void tell(const core::EventRow& event);
-  /// Commits what there is to say: opened, failed, the times of pulses. Waits for the disk, so
-  /// while nothing is felt.
+  /// Commits what there is to tell: that the port was opened or has failed, and the times of
+  /// pulses. Waits for the disk, so call it while nothing is felt.
   void follow(experiments::Session& session);
-  /// Sends the pulse of the end, waits a moment for it, and commits what became of all. Once,
-  /// before the session's last event.
+  /// Sends the pulse of the end, waits a moment for it, and commits the outcome of all pulses.
+  /// Call it once, before the session's last event.
   void close(experiments::Session& session);
   /// Why there are no pulses any more; "" as long as there are.
   [[nodiscard]] const std::string& problem() const noexcept { return problem_; }

@@ -27,8 +27,8 @@ static std::string laboratory_text(const SessionSetup& setup) {
   return setup.laboratory == nullptr ? "" : setup.laboratory->text;
 }
 
-/// One folder is one study and, simulated, one laboratory: pooling two would be no result at
-/// all.
+/// Refuses other studies: one folder is one study and, if simulated, one laboratory, because
+/// pooling two would give no valid result.
 static void refuse_other_study(const core::StudyStore& store, const SessionSetup& setup,
                                const std::vector<core::SessionRow>& rows) {
   const std::string problem = other_study_problem(store, setup.study);

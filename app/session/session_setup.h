@@ -14,20 +14,25 @@
 
 namespace jnd::app {
 
-/// What every session of a run has in common.
+/// What all sessions of a run have in common.
 struct SessionSetup {
   const experiments::Study& study;
-  /// Where its participants, or at least their hands, are simulated; nullptr: persons.
+  /// The laboratory if the participants, or at least their hands, are simulated; nullptr for
+  /// persons.
   const experiments::Laboratory* laboratory = nullptr;
   std::filesystem::path study_file;
   std::string device = "lumped";
-  const KnownProfile* profile = nullptr;  ///< What was measured of it; nullptr: nothing.
-  std::uint64_t seed = 1;  ///< Of the study; each session's own is derived from it.
+  /// What was measured of the device; nullptr if nothing was.
+  const KnownProfile* profile = nullptr;
+  /// The study's seed, from which each session's own seed is derived.
+  std::uint64_t seed = 1;
   bool pilot = false;
   bool realtime = false;
-  bool allow_no_realtime = false;  ///< A real device also without real-time rights; kept.
-  bool record = true;              ///< Samples, besides the summaries of strokes.
-  /// What every participant of it brings; none: what each brings is drawn.
+  /// A real device may run without real-time rights; the sessions store it.
+  bool allow_no_realtime = false;
+  /// Samples are recorded, in addition to the summaries of strokes.
+  bool record = true;
+  /// The field values of every participant; if empty, each participant's values are drawn.
   experiments::FieldValues fields{};
 };
 
@@ -35,14 +40,15 @@ struct SessionSetup {
 /// "thesis_exoskeleton" with an arm that is strong enough for the whole robot.
 [[nodiscard]] std::string default_laboratory(std::string_view device);
 
-/// Adds the rows of sessions for these participants, cells assigned in the order given, before
-/// any of them starts: so what a session holds does not depend on how many run at once. Returns
-/// their numbers. Throws `Error` if one of the participants has a session already.
+/// Adds the rows of sessions for these participants, and assigns cells in the order given,
+/// before any of them starts. So what a session contains does not depend on how many run at
+/// once. Returns their numbers. Throws `Error` if one of the participants already has a
+/// session.
 [[nodiscard]] std::vector<std::int64_t> add_sessions(
     core::StudyStore& store, const SessionSetup& setup,
     const std::vector<std::string>& participants);
 
-/// A real device was allowed without real-time rights when the session was begun.
+/// True if a real device was allowed without real-time rights when the session began.
 [[nodiscard]] bool may_lack_rights(const core::SessionRow& session);
 
 }  // namespace jnd::app

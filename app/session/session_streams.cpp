@@ -35,9 +35,9 @@ constexpr auto kBetweenSendings = 10ms;
 constexpr auto kBetweenTakings = 100ms;
 constexpr double kSearchOnce_s = 1.0;
 constexpr double kBetweenFlushes_s = 1.0;
-/// The end of a session may have to wait for it.
+/// The end of a session may have to wait so long for it.
 constexpr double kPatienceToOpen_s = 2.0;
-/// After which a stream that was not found is told to be missing; it is looked for further on.
+/// After this time, a missing stream is reported; the search goes on.
 constexpr double kPatienceWithStream_s = 10.0;
 constexpr std::array<std::string_view, 4> kSearchKeys = {"name", "type", "source_id",
                                                          "hostname"};
@@ -49,15 +49,16 @@ constexpr char kOut[] = "out", kIn[] = "in";
 /// Something that the session's thread has yet to commit.
 using StreamNotice = std::variant<StreamOpened, StreamClosed, StreamFailed>;
 
-/// A stream of somebody else, and the file it goes to.
+/// Somebody else's stream, and the file to which it is recorded.
 struct RecordedStream {
   std::unique_ptr<core::StreamInlet> inlet;
-  std::unique_ptr<core::StreamFileWriter> file;  ///< nullptr: it is kept no further.
+  /// nullptr if the stream is no longer recorded.
+  std::unique_ptr<core::StreamFileWriter> file;
   StreamClosed closed{.direction = kIn};
   bool was_lost = false;
 };
 
-/// What is looked for, and whether it was found.
+/// A stream that is searched for, and whether it was found.
 struct StreamHunt {
   std::string asked, query;
   bool is_over = false, is_told = false;
@@ -204,7 +205,7 @@ struct SessionStreams::Implementation {
     }
   }
 
-  /// False where nothing is to be looked for any more.
+  /// Searches once for what is missing. Returns false if there is nothing to search for.
   bool search(double begun_s) {
     bool any = false;
     for (StreamHunt& hunt : hunts) {
@@ -235,7 +236,8 @@ struct SessionStreams::Implementation {
         return one.inlet->info().uid == info.uid;
       });
       if (is_this(markers) || is_this(samples) || is_recorded) continue;
-      hunt.is_over = true;  // What cannot be opened is told once and not tried again.
+      // A stream that cannot be opened is reported once and not tried again.
+      hunt.is_over = true;
       attempt(kIn, info.name, [&] { open(info); });
     }
   }
@@ -260,7 +262,8 @@ struct SessionStreams::Implementation {
     notice(told);
   }
 
-  /// What cannot be kept is told, and the stream is kept no further.
+  /// Records what has come in. If it cannot be stored, an event tells so, and the stream is not
+  /// recorded any further.
   void take(RecordedStream& stream, bool flushes) {
     if (!stream.file) return;
     attempt(kIn, stream.closed.name, [&] {
@@ -326,9 +329,9 @@ struct SessionStreams::Implementation {
   core::SpscQueue<core::Sample> queue{kStreamQueueCapacity};
   std::int64_t num_markers_sent = 0;
   std::atomic<std::int64_t> num_samples_sent{0};
-  std::vector<StreamHunt> hunts;        ///< The recording thread's, once it runs.
-  std::vector<RecordedStream> streams;  ///< Likewise.
-  std::mutex mutex;                     ///< Of the notices.
+  std::vector<StreamHunt> hunts;        ///< Used by the recording thread alone, once it runs.
+  std::vector<RecordedStream> streams;  ///< Used by the recording thread alone, once it runs.
+  std::mutex mutex;                     ///< Protects the notices.
   std::vector<StreamNotice> notices;
   bool is_closed = false;
   std::atomic<bool> is_ending{false}, is_recording_over{false};
@@ -349,8 +352,8 @@ void SessionStreams::tell(const core::EventRow& event) {
   if (!my.markers) return;
   std::optional<std::string> marker = my.marker_maker.marker_of(event);
   if (!marker) return;
-  // The event has a time of the clock of the day, streams have another: how long ago it was
-  // counts.
+  // The event's time comes from the clock of the day, and streams have another clock. So the
+  // event's age is used.
   const double ago_s = 1e-9 * static_cast<double>(core::SystemClock().now_ns() - event.time_ns);
   my.markers->push({{.time_s = core::stream_clock_s() - ago_s,
                      .values = {},

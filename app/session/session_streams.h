@@ -19,18 +19,18 @@ namespace jnd::app {
 
 using core::WantedStreams;
 
-/// "type" and "EEG" of "type=EEG". Throws `core::Error` where the key is none that streams are
-/// looked for by.
+/// Splits a search such as "type=EEG" into "type" and "EEG". Throws `core::Error` if streams
+/// cannot be searched by the key.
 [[nodiscard]] std::pair<std::string, std::string> searched_for(const std::string& inlet);
 
-/// Throws `core::Error` in a sentence for what no session can be asked for: an unknown channel
-/// or key, a library that cannot be loaded, and samples of a study whose levels are hidden, for
-/// a force tells the level.
+/// Throws `core::Error` in a sentence for what a session cannot do: an unknown channel or key,
+/// a library that cannot be loaded, and samples of a study whose levels are hidden, because a
+/// force tells the level.
 void require_possible(const WantedStreams& wanted, bool hides_levels);
 
-/// The streams of one session (docs/lab_streaming_layer.md), each on threads of its own: one
-/// sends samples, one records what comes in. A stream that fails is told as an event, and the
-/// session goes on. Used by the session's thread, but for `take`. Not real time.
+/// The streams of one session (docs/lab_streaming_layer.md), on threads of their own: one sends
+/// samples, one records what comes in. If a stream fails, an event tells so, and the session
+/// goes on. Used by the session's thread, except for `take`. Not real time.
 class SessionStreams {
  public:
   struct Parameters {
@@ -38,7 +38,7 @@ class SessionStreams {
     core::SessionStreamFacts facts;
     double rate_hz = 1000.0;
     bool hides_levels = false;
-    std::filesystem::path recording;  ///< Beside which inlets are recorded.
+    std::filesystem::path recording;  ///< Inlets are recorded beside this file.
     core::StreamNetwork network{};
   };
 
@@ -48,15 +48,15 @@ class SessionStreams {
   SessionStreams(const SessionStreams&) = delete;
   SessionStreams& operator=(const SessionStreams&) = delete;
 
-  /// A sample of the loop, by the thread that stores them. Waits for nobody: what is not sent
-  /// in time is dropped and counted.
+  /// Takes a sample of the loop; called by the thread that stores samples. It never waits: what
+  /// cannot be sent in time is dropped and counted.
   void take(const core::Sample& sample) noexcept;
-  /// An event that was committed.
+  /// Tells a committed event.
   void tell(const core::EventRow& event);
-  /// Commits what there is to say of streams: opened, failed.
+  /// Commits what there is to tell about streams: opened or failed.
   void follow(experiments::Session& session);
-  /// Ends what is recorded, and commits what became of each stream. Markers and samples go on
-  /// until the end of this object. Once.
+  /// Ends the recording, and commits the outcome of each stream. Markers and samples go on
+  /// until this object is destroyed. Call it once.
   void close(experiments::Session& session);
 
  private:

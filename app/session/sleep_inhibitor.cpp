@@ -14,15 +14,15 @@
 namespace jnd::app {
 namespace {
 
-/// systemd-inhibit starts `cat` once it has the lock: what comes back shows that it runs.
+/// Starts the child. systemd-inhibit starts `cat` when it has the lock, so what comes back
+/// shows that the lock is held.
 pid_t start_child(int input, int output) noexcept {
   posix_spawn_file_actions_t files;
   if (::posix_spawn_file_actions_init(&files) != 0) return -1;
   posix_spawnattr_t attributes;
   pid_t child = -1;
   if (::posix_spawnattr_init(&attributes) == 0) {
-    // A Ctrl-C at the terminal is ours: the machine must not sleep while we put things in
-    // order.
+    // A Ctrl-C at the terminal is meant for us: the machine must not sleep while we finish.
     ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     ::posix_spawnattr_setpgroup(&attributes, 0);
     ::posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
@@ -59,7 +59,8 @@ SleepInhibitor::SleepInhibitor() noexcept {
   constexpr int kPatience_ms = 1000;
   pollfd answer{.fd = out[0], .events = POLLIN, .revents = 0};
   char letter = 'j';
-  // Where the child ended at once nobody reads: that is an error here, and no signal.
+  // If the child has ended at once, nobody reads the pipe. That is an error here and must be no
+  // signal.
   struct sigaction ignored {
   }, before{};
   ignored.sa_handler = SIG_IGN;
@@ -70,7 +71,7 @@ SleepInhibitor::SleepInhibitor() noexcept {
   ::close(out[0]);
 }
 
-/// The end of its input ends it; what does not heed that is told to end.
+/// Ends the child by ending its input, and kills it if it does not obey.
 SleepInhibitor::~SleepInhibitor() {
   if (input_ >= 0) ::close(input_);
   if (child_ <= 0) return;

@@ -4,13 +4,13 @@
 
 namespace jnd::app {
 
-/// Keeps this machine from falling asleep, or from going to sleep when its lid is closed, while
-/// it lives: by `systemd-inhibit` as a child, which holds the lock until its input ends, as it
-/// also does when this program dies. Where the system has none nothing is held, and the loop's
-/// own look at two clocks remains (`Fault::kSuspended`). Not real time.
+/// Keeps this machine awake while the object lives, also when the lid is closed. It runs
+/// `systemd-inhibit` as a child, which holds the lock until its input ends, so also if this
+/// program dies. If the system has no `systemd-inhibit`, nothing is held; the loop still
+/// detects a suspension by comparing two clocks (`Fault::kSuspended`). Not real time.
 class SleepInhibitor {
  public:
-  /// Waits for the lock for a second at most.
+  /// Waits for the lock for at most a second.
   SleepInhibitor() noexcept;
   ~SleepInhibitor();
   SleepInhibitor(const SleepInhibitor&) = delete;
@@ -20,7 +20,7 @@ class SleepInhibitor {
 
  private:
   pid_t child_ = -1;
-  int input_ = -1;  ///< Of the child.
+  int input_ = -1;  ///< The child's input.
   bool is_held_ = false;
 };
 

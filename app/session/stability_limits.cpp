@@ -20,11 +20,13 @@ using device::StabilityLimit;
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// To three digits, which is more than a limit is known to, and never to more than was found.
+/// Rounds down to three digits, which is more than the precision of a limit, so that the result
+/// is never more than was found.
 double rounded_down(double value) {
   if (value <= 0.0) return value;
   const double exponent = std::floor(std::log10(value)) - 2.0;
-  const double power = std::pow(10.0, std::abs(exponent));  // Whole, so that 31.3 stays that.
+  // A whole number, so that 31.3 stays 31.3.
+  const double power = std::pow(10.0, std::abs(exponent));
   return exponent < 0.0 ? std::floor(value * power + 1e-9) / power
                         : std::floor(value / power + 1e-9) * power;
 }
@@ -64,7 +66,7 @@ StabilityRow row_in(const json& row) {
                      .stiffness_n_per_m = limit_in(row, "stiffness", "_n_per_m")}};
 }
 
-/// What a medium asks of a loop: its resistance to a small change of motion.
+/// What a medium demands of a loop: its resistance to a small change of motion.
 struct Demand {
   double viscosity_pa_s = 0.0;
   double stiffness_n_per_m = 0.0;
@@ -88,13 +90,14 @@ Demand demand_of(const core::MediumAmounts& amounts, const core::ForceMap* map,
 }
 
 bool holds(const device::ExoskeletonStability& limits, const Demand& demand) {
-  // A hair of play, for a stimulus at the limit itself.
+  // Allows a tiny excess, for a stimulus that is exactly at the limit.
   constexpr double kPlay = 1.0 + 1e-9;
   return demand.viscosity_pa_s <= kPlay * limits.viscosity_pa_s.value &&
          demand.stiffness_n_per_m <= kPlay * limits.stiffness_n_per_m.value;
 }
 
-/// The row whose rate is the highest that is not above this one, or else the lowest.
+/// The row with the highest rate that is not above this one, or else the row with the lowest
+/// rate.
 const StabilityRow* row_for(const StabilityMap& map, double rate_hz, Contact contact) {
   const StabilityRow* below = nullptr;
   const StabilityRow* lowest = nullptr;
@@ -102,7 +105,8 @@ const StabilityRow* row_for(const StabilityMap& map, double rate_hz, Contact con
     const device::StabilityCase& its = row.measured_case;
     if (its.contact != contact || its.extra_delay_s != 0.0) continue;
     if (lowest == nullptr || its.rate_hz < lowest->measured_case.rate_hz) lowest = &row;
-    const bool is_below = its.rate_hz < rate_hz + 0.5;  // Studies may say 833.3.
+    // Studies may give a rate such as 833.3.
+    const bool is_below = its.rate_hz < rate_hz + 0.5;
     if (is_below && (below == nullptr || its.rate_hz > below->measured_case.rate_hz)) {
       below = &row;
     }
@@ -153,7 +157,7 @@ StabilityMap read_stability_map(const std::filesystem::path& file) try {
 std::optional<StabilityMap> shipped_stability_map(const std::string& device) {
   const std::filesystem::path file = shipped_folder() / "data/stability" / (device + ".json");
   std::error_code ignored;
-  // What follows a colon is an address, with whatever in it.
+  // What follows a colon is an address, which may contain anything.
   if (device.find_first_of(":/") != std::string::npos ||
       !std::filesystem::exists(file, ignored)) {
     return std::nullopt;

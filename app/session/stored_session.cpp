@@ -49,7 +49,7 @@ std::string changed_study_remark(const core::StudyStore& store,
 
 namespace {
 
-/// Its rule has ended it, and that was told.
+/// True if the study's rule has ended it, and that was told.
 bool has_ended(const core::StudyStore& store) {
   const std::vector<core::SequentialLookRow> looks = store.looks();
   return !looks.empty() && looks.back().decision == "stop";

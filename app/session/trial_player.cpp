@@ -22,7 +22,7 @@ void stop_if_cancelled(const LaboratoryRun& run) {
   if (run.is_cancelled && run.is_cancelled()) throw Cancelled{};
 }
 
-/// In real time, ends early when the run is asked to stop.
+/// Lets the time pass; in real time, ends early when the run is asked to stop.
 void TrialPlayer::wait(double duration_s) {
   if (!run_.realtime) return apparatus_.run_for(duration_s);
   constexpr double kGlanceS = 0.020;
@@ -32,20 +32,20 @@ void TrialPlayer::wait(double duration_s) {
   }
 }
 
-/// Thrown out of the middle of what is felt: these points came off.
+/// Thrown from within a presentation: these points came off.
 struct TrialPlayer::CameOff {
   std::uint8_t bits;
 };
 
-/// Thrown after what was felt, which counts for nothing.
+/// Thrown after a presentation that does not count.
 struct TrialPlayer::Missed {
   std::string reason;
 };
 
-/// Thrown when the time to answer is over, and nobody has.
+/// Thrown when the time to answer is over without an answer.
 struct TrialPlayer::TooLate {};
 
-/// Free space again, and the trial later.
+/// Returns to free space and repeats the trial later.
 void TrialPlayer::miss_deadline() {
   apparatus_.render(core::free_space());
   apparatus_.go_home();
@@ -53,14 +53,15 @@ void TrialPlayer::miss_deadline() {
   presenter_.tell_exposure();
 }
 
-/// Who has been too late, or was cut off, is in time when the trial comes again.
+/// True if the participant hurries: after they were too late or were interrupted, they answer
+/// in time when the trial comes again.
 bool TrialPlayer::hurries(const Block& block) const {
   return block.answer_deadline_s &&
          session_.state().trial(*session_.state().current_trial()).attempt > 1;
 }
 
-/// Free space again, and the trial later. A machine that cannot keep up does not get better by
-/// asking once more and once more.
+/// Returns to free space and repeats the trial later. After several times in a row it gives up,
+/// because a machine that cannot keep up does not improve by trying again.
 void TrialPlayer::begin_anew(const std::string& reason) {
   constexpr int kMostInARow = 3;
   apparatus_.render(core::free_space());
@@ -81,7 +82,8 @@ void TrialPlayer::stop_if_loose() const {
   if (came_off != 0) throw CameOff{came_off};
 }
 
-/// What the experimenter and the person do about it; what was felt counts for nothing.
+/// Does what the experimenter and the participant would do about it. What was felt does not
+/// count.
 void TrialPlayer::put_fingers_back(std::uint8_t loose_bits) {
   constexpr double kPatienceS = 20.0;
   constexpr double kGlanceS = 0.020;
@@ -135,7 +137,7 @@ void TrialPlayer::feel(const Exploration& exploration) {
   presenter_.tell_exposure();
 }
 
-/// Free space, hand at rest at home.
+/// Rests in free space, with the hand at home.
 void TrialPlayer::rest(double duration_s) {
   apparatus_.render(core::free_space());
   apparatus_.go_home();
@@ -158,8 +160,8 @@ core::RandomStream TrialPlayer::stroke_stream(std::int64_t trial, std::int64_t a
   return {session_.seed(), "stroke", {trial, attempt, presentation}};
 }
 
-/// What a solid gave way with: the regression through the origin of the force on the hand's
-/// depth in it, weighed over the points as the force is.
+/// The stiffness with which a solid gave way: the regression through the origin of the force on
+/// the hand's depth in it. The depth is weighted over the points as the force is.
 class TrialPlayer::StiffnessMeter {
  public:
   StiffnessMeter(double surface_m, const core::ShareRatios& share_ratio)
@@ -185,7 +187,7 @@ class TrialPlayer::StiffnessMeter {
   double sum_force_depth_ = 0.0, sum_depth_depth_ = 0.0;
 };
 
-/// Out of whatever is below: who presses a surface enters it from above.
+/// Moves the hand out of whatever is below, because a surface has to be entered from above.
 void TrialPlayer::rise_above(double surface_m) {
   constexpr double kGlanceS = 0.020, kPatienceS = 10.0;
   apparatus_.begin_strokes(plan_of(participant_.hover(surface_m)),
@@ -206,12 +208,13 @@ void TrialPlayer::rise_above(double surface_m) {
   }
 }
 
-/// The stimulus under way, for so long: to the nearest tick.
+/// True if the stimulus under way has lasted so long, to the nearest tick.
 bool TrialPlayer::has_felt(double duration_s) const {
   return presenter_.felt_s() > duration_s - 0.5 / run_.study.device.rate_hz;
 }
 
-/// Lets this much time pass, but not beyond what ends the stimulus. False once that is reached.
+/// Lets this much time pass, but not beyond the end of the stimulus. Returns false once that
+/// end is reached.
 bool TrialPlayer::pass(double duration_s, double end_s) {
   stop_if_cancelled(run_);
   if (!has_felt(end_s)) {
@@ -221,11 +224,12 @@ bool TrialPlayer::pass(double duration_s, double end_s) {
   return !has_felt(end_s);
 }
 
-/// Until the strokes are done and the hand has visibly turned, or far too much time is over;
-/// and no longer than to `end_s` after the stimulus began.
+/// Runs until the strokes are done and the hand has visibly turned, or far too much time has
+/// passed, but at most until `end_s` after the stimulus began.
 void TrialPlayer::run_strokes(const StrokeIntent& intent, StiffnessMeter& stiffness,
                               double end_s) {
-  constexpr double kGlanceS = 0.020;  // How often the person looks whether it is enough.
+  // How often the participant checks whether it is enough.
+  constexpr double kGlanceS = 0.020;
   const double limit_s = 3.0 * static_cast<double>(intent.num_strokes + 1) * intent.period_s;
   double elapsed_s = 0.0;
   while (apparatus_.strokes_finished() < intent.num_strokes && elapsed_s < limit_s) {
@@ -235,7 +239,7 @@ void TrialPlayer::run_strokes(const StrokeIntent& intent, StiffnessMeter& stiffn
     if (!goes_on) return;
   }
   if (!pass(intent.turning_s(), end_s)) return;
-  // The arm is done; in a thick fluid the hand trails behind it.
+  // The arm has finished, but in a thick fluid the hand trails behind it.
   constexpr double kLongestTrailS = 1.5;
   for (double trail_s = 0.0;
        apparatus_.num_metered_strokes() < intent.num_strokes && trail_s < kLongestTrailS;
@@ -244,7 +248,7 @@ void TrialPlayer::run_strokes(const StrokeIntent& intent, StiffnessMeter& stiffn
   }
 }
 
-/// Until the deadline; endless where there is none, or nothing is asked yet.
+/// The time until the deadline; infinite if there is none, or if nothing is asked yet.
 double TrialPlayer::left_to_answer_s(const Block& block) const {
   const TrialState& trial = session_.state().trial(*session_.state().current_trial());
   const auto asked = asked_tick(session_.current_form(), trial);
@@ -270,7 +274,7 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   apparatus_.begin_strokes(
       plan_of(intent), stroke_stream(number, trial.attempt,
                                      static_cast<std::int64_t>(trial.presentations.size())));
-  // Who hurries answers in the last moment at the latest.
+  // A participant who hurries answers at the last moment at the latest.
   const double deadline_s = left_to_answer_s(block);
   const double last_s = hurries(block) ? deadline_s - tick_s : deadline_s;
   apparatus_.run_for(std::clamp(deadline_s, 0.0, run_.study.device.ramp_s));
@@ -279,7 +283,7 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
   StiffnessMeter stiffness(surface_m, apparatus_.share_ratio());
   const double longest_s = block.max_stimulus_s.value_or(deadline_s);
   run_strokes(intent, stiffness, std::min(longest_s, last_s));
-  // Who has felt enough before goes on stroking.
+  // A participant who has felt enough earlier goes on stroking.
   while (!has_felt(block.min_stimulus_s) &&
          pass(std::max(tick_s, block.min_stimulus_s - presenter_.felt_s()), deadline_s)) {
   }
@@ -297,9 +301,9 @@ TrialPlayer::Felt TrialPlayer::present(const Block& block, const std::string& in
           .duration_s = felt.duration_s};
 }
 
-/// What the hand feels besides the medium. The lumped hand's is the laboratory's viscosity: its
-/// dry friction is felt as something else. A device with mechanics of its own adds whatever
-/// opposed the hand.
+/// What the hand feels in addition to the medium. For the lumped hand, it is the laboratory's
+/// viscosity, because dry friction is felt as something else. A device with mechanics of its
+/// own adds whatever opposed the hand.
 double TrialPlayer::device_damping(const Presenter::Felt& felt) const {
   return apparatus_.is_laboratory_hand() ? run_.laboratory.device.mechanical_viscosity_n_s_per_m
                                          : felt.device_damping_n_s_per_m;
@@ -314,7 +318,7 @@ Moment TrialPlayer::moment(const Block& block) const {
           .trial_in_block = trial_in_block(block, trial.planned)};
 }
 
-/// As far as the block lets anybody go back to each stimulus.
+/// True if the participant looks again, as far as the block allows going back to each stimulus.
 bool TrialPlayer::looks_again(const Block& block) const {
   const Moment now = moment(block);
   if (block.max_returns && now.presentation > *block.max_returns) return false;
@@ -376,7 +380,7 @@ void TrialPlayer::estimate(const Block& block, const TrialForm& form) {
     ++looks;
   } while (looks_again(block));
   std::optional<double> previous;
-  // Of this block: what was said to stimuli of others is another scale.
+  // Only answers of this block count, because those of other blocks are on another scale.
   if (const auto last = session_.state().last_answered_in(session_.state().stage)) {
     previous = session_.state().trial(*last).response;
   }
@@ -400,7 +404,7 @@ void TrialPlayer::estimate(const Block& block, const TrialForm& form) {
   session_.answer(answer, {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 
-/// Whether anything is there, against free space as it is remembered.
+/// Decides whether anything is there, compared with the memory of free space.
 void TrialPlayer::detect(const Block& block) {
   const Perceiver& perceiver = participant_.perceiver(block);
   double test_ln = 0.0;
@@ -445,7 +449,7 @@ void TrialPlayer::compare(const Block& block) {
                   {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 
-/// Of three intervals.
+/// Chooses one of three intervals.
 void TrialPlayer::choose_interval(const Block& block) {
   const Perceiver& person = participant_.perceiver(block);
   std::vector<double> readings_ln(3, 0.0);
@@ -497,9 +501,11 @@ void TrialPlayer::compare_intervals(const Block& block, AnswerKind asked) {
   session_.answer(answer, {.response_time_s = felt.duration_s}, felt.last_tick);
 }
 
-/// A production; with a reference a matching, in which the person may go back to it.
+/// Runs a production or, with a reference, a matching, in which the participant may go back to
+/// the reference.
 void TrialPlayer::adjust(const Block& block, std::int64_t trial, bool has_reference) {
-  constexpr int kMaxSteps = 60;  // Then a person gives up and takes what there is.
+  // After so many steps, a person gives up and accepts what there is.
+  constexpr int kMaxSteps = 60;
   const PlannedTrial planned = session_.state().trial(trial).planned;
   const Perceiver& perceiver = participant_.perceiver(block);
   double standard_ln = 0.0;
@@ -512,8 +518,8 @@ void TrialPlayer::adjust(const Block& block, std::int64_t trial, bool has_refere
     standard_ln += (reading_ln - standard_ln) / ++standard_looks;
   };
   if (has_reference) feel_standard();
-  // What is felt now, with the noise of all looks at this trial averaged: who steps on and on
-  // knows better where they are than who felt it once.
+  // The reading of the present stimulus, with the noise averaged over all looks in this trial:
+  // whoever makes many steps knows better where they are than somebody who felt it once.
   double noise_ln = 0.0;
   int looks = 0;
   double duration_s = 0.0;
@@ -543,7 +549,7 @@ void TrialPlayer::adjust(const Block& block, std::int64_t trial, bool has_refere
       reading_ln = look(Presenter::Beginning::kStimulus);
       continue;
     }
-    // Back and forth over the target by the smallest step: it does not get closer than this.
+    // The steps go back and forth over the target by the smallest step, so it gets no closer.
     if ((last_wish == Wish::kRaiseFine && wish == Wish::kLowerFine) ||
         (last_wish == Wish::kLowerFine && wish == Wish::kRaiseFine)) {
       break;

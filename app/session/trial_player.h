@@ -11,15 +11,15 @@
 
 namespace jnd::app {
 
-/// Thrown out of the middle of a session that was asked to stop.
+/// Thrown from within a session that was asked to stop.
 struct Cancelled {};
 
 /// Throws `Cancelled` if the run was asked to stop.
 void stop_if_cancelled(const LaboratoryRun& run);
 
-/// Plays a simulated participant at the apparatus: explores media, and runs trials of every
-/// procedure, each presentation in closed loop and every act an event of the session. Throws
-/// `Cancelled` between acts and between the strokes of a presentation. Not real time.
+/// Plays a simulated participant at the apparatus: explores media and runs trials of every
+/// procedure. Each presentation runs in closed loop, and every act is an event of the session.
+/// Throws `Cancelled` between acts and between the strokes of a presentation. Not real time.
 class TrialPlayer {
  public:
   /// The references must outlive the player.
@@ -31,19 +31,21 @@ class TrialPlayer {
         participant_(participant),
         presenter_(apparatus, session, run.study.device) {}
 
-  /// A medium outside of any trial.
+  /// Explores a medium outside of any trial.
   void explore(const experiments::Exploration& exploration);
-  /// The session's current trial, to its answer; or to where a finger came off, which is put
-  /// back, or the loop missed more ticks than the study allows: then it comes again later, see
-  /// `Session::put_off_attempt`. Throws `core::Error` where that is so three times in a row. An
-  /// answer that misses the block's deadline ends the attempt likewise, at the deadline.
+  /// Runs the session's current trial to its answer. If a finger comes off, it is put back; if
+  /// the loop misses more ticks than the study allows, the attempt does not count. In both
+  /// cases the trial comes again later, see `Session::put_off_attempt`. Throws `core::Error` if
+  /// ticks are missed three times in a row. An answer that misses the block's deadline also
+  /// ends the attempt, at the deadline.
   void run_trial(const experiments::Block& block);
-  /// Questions that wait after a trial, also of one before an interruption.
+  /// Answers the questions that wait after a trial, also after one before an interruption.
   void answer_questions(const experiments::Block& block);
 
  private:
   struct Felt {
-    double amount = 0.0;  ///< A damping in N s/m, or of a solid its stiffness in N/m.
+    /// A damping in N s/m, or for a solid its stiffness in N/m.
+    double amount = 0.0;
     std::int64_t last_tick = 0;
     double duration_s = 0.0;
   };

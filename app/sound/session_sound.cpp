@@ -17,7 +17,8 @@ using namespace experiments;
 
 namespace {
 
-/// At the end of a session, so that nothing clicks; with what the output still has to play.
+/// The fade at the end of a session, so that nothing clicks, and the most that the output may
+/// still have to play.
 constexpr double kFade_s = 0.1;
 constexpr double kMostToPlay_s = 0.5;
 
@@ -108,7 +109,7 @@ void SessionSound::play(const Block* block) {
   if (part_ == &wanted) return;
   const bool same_noise = part_ != nullptr && part_->noise == wanted.noise;
   const SoundPlan::Part* before = std::exchange(part_, &wanted);
-  // A noise goes by its own ramp, and comes by its own.
+  // A noise ends with its own ramp, and begins with its own ramp.
   const double ramp_s = wanted.noise == core::SoundMixer::kNoNoise && before != nullptr
                             ? before->sound.masking_noise.ramp_s
                             : wanted.sound.masking_noise.ramp_s;

@@ -8,15 +8,15 @@
 
 namespace jnd::app {
 
-/// An output of this machine, and what is known of it.
+/// An output of this machine, and what is known about it.
 struct KnownOutput {
   std::string name, description;
   std::optional<SoundCalibration> calibration;
-  bool is_chosen = false;  ///< Sessions use it where nobody names one.
+  bool is_chosen = false;  ///< Sessions use it if nobody names another one.
 };
 
-/// Those that ALSA offers, and the chosen and `asked` ones besides, whether they are there or
-/// not. Throws `Error` for settings that cannot be read. Not real time.
+/// The outputs that ALSA offers, together with the chosen one and `asked`, even if those are
+/// not there. Throws `Error` if the settings cannot be read. Not real time.
 [[nodiscard]] std::vector<KnownOutput> known_outputs(const SoundSettings& settings,
                                                      const std::string& asked = "");
 

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr char kUsualOutput[] = "default";
 
-/// An empty object where there is no file.
+/// The settings; an empty object if there is no file.
 json read_settings(const fs::path& file) {
   if (file.empty() || !fs::exists(file)) return json::object();
   std::ifstream stream(file, std::ios::binary);
@@ -35,7 +35,8 @@ json read_settings(const fs::path& file) {
   return document;
 }
 
-/// Beside the old one, then in its place: a reader finds the one or the other.
+/// The new file is written beside the old one and then replaces it, so a reader finds one or
+/// the other.
 void write_settings(const fs::path& file, const json& document) {
   if (file.empty()) {
     throw core::Error(

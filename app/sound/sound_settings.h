@@ -7,34 +7,36 @@
 
 namespace jnd::app {
 
-/// In place of an output's name: nothing is played.
+/// Stands for an output's name and means that nothing is played.
 inline constexpr char kSoundOff[] = "off";
 
 /// How loud an output is, as a laboratory has measured it at the ear of its headphones.
 struct SoundCalibration {
-  std::string output;              ///< Its name: "default".
-  double full_scale_db_spl = 0.0;  ///< What a sine of full scale comes to, re 20 uPa.
-  std::string measured_on;         ///< "2026-11-26"
+  std::string output;  ///< The output's name, such as "default".
+  /// The level of a sine of full scale, re 20 uPa.
+  double full_scale_db_spl = 0.0;
+  std::string measured_on;  ///< Such as "2026-11-26".
 };
 
-/// What this machine knows of its sound: which output is used, and how loud each is. One small
-/// file, in which calibrations are only added; the last one of an output counts. Not real time.
+/// What this machine knows about its sound: which output is used, and how loud each one is. It
+/// is one small file, in which calibrations are only added; the last one of an output counts.
+/// Not real time.
 class SoundSettings {
  public:
-  /// JND_SOUND_FILE, else sound.json in XDG_CONFIG_HOME/jnd, else in ~/.config/jnd; "" without
-  /// a home.
+  /// The file in JND_SOUND_FILE; or else sound.json in XDG_CONFIG_HOME/jnd, or in
+  /// ~/.config/jnd; "" if there is no home folder.
   [[nodiscard]] static std::filesystem::path default_file();
-  /// Nothing is read yet.
+  /// Reads nothing yet.
   explicit SoundSettings(std::filesystem::path file = default_file())
       : file_(std::move(file)) {}
 
-  /// The output that sessions use where nobody names one: that which was chosen here last, else
-  /// "default". Throws `Error` for a file that is there and cannot be read.
+  /// The output that sessions use if nobody names one: the one that was last chosen here, or
+  /// "default". Throws `Error` if the file exists but cannot be read.
   [[nodiscard]] std::string output() const;
-  /// Of an output; none where it is not calibrated. Throws likewise.
+  /// The calibration of an output; none if it is not calibrated. Throws as `output` does.
   [[nodiscard]] std::optional<SoundCalibration> calibration_of(const std::string& output) const;
 
-  /// On disk when it returns. Throws `Error`.
+  /// The choice is on disk when this returns. Throws `Error`.
   void choose(const std::string& output) const;
   void add(const SoundCalibration& calibration) const;
 

@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 
 constexpr float kZoomStep = 1.1f;
 
-/// A box that answers by bytes, where the command line names one.
+/// The serial button box that the command line names; empty if it names none.
 static std::vector<core::ControlReader::SerialBoxPort> serial_boxes_of(
     const WindowRequest& request) {
   if (request.answer_port.empty()) return {};
   return {{.path = request.answer_port, .baud = request.answer_baud}};
 }
 
-/// Where it is kept on which monitor the participant's screen stands.
+/// The folder where the choice of the participant's monitor is remembered.
 static fs::path screen_folder() { return stops_folder(); }
 
 Application::Application(WindowRequest request, std::function<void()> wake)
@@ -62,7 +62,7 @@ Application::Application(WindowRequest request, std::function<void()> wake)
   show_first();
 }
 
-/// What the command line asks for.
+/// Shows first what the command line asks for.
 void Application::show_first() {
   if (request_.resume_session) {
     attempt(tr("The session cannot be resumed"),
@@ -101,7 +101,8 @@ void Application::key_changed(Key key, bool is_down) noexcept {
   if (participant_stop_.key_changed(key, is_down)) escape();
 }
 
-/// Released by the experimenter while nobody holds the participant's switch.
+/// Presses the stop again if the experimenter released it while nobody holds the participant's
+/// switch.
 void Application::keep_stopped() noexcept {
   const bool is_let_go = participant_stop_.is_let_go() || controls_.is_let_go();
   if (session_.is_live() && is_let_go && !session_.stop_is_pressed()) escape();
@@ -135,7 +136,7 @@ void Application::ask_to_close() {
   if (session_.is_live()) {
     session_.ask_to_close();
   } else {
-    device_.leave_off();  // What was measured is on disk.
+    device_.leave_off();  // What was measured is already on disk.
     closed_ = true;
   }
 }
@@ -174,13 +175,13 @@ void Application::open_file(const fs::path& file) {
   show(study_screen_);
 }
 
-/// Nothing of the last study stays, and the next is remembered as opened.
+/// Forgets everything about the previous study, and remembers `next` as opened.
 void Application::forget_study(const fs::path& next) {
   for (Screen* screen : screens_) screen->forget_study();
   try {
     recent_.add(fs::absolute(next), core::SystemClock().now_ns());
   } catch (const core::Error&) {
-    // A list that cannot be kept is no reason not to work.
+    // Work goes on even if the list of recent studies cannot be kept.
   }
 }
 
@@ -242,7 +243,8 @@ void Application::draw(Ui& ui) {
   stop_place_ = stop == widgets.end() ? Rect{} : stop->place;
 }
 
-/// What was chosen opens with a session; who is alone looks at this window.
+/// A new session opens the participant's screen, unless the participant runs it alone and looks
+/// at this window.
 void Application::place_participant() {
   const SessionView* view = session_.view();
   if (session_has_no_screen_ && session_.is_live() && view != nullptr) {
@@ -277,9 +279,9 @@ void Application::draw_participant(Ui& ui) {
       {.font = Font::kLarge, .colour = Colour::kSoft, .align = Align::kCentre, .wrap = true});
 }
 
-// What stands on every view.
+// What every view shows.
 
-/// The one after the language that is spoken; nullptr where there is no other one.
+/// The language after the one that is spoken; nullptr if there is no other one.
 const Language* Application::next_language() const {
   const auto now = std::ranges::find(languages_, spoken_language(), &Language::code);
   if (languages_.size() < 2) return nullptr;
@@ -288,7 +290,8 @@ const Language* Application::next_language() const {
 }
 
 void Application::draw_corner(Ui& ui) {
-  // What was made in a language stays in it, and at the start there is next to nothing.
+  // The language changes at the start alone: what was made in one language stays in it, and at
+  // the start almost nothing has been made yet.
   const Language* other = shows(start_) ? next_language() : nullptr;
   const CornerLook look = corner_look(ui, other == nullptr ? "" : other->name);
   Rect strip = ui.screen().take_bottom(40);
@@ -302,7 +305,8 @@ void Application::draw_corner(Ui& ui) {
   };
   const std::vector<CornerButton> buttons = corner_buttons(ui);
   if (button(buttons[0].name, buttons[0].label, buttons[0].key)) shows_keys_ = true;
-  // The session goes on; the whole sentence stands where another monitor is chosen.
+  // The session goes on without that screen. The dialog that chooses another monitor has the
+  // whole sentence.
   if (!participant_place_.problem.empty() &&
       button("participant_screen", tr("No screen for the participant"), {Key::kF9},
              Tone::kDanger)) {
@@ -319,7 +323,8 @@ void Application::draw_corner(Ui& ui) {
   }
 }
 
-/// Not beyond what the window has room for, or "smaller" would do nothing for a while.
+/// Stops at what the window has room for; otherwise the next few presses of "smaller" would do
+/// nothing.
 void Application::make_larger(const Ui& ui) {
   const Rect screen = ui.screen();
   constexpr float kRounding = 1.02f;
@@ -329,21 +334,22 @@ void Application::make_larger(const Ui& ui) {
 }
 
 void Application::take_global_keys(Ui& ui) {
-  // Of other screens the buttons in the corner have these two.
+  // On other screens, buttons in the corner have these two keys.
   if (shows(session_)) {
     if (ui.pressed({letter('D'), true})) ui.theme().set_dark(!ui.theme().dark());
     if (ui.pressed({Key::kPlus, true})) make_larger(ui);
   }
   if (ui.pressed({Key::kMinus, true})) zoom_ /= kZoomStep;
   zoom_ = std::clamp(zoom_, 0.5f, 2.0f);
-  // Where something is wrong with it, its button has the key.
+  // If something is wrong with the participant's screen, its button has this key.
   const bool has_button = !participant_place_.problem.empty();
   if (!has_button && ui.pressed({Key::kF9})) shows_screens_ = true;
   if (ui.pressed({letter('Q'), true})) ask_to_close();
 }
 
-/// The page about this view. While a hand may feel a force, no other window comes over this
-/// one, in which alone Escape is the emergency stop.
+/// Opens the manual's page about this view. It refuses while a hand may feel a force, because
+/// another window would take the keyboard, and Escape is the emergency stop in this window
+/// alone.
 void Application::open_manual() {
   const ManualPlace place = manual_place(shipped_folder(), screen_->manual_page());
   if (place.file.empty()) {

@@ -27,11 +27,12 @@
 
 namespace jnd::app::gui {
 
-/// Everything in the window but its pixels: the screens, which of them stands there, and what
-/// stands on all of them. One thread, that of the window; long work goes on beside it.
+/// Everything in the window except its pixels: the screens, which of them is shown, and what
+/// appears on all of them. Only the window's thread uses it; long work runs beside it in the
+/// background.
 class Application final : private ScreenHost {
  public:
-  /// `wake` draws another frame; called from any thread.
+  /// `wake` requests another frame; any thread may call it.
   Application(WindowRequest request, std::function<void()> wake);
   Application(const Application&) = delete;
   Application& operator=(const Application&) = delete;
@@ -42,50 +43,54 @@ class Application final : private ScreenHost {
     session_.paint_scene = std::move(paint);
   }
 
-  // What the window asks and tells.
+  // What the window asks of the application and tells it.
   [[nodiscard]] const char* view_name() const noexcept { return screen_->name(); }
-  /// A session is under way, or a device moves: frames at the pace of its pictures, and a
-  /// heartbeat.
+  /// True while a session is under way or a device may move. The window then draws frames at
+  /// the pace of the session's pictures and sends a heartbeat.
   [[nodiscard]] bool is_live() const noexcept {
     return session_.is_live() || device_.is_live();
   }
   [[nodiscard]] bool works() const noexcept;
-  /// Looks at what changes beside the window: once a second or more often. True if a frame
-  /// should show it.
+  /// Looks at what changes outside the window, such as files; called once a second or more
+  /// often. Returns true if a frame should show a change.
   [[nodiscard]] bool look_beside() { return screen_->look_beside(); }
-  /// The monitors that are plugged in, before each frame.
+  /// Takes the monitors that are plugged in; the window calls it before each frame.
   void set_monitors(const std::vector<Monitor>& monitors) { monitors_ = monitors; }
-  /// Where the participant's screen has to stand now.
+  /// Where the participant's screen has to be shown now.
   [[nodiscard]] const ScreenPlace& participant_place() const noexcept {
     return participant_place_;
   }
-  /// Somebody closed it by its own button: until the next session, or until it is chosen again.
+  /// Somebody closed the participant's screen by its own close button. It stays closed until
+  /// the next session, or until it is chosen again.
   void hide_participant() noexcept { shows_participant_ = false; }
-  /// It cannot be opened: told, and the session goes on.
+  /// The participant's screen cannot be opened. The operator is told `why`, and the session
+  /// goes on.
   void lose_participant(const std::string& why) {
     hide_participant();
     tell(tr("The participant's screen"), why);
   }
   [[nodiscard]] bool closed() const noexcept { return closed_; }
-  /// What the person chose on top of the monitor's scale.
+  /// The scale that the person chose in the window; it multiplies the monitor's own scale.
   [[nodiscard]] float zoom() const noexcept { return zoom_; }
   void set_zoom(float zoom) noexcept { zoom_ = zoom; }
-  /// Languages that the start lets people choose from; none at first.
+  /// Sets the languages that the start screen offers; at first there are none.
   void offer(std::vector<Language> languages) { languages_ = std::move(languages); }
-  /// The code of the language that was chosen instead of the one that is spoken, for which the
-  /// window begins anew; "" for none.
+  /// The code of the language that somebody chose instead of the present one; the window begins
+  /// anew in it. "" if nobody chose one.
   [[nodiscard]] const std::string& wanted_language() const noexcept { return wanted_language_; }
 
-  /// The emergency stop; past everything else.
+  /// Presses the emergency stop, without waiting for queued input or a frame.
   void escape() noexcept;
-  /// A key went down or up: it may be the participant's stop. Past everything else as well.
+  /// Tells that a key went down or up: it may be the participant's stop. Like `escape`, it does
+  /// not wait for queued input.
   void key_changed(Key key, bool is_down) noexcept;
-  /// The mouse went down there, logical pixels: the stop does not wait for a frame either.
+  /// Tells that the mouse button went down at this place, in logical pixels. A click on the
+  /// stop does not wait for a frame either.
   void mouse_pressed(float x, float y) noexcept;
-  /// Somebody dropped a file or a folder on the window: a table of answers, or a study. Nothing
-  /// while a session or a device is live.
+  /// Opens a file or folder that somebody dropped on the window: a table of answers, or a
+  /// study. Does nothing while a session or a device is live.
   void dropped(const std::filesystem::path& path);
-  /// The system asks the program to end: a session is left as it is, to be resumed.
+  /// The system asks the program to end. A session is left as it is, to be resumed.
   void end_soon();
   /// `is_in_sight`: of the window, and so of its emergency stop.
   void beat(bool is_in_sight) noexcept {
@@ -93,13 +98,13 @@ class Application final : private ScreenHost {
     session_.beat(is_in_sight);
     device_.beat(is_in_sight);
   }
-  /// Of the mouse, logical pixels, whenever it moves.
+  /// Tells the mouse's place in logical pixels, whenever it moves.
   void cursor(float x, float y) noexcept { session_.cursor(x, y); }
-  /// The close button: asks first where a session goes on.
+  /// Somebody pressed the close button. While a session goes on, the person is asked first.
   void ask_to_close();
 
  private:
-  // What screens ask, see `ScreenHost`.
+  // What screens ask of the window, see `ScreenHost`.
   [[nodiscard]] bool shows(const Screen& screen) const noexcept override {
     return screen_ == &screen;
   }
@@ -139,7 +144,9 @@ class Application final : private ScreenHost {
   WindowRequest request_;
   std::function<void()> wake_;
   RecentStudies recent_;
-  AnswerControls controls_;  ///< Before what it presses the stop of, and is told to end by.
+  /// Declared before the screens that use it: the session's stop is pressed from here, and the
+  /// session's destructor tells that the session has ended.
+  AnswerControls controls_;
   OpenStudy study_;
   StartScreen start_;
   PrepareScreen prepare_;
@@ -154,14 +161,17 @@ class Application final : private ScreenHost {
   Screen* screen_ = &start_;  ///< That stands in the window.
 
   ParticipantStop participant_stop_;
-  Rect stop_place_;  ///< Of the stop's button in the last frame; empty without.
+  /// Where the stop's button was in the last frame; empty if there was none.
+  Rect stop_place_;
   bool closed_ = false;
   bool shows_keys_ = false;
-  bool shows_screens_ = false;  ///< The choice among them.
+  bool shows_screens_ = false;  ///< The dialog that chooses the participant's monitor is open.
   std::vector<Monitor> monitors_;
   ScreenChoice screen_choice_;
-  bool shows_participant_ = false;      ///< Where it was chosen.
-  bool session_has_no_screen_ = false;  ///< A new one, for which nothing was opened yet.
+  /// The participant's screen is open, on the monitor that was chosen.
+  bool shows_participant_ = false;
+  /// A session has just begun, and its participant's screen was not opened yet.
+  bool session_has_no_screen_ = false;
   ScreenPlace participant_place_;
   ParticipantViewState participant_state_;
   float zoom_ = 1.0f;

@@ -44,7 +44,8 @@ std::vector<FolderEntry> tables_of(const fs::path& folder) {
 }
 
 void DataScreen::open(const fs::path& file) {
-  // What was browsed stays, for the next file is often beside this one.
+  // The dialog keeps the folder that was browsed, because the next file is often beside this
+  // one.
   FileDialogState opening = std::move(state_.opening);
   state_ = {};
   state_.opening = std::move(opening);
@@ -57,7 +58,7 @@ void DataScreen::show() {
   begin_file_dialog(state_.opening, {});
 }
 
-/// What could not be saved is told where nobody overlooks it.
+/// If saving fails, tells so in a message that nobody overlooks.
 void DataScreen::update(Ui&) {
   data_.collect();
   const DataView& view = data_.view();
@@ -73,7 +74,7 @@ void DataScreen::draw(Ui& ui) {
   if (result.compare) data_.compare();
   if (result.save_picture) data_.save_picture(*result.save_picture);
   if (result.save_table) data_.save_table(*result.save_table);
-  // It may be over before anybody looks again.
+  // Saving may be over before the next look, so it is remembered here.
   was_saving_ |= result.save_picture || result.save_table;
   if (result.tab != StudyTab::kNone) host_.go_to(result.tab);
 }

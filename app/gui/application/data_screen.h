@@ -9,8 +9,8 @@
 
 namespace jnd::app::gui {
 
-/// Somebody's own table of answers, fitted without a study. It stays as it is while other
-/// screens stand there.
+/// Somebody's own table of answers, fitted without a study. It keeps its contents while other
+/// screens are shown.
 class DataScreen final : public Screen {
  public:
   explicit DataScreen(ScreenHost& host) : host_(host), data_(host.wake()) {}
@@ -20,7 +20,7 @@ class DataScreen final : public Screen {
   }
   /// A file to be shown next.
   void open(const std::filesystem::path& file);
-  /// Asks for a file where none is open.
+  /// Asks for a file if none is open.
   void show() override;
   void update(Ui&) override;
   void draw(Ui& ui) override;
@@ -33,11 +33,11 @@ class DataScreen final : public Screen {
   bool was_saving_ = false;
 };
 
-/// What a folder has for somebody who looks for a table: tables, then other folders.
+/// What a folder offers to somebody who looks for a table: tables first, then other folders.
 [[nodiscard]] std::vector<FolderEntry> tables_of(const std::filesystem::path& folder);
 
-/// Whether a file is rather a table of answers than a study: by its ending, and of JSON by
-/// whether it is a list.
+/// Whether a file is a table of answers rather than a study. Its ending decides; a JSON file is
+/// a table if it is a list.
 [[nodiscard]] bool is_table(const std::filesystem::path& file);
 
 }  // namespace jnd::app::gui

@@ -8,7 +8,7 @@
 namespace jnd::app::gui {
 namespace {
 
-/// Those that need no address, and those that were asked for by one.
+/// All devices that need no address, and the one that was asked for with its address.
 std::vector<BenchModel::Choice> choices_with(const std::string& asked) {
   std::vector<BenchModel::Choice> all;
   bool has_asked = false;

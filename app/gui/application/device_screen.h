@@ -12,10 +12,11 @@
 
 namespace jnd::app::gui {
 
-/// A device, outside of any session: what it is, its profile, its commissioning and checks.
+/// A device outside of any session: what it is, its profile, its commissioning and checks.
 class DeviceScreen final : public Screen {
  public:
-  /// `request`: the device that the command line asks for. All outlive it.
+  /// `request` names the device that the command line asks for. All arguments outlive the
+  /// screen.
   DeviceScreen(ScreenHost& host, const OpenStudy& study, const WindowRequest& request);
   [[nodiscard]] const char* name() const noexcept override { return "device"; }
   [[nodiscard]] const char* manual_page() const noexcept override {
@@ -25,9 +26,9 @@ class DeviceScreen final : public Screen {
   void draw(Ui& ui) override;
   [[nodiscard]] bool works() const noexcept override { return device_.works(); }
 
-  /// The device may move, or waits for an answer.
+  /// True while the device may move, or waits for an answer.
   [[nodiscard]] bool is_live() const noexcept { return device_.is_live(); }
-  /// Any thread.
+  /// May be called from any thread.
   void press_stop() noexcept { device_.press_stop(); }
   void beat(bool is_in_sight) noexcept { device_.beat(is_in_sight); }
   /// Ends what goes on; what was measured is kept.
@@ -44,7 +45,8 @@ class DeviceScreen final : public Screen {
   OperatedDevice device_;
 };
 
-/// The device that waits: the one asked for, else the first there is.
+/// The device that is proposed first: the one that the command line asks for, otherwise the
+/// first of the registry.
 [[nodiscard]] std::string waiting_device(const WindowRequest& request);
 
 }  // namespace jnd::app::gui

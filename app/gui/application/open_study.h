@@ -14,26 +14,27 @@
 
 namespace jnd::app::gui {
 
-/// The study folder that is open in the window, if one is, and the work on it that goes on
-/// beside the window, one at a time.
+/// The study folder that is open in the window, if any, and the work on it in the background.
+/// Only one such work runs at a time.
 class OpenStudy {
  public:
   explicit OpenStudy(std::function<void()> wake) : wake_(std::move(wake)) {}
 
-  /// Throws `Error`; the last one stays open then.
+  /// Opens a folder. Throws `Error`; the folder that was open stays open then.
   void open(const std::filesystem::path& folder);
   void close();
-  /// Reads the folder again, where one is open.
+  /// Reads the folder again, if one is open.
   void reload();
   [[nodiscard]] bool is_open() const noexcept { return folder_.has_value(); }
   [[nodiscard]] const StudyFolder& folder() const { return folder_.value(); }
-  /// As it is in the folder.
+  /// The study as it is stored in the folder.
   [[nodiscard]] const experiments::Study& study() const { return study_.value(); }
 
-  /// Nothing while other work goes on. `name` says what it is: "Verifying".
+  /// Begins work in the background; does nothing while other work runs. `name` says what the
+  /// work is, such as "Verifying".
   void begin_work(const char* name, std::function<ActionOutcome(WorkControl&)> work);
   void cancel_work();
-  /// True once when work has come to its end.
+  /// Returns true once when the work has ended.
   bool collect_work();
   [[nodiscard]] bool works() const noexcept { return work_ && work_->running(); }
   [[nodiscard]] StudyWork work() const;
@@ -48,7 +49,8 @@ class OpenStudy {
   ActionOutcome outcome_;
 };
 
-/// One for each study folder, so that the orders shown are those its sessions will draw.
+/// The seed of a study folder, always the same for one folder: the orders that are shown are
+/// those that its sessions will draw.
 [[nodiscard]] std::uint64_t seed_of(const core::StudyStore& store);
 
 }  // namespace jnd::app::gui

@@ -32,13 +32,13 @@ bool has_display() {
 
 namespace {
 
-/// Where the window keeps what it remembers; "" without a home.
+/// The folder where the window keeps what it remembers; "" if the user has no home folder.
 std::filesystem::path state_folder() {
   const std::filesystem::path recent = RecentStudies::default_file();
   return recent.empty() ? std::filesystem::path() : recent.parent_path();
 }
 
-/// Opens, moves and closes the participant's window as wanted.
+/// Opens, moves or closes the participant's window as the application wants it.
 void show_participant(gui::Window& window, gui::Application& application) {
   const ScreenPlace& place = application.participant_place();
   if (place.nowhere) return window.close_second();
@@ -52,7 +52,8 @@ void show_participant(gui::Window& window, gui::Application& application) {
   }
 }
 
-/// The apparatus, drawn on a thread that has the context for as long as this is there.
+/// Draws the apparatus on a thread of its own, which holds the OpenGL context as long as this
+/// object exists.
 class DrawnScene {
  public:
   explicit DrawnScene(gui::SharedContext& context) : current_(context) {}
@@ -86,10 +87,10 @@ std::unique_ptr<gui::SceneThread> begin_scene(gui::SharedContext& context,
       [&window] { window.wake(); });
 }
 
-/// Lets the window and the application know of each other. Returns the language that somebody
-/// chose, in which it is to begin anew; "" where the window is over.
+/// Connects the window and the application, and shows them. Returns the language that somebody
+/// chose, in which the window is to begin anew; "" if the window was closed.
 std::string show(gui::Window& window, const WindowRequest& request) {
-  // Made when the apparatus is first looked at; gone before OpenGL is.
+  // Both are made when the apparatus is first looked at, and are gone before OpenGL is.
   std::unique_ptr<gui::SharedContext> scene_context;
   std::unique_ptr<gui::SceneThread> scene;
   gui::Application application(request, [&window] { window.wake(); });
@@ -136,14 +137,14 @@ std::string show(gui::Window& window, const WindowRequest& request) {
   return application.wanted_language();
 }
 
-/// In the language that was chosen last, until the window is over.
+/// Shows the window in the language that was chosen last, again and again until it is closed.
 void show_in_languages(gui::Window& window, WindowRequest request) {
   for (;;) {
     const std::string language = show(window, request);
     if (language.empty()) return;
     remember_language(state_folder(), language);
     begin_language(languages_folder(), language);
-    // It was chosen at the start, and there the window stays.
+    // The language was chosen on the start screen, so the window begins there again.
     request.study_folder.clear();
     request.resume_session.reset();
   }

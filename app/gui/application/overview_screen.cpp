@@ -72,7 +72,7 @@ void OverviewScreen::forget_study() {
 }
 
 void OverviewScreen::update(Ui&) {
-  // A backup has come to its end: how old it is has changed.
+  // Work has ended. It may have been a backup, whose age the overview shows.
   if (std::exchange(was_working_, study_.works()) && !study_.works()) {
     host_.attempt(tr("The study cannot be read"), [this] { show(); });
   }

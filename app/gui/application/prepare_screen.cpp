@@ -21,8 +21,8 @@
 namespace jnd::app::gui {
 namespace {
 
-/// Those that need no address, and the one that was asked for. Not for every frame: a simulated
-/// device is a world of its own.
+/// The devices that need no address, and the one that was asked for. It is too slow for every
+/// frame, because it makes each device, and a simulated one is a whole world.
 std::vector<PrepareModel::Device> devices_to_choose(const std::string& asked, double rate_hz) {
   std::vector<PrepareModel::Device> all;
   const auto add = [&](const std::string& name, std::string_view description) {
@@ -81,7 +81,7 @@ void PrepareScreen::show() {
   look_before();
 }
 
-/// Which outputs there are, and how loud the study will be from the one that is chosen.
+/// Lists the sound outputs, and judges how loud the study will be from the chosen one.
 void PrepareScreen::look_at_sound() {
   constexpr std::size_t kMostLetters = 44;
   sound_ = {.is_wanted = experiments::has_sound(study_.study()),
@@ -148,7 +148,8 @@ void PrepareScreen::go_on_with_tried_sound() {
   next_cue_ += std::chrono::seconds(1);
 }
 
-/// Says in words which cell comes next, once what the participant brings is known.
+/// Says in words which cell comes next, as soon as the fields that the order depends on are
+/// filled in.
 void PrepareScreen::assign(const core::StudyStore& store) {
   assigned_.clear();
   const experiments::Study& study = study_.study();
@@ -171,14 +172,14 @@ void PrepareScreen::look_before() {
       host_.wake());
 }
 
-/// The next session begins with what this one was begun with.
+/// Remembers the sound output, so that the next session proposes it.
 void PrepareScreen::keep_output() const {
   if (!sound_.is_wanted || state_.sound_output == kSoundOff) return;
   try {
     const SoundSettings settings;
     if (settings.output() != state_.sound_output) settings.choose(state_.sound_output);
   } catch (const core::Error&) {
-    // A choice that cannot be kept is no reason not to begin.
+    // The session begins even if the choice cannot be kept.
   }
 }
 
@@ -225,7 +226,8 @@ void PrepareScreen::draw_controls(Ui& ui) {
     if (result.mapped) controls_.set(result.mapped->first, result.mapped->second);
     if (result.forgotten) controls_.forget(*result.forgotten);
   });
-  if (result.mapped || result.forgotten) host_.wake()();  // This frame was drawn before it.
+  // This frame was drawn before the change.
+  if (result.mapped || result.forgotten) host_.wake()();
   if (!result.is_closed) return;
   mapping_ = {};
   controls_.listen_to_all(false);
@@ -241,7 +243,7 @@ void PrepareScreen::draw(Ui& ui) {
   if (result.sound.test) try_sound();
   if (result.map_controls) {
     mapping_ = {.is_open = true};
-    (void)controls_.take_events();  // Pressed before anybody mapped.
+    (void)controls_.take_events();  // Drops what was pressed before anybody mapped controls.
     controls_.listen_to_all(true);
   } else if (mapping_.is_open) {
     return draw_controls(ui);
@@ -254,7 +256,7 @@ void PrepareScreen::draw(Ui& ui) {
     });
   }
   if (!result.start && result.tab == StudyTab::kNone) return;
-  // The device is the session's, or nobody's.
+  // From here on the session has the device, or nobody has it.
   preflight_.reset();
   tried_sound_.reset();
   controls_.prepare(false);

@@ -16,11 +16,12 @@
 
 namespace jnd::app::gui {
 
-/// Before a session: who, on which device, and a check of everything it needs.
+/// The screen before a session: who takes part, on which device, and a check of everything that
+/// the session needs.
 class PrepareScreen final : public Screen {
  public:
-  /// `request`: what the command line asks of the first session; what is used up is taken out
-  /// of it. All outlive it.
+  /// `request` is what the command line asks of the first session; what is used up is removed
+  /// from it. All arguments outlive the screen.
   PrepareScreen(ScreenHost& host, OpenStudy& study, WindowRequest& request,
                 AnswerControls& controls)
       : host_(host), study_(study), request_(request), controls_(controls) {}
@@ -34,9 +35,9 @@ class PrepareScreen final : public Screen {
     return (preflight_ && preflight_->running()) || tried_sound_ != nullptr;
   }
   void forget_study() override;
-  /// Who takes part next; "" for whoever the schedule says.
+  /// Sets who takes part next; "" leaves it to the schedule.
   void propose(const std::string& participant) { proposed_ = participant; }
-  /// Ends what the check does with a device; nothing where no check is under way.
+  /// Stops what the check does with a device; does nothing if no check is under way.
   void press_stop() noexcept;
 
  private:
@@ -57,12 +58,14 @@ class PrepareScreen final : public Screen {
   ControlsState mapping_;
   PrepareViewState state_;
   std::vector<PrepareModel::Device> devices_;
-  std::unique_ptr<Preflight> preflight_;  ///< Empty while a session has the device.
+  /// The check before a session; empty while a session has the device.
+  std::unique_ptr<Preflight> preflight_;
   SoundModel sound_;
-  std::unique_ptr<TriedSound> tried_sound_;  ///< Empty while none is tried.
+  /// The sound that is being tried; empty if none is.
+  std::unique_ptr<TriedSound> tried_sound_;
   std::chrono::steady_clock::time_point next_cue_, sound_ends_;
   std::vector<std::string> taken_;
-  std::string proposed_;  ///< Who takes part next; used up by `show`.
+  std::string proposed_;  ///< Who takes part next; `show` uses it up.
   std::string assigned_;  ///< The cell that comes next, in words.
   std::uint64_t seed_ = 0;
 };

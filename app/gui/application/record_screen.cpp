@@ -42,11 +42,11 @@ void RecordScreen::read() {
       host_.wake());
 }
 
-/// What was read replaces what stood there; until then that goes on standing there.
+/// Takes what was read when reading has ended; until then the old contents stay on the screen.
 void RecordScreen::update(Ui&) {
   if (was_withdrawing_ && !study_.works()) {
     was_withdrawing_ = false;
-    // Its sessions are gone, or the outcome says why they are not.
+    // The sessions of the withdrawn person are gone, or the outcome says why they are not.
     return host_.go_to(StudyTab::kSessions);
   }
   if (!task_ || task_->running()) return;
@@ -105,7 +105,7 @@ void RecordScreen::draw(Ui& ui) {
   }
 }
 
-/// What is written at once, after which the session is read anew.
+/// Carries out an act that is stored at once, and reads the session again.
 void RecordScreen::act(const RecordViewResult& result) {
   const fs::path folder = study_.folder().folder;
   const char* failed = tr("It cannot be stored");

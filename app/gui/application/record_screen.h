@@ -37,9 +37,9 @@ class RecordScreen final : public Screen {
   OpenStudy& study_;
   std::int64_t session_ = 0;
   std::unique_ptr<BackgroundTask<SessionRecord>> task_;
-  std::optional<SessionRecord> record_;  ///< As it was read last.
+  std::optional<SessionRecord> record_;  ///< The session that was read last.
   std::string problem_;
-  std::optional<std::size_t> shown_fault_;  ///< Whose last second was read.
+  std::optional<std::size_t> shown_fault_;  ///< The fault whose flight record was read.
   std::optional<FlightRecord> flight_;
   std::string flight_problem_;
   bool was_withdrawing_ = false;

@@ -31,15 +31,16 @@ class Screen {
   [[nodiscard]] virtual const char* manual_page() const noexcept = 0;
   /// Called before it comes to stand in the window. What it throws keeps it from that.
   virtual void show() = 0;
-  /// Takes what has come from other threads, before anything is drawn; may go to another one.
+  /// Takes results from other threads before anything is drawn; it may switch to another
+  /// screen.
   virtual void update(Ui&) {}
   virtual void draw(Ui& ui) = 0;
-  /// Looks at what changes beside the window, once a second or more often. True if a frame
-  /// should show it.
+  /// Looks at what changes outside the window, such as files; called once a second or more
+  /// often. Returns true if a frame should show a change.
   [[nodiscard]] virtual bool look_beside() { return false; }
-  /// Something goes on beside the window that a frame shows.
+  /// True while something that a frame shows goes on in the background.
   [[nodiscard]] virtual bool works() const noexcept { return false; }
-  /// Another study was opened: nothing of the last one is kept.
+  /// Another study was opened: the screen forgets everything about the previous one.
   virtual void forget_study() {}
 };
 
@@ -58,13 +59,16 @@ struct ScreenParts {
 /// A session to be begun in the study that is open.
 struct NewSession {
   std::string participant, device;
-  std::string device_profile;  ///< A file; "": a real device's own is looked for.
-  std::uint64_t seed = 0;      ///< Of the study.
+  /// The profile's file; if "", a real device's own profile is looked for.
+  std::string device_profile;
+  std::uint64_t seed = 0;  ///< The seed of the study.
   bool pilot = false;
   std::string language;
-  std::map<std::string, std::string> fields;   ///< What the participant brings.
-  std::map<std::string, std::string> fitting;  ///< How the device was fitted to them.
-  std::string sound_output;                    ///< As `SoundChoice::output`.
+  /// What the study asks about the participant, by field.
+  std::map<std::string, std::string> fields;
+  /// How the device was fitted to the participant.
+  std::map<std::string, std::string> fitting;
+  std::string sound_output;  ///< The sound output, as in `SoundChoice::output`.
 };
 
 /// What a screen asks of the window around it.
@@ -72,22 +76,22 @@ class ScreenHost {
  public:
   virtual ~ScreenHost() = default;
   [[nodiscard]] virtual bool shows(const Screen& screen) const noexcept = 0;
-  /// Another screen, at once; why it cannot be opened is told. Nothing for `kNone`.
+  /// Shows another screen at once, or tells why it cannot be opened. Does nothing for `kNone`.
   virtual void go_to(StudyTab tab) = 0;
-  /// The screen before a session, of this participant, or of whoever comes next where it is
-  /// "". Throws what keeps it from opening.
+  /// Shows the screen before a session of this participant; "" stands for whoever comes next.
+  /// Throws the reason if that screen cannot open.
   virtual void prepare_session(const std::string& participant) = 0;
-  /// The page of a stored session. Throws what keeps it from opening.
+  /// Shows the page of a stored session. Throws the reason if it cannot open.
   virtual void show_session(std::int64_t session) = 0;
-  /// A study file, or the folder of a study. Throws `Error`.
+  /// Opens a study file or the folder of a study. Throws `Error`.
   virtual void open(const std::filesystem::path& path) = 0;
   virtual void start_session(const NewSession& session) = 0;
   virtual void resume_session(const std::filesystem::path& folder, std::int64_t session) = 0;
-  /// Runs `work`, and tells what goes wrong; false then.
+  /// Runs `work`. If it throws, tells what went wrong and returns false.
   virtual bool attempt(const char* title, const std::function<void()>& work) = 0;
   virtual void tell(const std::string& title, const std::string& sentence) = 0;
   virtual void close() = 0;
-  /// Draws another frame; called from any thread.
+  /// A function that requests another frame; any thread may call it.
   [[nodiscard]] virtual std::function<void()> wake() const = 0;
 };
 

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of a hand that moves by itself; nothing where a person moves it.
+/// The laboratory of a simulated hand that moves by itself; nullptr where a person moves the
+/// hand.
 std::unique_ptr<experiments::Laboratory> laboratory_for(const std::string& device,
                                                         double rate_hz) {
   if (!device::make_device(device, rate_hz)->capabilities().moves_by_itself) return nullptr;
@@ -31,8 +32,8 @@ std::unique_ptr<experiments::Laboratory> laboratory_for(const std::string& devic
 
 }  // namespace
 
-/// What was measured of the device, if anything. Throws `core::Error` where it has to be known
-/// and is not.
+/// What was measured of the device, if anything. Throws `core::Error` if the session needs a
+/// profile and there is none that fits.
 static std::optional<KnownProfile> profile_for(const NewSession& session,
                                                const experiments::Study& study) {
   const DeviceOfProfile device = device_of_profile(session.device, study.device.rate_hz);
@@ -78,7 +79,7 @@ void SessionScreen::resume(std::int64_t session) {
         device_profile_, profile_folders(), today());
     if (!refused.empty()) throw core::Error(refused);
   } catch (const device::DeviceUnreachable&) {
-    // Told by the session, which asks it again.
+    // The session itself tells that the device is unreachable, and tries again.
   }
   run(std::move(store), session, /*language=*/"", sound_output_);
 }
@@ -160,8 +161,9 @@ void SessionScreen::leave_and_close(const std::string& reason) {
   worker_->request(operate::Leave{reason});
 }
 
-/// Keys pressed while an act is being carried out are meant for what it leads to. A disk that
-/// hangs or a long rest must not keep the operator from everything else, though.
+/// Holds the input while an act is being carried out, because keys pressed now are meant for
+/// what follows it. The hold ends after a short time, so that a hanging disk or a long rest
+/// does not keep the operator from everything else.
 void SessionScreen::hold_input(Ui& ui, bool is_behind, bool requests_wait) const {
   constexpr auto kMostForTheDisk = std::chrono::seconds(1);
   constexpr auto kMostForARamp = std::chrono::milliseconds(300);
@@ -173,7 +175,8 @@ void SessionScreen::hold_input(Ui& ui, bool is_behind, bool requests_wait) const
 
 void SessionScreen::update(Ui& ui) {
   if (!worker_) return;
-  // Before the view, which then shows at least as much.
+  // Asked before the view is taken, so that the view shows at least everything that was asked
+  // about.
   hold_input(ui, worker_->is_behind(), worker_->has_waiting_requests());
   if (auto newest = worker_->view()) view_ = std::move(newest);
   if (worker_->over()) close_session();
@@ -192,16 +195,16 @@ void SessionScreen::draw(Ui& ui) {
     if (!result.requests.empty()) requested_at_ = std::chrono::steady_clock::now();
     for (const OperatorRequest& request : result.requests) worker_->request(request);
   }
-  // It takes the session a moment to be left.
+  // Leaving a session takes a moment.
   if (result.to_sessions) leaving_ = true;
   if (closing_ && run_state_.dialog == RunViewState::Dialog::kNone && !leaving_) {
-    closing_ = false;  // They stay.
+    closing_ = false;  // The person decided to stay.
   }
   if (result.back_up && backup_ == nullptr) begin_backup(after_.backup_folder);
   if (worker_ == nullptr && result.to_results) {
     host_.go_to(StudyTab::kResults);
   } else if (worker_ == nullptr && result.to_sessions) {
-    // Who comes next stands in the overview; who is alone is done.
+    // The overview shows who comes next; a participant who was alone goes to the sessions.
     host_.go_to(finished_ && !view_->is_alone ? StudyTab::kOverview : StudyTab::kSessions);
   }
 }
@@ -238,7 +241,7 @@ ApparatusSources SessionScreen::apparatus_sources() {
   return sources;
 }
 
-/// The session is over and its folder closed: left, failed, or finished.
+/// The session is over (left, failed or finished) and its folder is closed.
 void SessionScreen::close_session() {
   const std::string failure = worker_->failure();
   controls_.end_session();
@@ -249,11 +252,12 @@ void SessionScreen::close_session() {
   if (finished_) return;
   if (!failure.empty()) host_.tell(tr("The session stopped"), failure);
   host_.go_to(StudyTab::kSessions);
-  // Its folder may be gone with the disk that it was on.
+  // The study's folder may be gone together with its disk.
   if (host_.shows(*this)) host_.go_to(StudyTab::kStart);
 }
 
-/// Once a session is finished its folder is closed, checked, and copied where a copy is known.
+/// After a finished session, closes its folder, checks it, and backs it up if a backup is
+/// known.
 void SessionScreen::after_session() {
   if (worker_ && view_->step == Step::kFinished) {
     worker_->request(operate::Leave{});

@@ -20,12 +20,12 @@
 
 namespace jnd::app::gui {
 
-/// A session in the window, from its start or resumption to the check and copy after it.
+/// A session in the window, from its start or resumption to the check and backup after it.
 class SessionScreen final : public Screen {
  public:
-  /// `device_profile`: that of sessions that are resumed, a file; "": looked for. `streams`: to
-  /// and of other recorders, of every session, as `markers`. `sound_output`: of those that are
-  /// resumed. `simulated_clock_s`: as in `WindowRequest`.
+  /// `device_profile` is the profile's file for resumed sessions; if "", one is looked for.
+  /// `streams` and `markers` connect every session to other recorders. `sound_output` is that
+  /// of resumed sessions. `simulated_clock_s` is as in `WindowRequest`.
   SessionScreen(ScreenHost& host, OpenStudy& study, bool allow_no_realtime,
                 std::string device_profile, WantedStreams streams, WantedMarkers markers,
                 AnswerControls& controls, std::string sound_output,
@@ -45,7 +45,7 @@ class SessionScreen final : public Screen {
 
   /// Adds a session to the study that is open, and begins it. Throws `Error`.
   void start(const NewSession& session);
-  /// Goes on with one of that study. Throws `Error`.
+  /// Resumes a session of the study that is open. Throws `Error`.
   void resume(std::int64_t session);
 
   [[nodiscard]] const char* name() const noexcept override {
@@ -59,18 +59,17 @@ class SessionScreen final : public Screen {
   void draw(Ui& ui) override;
   [[nodiscard]] bool works() const noexcept override;
 
-  /// A session is under way.
+  /// True while a session is under way.
   [[nodiscard]] bool is_live() const noexcept { return worker_ != nullptr; }
-  /// The newest picture of it; nullptr before the first.
+  /// The newest picture of the session; nullptr before the first one.
   [[nodiscard]] const SessionView* view() const noexcept { return view_.get(); }
-  /// What is being typed as the answer to what waits for one, for the participant to see; ""
-  /// for nothing.
+  /// What the operator is typing as the answer now, for the participant to see; "" if nothing.
   [[nodiscard]] std::string typed_answer() const;
-  /// Something lies over it and takes what is typed.
+  /// Tells that something lies over the screen and takes what is typed.
   void set_covered(bool is_covered) noexcept { run_state_.is_covered = is_covered; }
   [[nodiscard]] bool is_covered() const noexcept { return run_state_.is_covered; }
 
-  // From the window's own events, past every queue.
+  // These come directly from the window's events, without any queue.
   void press_stop() noexcept { exchange_.emergency_stop.press(); }
   [[nodiscard]] bool stop_is_pressed() const noexcept {
     return exchange_.emergency_stop.is_pressed();
@@ -79,12 +78,13 @@ class SessionScreen final : public Screen {
   /// The mouse's place, which moves the hand on the pad; logical pixels.
   void cursor(float x, float y) noexcept;
 
-  /// Asks the person whether to leave; the window closes once it is left.
+  /// Asks the person whether to leave; the window closes once the session is left.
   void ask_to_close();
-  /// Leaves it as it is, to be resumed; the window closes then.
+  /// Leaves the session as it is, to be resumed; then the window closes.
   void leave_and_close(const std::string& reason);
 
-  /// Draws the apparatus, where somebody can; what it throws is told in its place.
+  /// Draws the apparatus, where the machine can. The view shows the message of what it throws
+  /// in the picture's place.
   std::function<std::uintptr_t(const SceneRequest&)> paint_scene;
 
  private:
@@ -110,8 +110,9 @@ class SessionScreen final : public Screen {
   OperatorExchange exchange_;
   std::unique_ptr<SessionWorker> worker_;
   std::shared_ptr<const SessionView> view_;
-  std::chrono::steady_clock::time_point requested_at_;  ///< The last time.
-  std::filesystem::path folder_;                        ///< Of the session's study.
+  /// When the operator last requested something.
+  std::chrono::steady_clock::time_point requested_at_;
+  std::filesystem::path folder_;  ///< The folder of the session's study.
   RunViewState run_state_;
   ApparatusViewState apparatus_state_;
   std::string paint_problem_;

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The home folder is "~", as a shell writes it.
+/// The path as a shell writes it, with "~" for the home folder.
 std::string path_words(const fs::path& path) {
   const char* home = std::getenv("HOME");
   const std::string text = path.string();
@@ -48,7 +48,7 @@ StartModel::Study start_study(const fs::path& path) {
   return study;
 }
 
-/// Studies of one title are told apart by the folder that holds each.
+/// Puts its path before the summary of each study that shares its title with another one.
 void tell_namesakes_apart(std::vector<StartModel::Study>& studies) {
   std::map<std::string, int> num_of_title;
   for (const StartModel::Study& study : studies) ++num_of_title[study.title];
@@ -58,7 +58,7 @@ void tell_namesakes_apart(std::vector<StartModel::Study>& studies) {
   }
 }
 
-/// Studies first, then their copies, then where else to look.
+/// The order in the list: studies, then backups, then other folders.
 int rank_of(FolderEntry::Kind kind) {
   if (kind == FolderEntry::Kind::kStudyFolder) return 0;
   return kind == FolderEntry::Kind::kBackup ? 1 : 2;
@@ -69,7 +69,7 @@ FolderEntry::Kind kind_of_study(const fs::path& folder) {
     return core::is_backup(folder) ? FolderEntry::Kind::kBackup
                                    : FolderEntry::Kind::kStudyFolder;
   } catch (const core::Error&) {
-    return FolderEntry::Kind::kStudyFolder;  // Opening it says what is wrong.
+    return FolderEntry::Kind::kStudyFolder;  // Opening the folder will say what is wrong.
   }
 }
 

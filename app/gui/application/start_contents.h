@@ -10,13 +10,14 @@
 
 namespace jnd::app::gui {
 
-/// What the start view shows: the studies opened lately, the shipped ones, the machine, the
-/// device that waits and its profile. Reads every study, so not on the thread of the window.
+/// Collects what the start view shows: recent studies, shipped studies, the machine, and the
+/// proposed device with its profile. It reads every study, so call it outside the window's
+/// thread.
 [[nodiscard]] StartModel look_around(const RecentStudies& recent, const std::string& device,
                                      const std::string& profile, WorkControl& control);
 
-/// Folders and study files in a folder, folders of studies first and their backups next;
-/// nothing of one that cannot be read.
+/// The folders and study files in a folder: folders of studies first, then their backups. Empty
+/// if the folder cannot be read.
 [[nodiscard]] std::vector<FolderEntry> entries_of(const std::filesystem::path& folder);
 
 }  // namespace jnd::app::gui

@@ -48,7 +48,8 @@ void StartScreen::draw(Ui& ui) {
   }
 }
 
-/// What is wrong stands in the dialog that asked, with what was typed.
+/// If it fails, the dialog that asked for the path opens again, with what was typed and what is
+/// wrong.
 void StartScreen::open(const fs::path& path, bool from_dialog) {
   try {
     std::error_code ignored;
@@ -64,7 +65,7 @@ void StartScreen::open(const fs::path& path, bool from_dialog) {
   }
 }
 
-/// A draft with problems is opened, so that they are seen at their lines.
+/// A draft with problems is opened as well, so that the person sees them at their lines.
 void StartScreen::create(const StartViewResult::New& wanted) {
   const auto ask_again = [&](const std::string& problem) {
     state_.dialog = StartViewState::Dialog::kNew;

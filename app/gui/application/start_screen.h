@@ -11,10 +11,11 @@
 
 namespace jnd::app::gui {
 
-/// Studies opened lately, the shipped ones, and a look at the machine.
+/// The start: recent studies, shipped studies, and a look at the machine.
 class StartScreen final : public Screen {
  public:
-  /// `request`: the device that the command line asks for. All outlive it.
+  /// `request` names the device that the command line asks for. All arguments outlive the
+  /// screen.
   StartScreen(ScreenHost& host, RecentStudies& recent, const WindowRequest& request)
       : host_(host), recent_(recent), request_(request) {}
   [[nodiscard]] const char* name() const noexcept override { return "start"; }

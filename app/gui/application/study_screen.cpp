@@ -32,7 +32,7 @@ void StudyScreen::show() {
              "the file itself",
              study_.folder().folder.string()));
     }
-    // The text of the file tells what a blind study hides.
+    // The file's text tells what a blind study hides.
     const bool may_see = !study_.folder().hides_levels;
     watch_ = std::make_unique<StudyWatch>(file, may_see, may_see);
   }
@@ -64,7 +64,7 @@ bool StudyScreen::look_beside() {
     show();
     return true;
   }
-  // How long ago that was: in seconds, then in minutes.
+  // The screen says how long ago the file was read: for a minute in seconds, then in minutes.
   if (watch_->num_reloads() == 0 || now < age_shown_s_ + (now < reloaded_s_ + 60 ? 1 : 60)) {
     return false;
   }
@@ -94,7 +94,7 @@ void StudyScreen::draw(Ui& ui) {
   }
 }
 
-/// Why it does not work stands in the dialog, with the path that was typed.
+/// If the folder cannot be made, the dialog shows the reason beside the path that was typed.
 void StudyScreen::begin_study() {
   try {
     const fs::path folder = typed_path(state_.new_folder);

@@ -12,8 +12,8 @@
 
 namespace jnd::app::gui {
 
-/// The study file: its stages, its stimuli, and the orders of the next participants; read again
-/// when somebody saves it.
+/// The study file: its stages, its stimuli, and the orders of the next participants. The screen
+/// reads the file again whenever somebody saves it.
 class StudyScreen final : public Screen {
  public:
   StudyScreen(ScreenHost& host, OpenStudy& study) : host_(host), study_(study) {}
@@ -39,8 +39,9 @@ class StudyScreen final : public Screen {
   OpenStudy& study_;
   std::unique_ptr<StudyWatch> watch_;
   std::vector<PlannedOrder> orders_;
-  std::string orders_problem_;   ///< Why there are none; "" otherwise.
-  std::string proposed_folder_;  ///< For a study that is begun with a file alone.
+  std::string orders_problem_;  ///< Why there are no orders; "" if there are.
+  /// The folder proposed for a study of which only the file exists.
+  std::string proposed_folder_;
   StudyViewState state_;
   double reloaded_s_ = 0.0, age_shown_s_ = 0.0;
 };

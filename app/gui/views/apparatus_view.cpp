@@ -25,7 +25,7 @@ std::string loop_summary(const LoopView& loop) {
   return words;
 }
 
-/// What the session waits for, and how the loop is: here, too, nobody should miss it.
+/// Shows what the session waits for, and how the loop is doing, so that nobody misses it here.
 void draw_what_goes_on(Ui& ui, const Rect& place, const SessionView& view) {
   ui.card(place);
   Rect inside = place.middle(place.width - 2 * kPadding, place.height - 4);
@@ -47,7 +47,7 @@ void draw_what_goes_on(Ui& ui, const Rect& place, const SessionView& view) {
           {.colour = has_fault ? red : Colour::kSoft, .any_length = true});
 }
 
-/// Why what was asked for last was not done, as on the card of a session.
+/// Tells why the last request was not carried out, as the card of a session does.
 void draw_refusal(Ui& ui, Rect& rest, const SessionView& view) {
   if (view.refusal.empty()) return;
   const std::string words = tr("Not done: {}.", view.refusal);
@@ -67,7 +67,7 @@ void draw_hidden_apparatus(Ui& ui, const Rect& place) {
          "would tell the level, so none of them is shown. Everything is recorded."));
 }
 
-/// What the colours and shapes mean, as many as have room.
+/// Explains as many of the colours and shapes as have room.
 void draw_legend(Ui& ui, Rect strip) {
   const float middle = strip.y + strip.height / 2;
   const auto entry = [&](std::string_view words, auto draw_mark) {
@@ -161,7 +161,7 @@ void draw_scene(Ui& ui, const Rect& place, const SessionView& view,
   ui.image(inside, texture, as_is("picture of the apparatus"));
 }
 
-/// Of the scopes, from what is held or goes on.
+/// The scopes' contents: those that are held, or the present ones.
 ScopePicture scopes_of(const ApparatusSources& sources, const ApparatusViewState& state) {
   const auto& names = state.scopes.channels;
   if (!state.held) {
@@ -215,7 +215,8 @@ RunViewResult draw_apparatus_view(Ui& ui, const SessionView& view,
   RunViewResult result;
   Rect rest = ui.screen();
   run.pad = {};
-  run.item_is_new = true;  // A field on the card takes the keyboard when it is back.
+  // A field on the card gets the keyboard when the card is shown again.
+  run.item_is_new = true;
   const Rect header = rest.take_top(kRunHeader);
   const Rect footer = rest.take_bottom(kFooterHeight);
   rest = rest.inset(kGap);

@@ -13,20 +13,21 @@
 
 namespace jnd::app::gui {
 
-/// Where the view gets what changes all the time. Neither is asked while levels are hidden.
+/// Where the view gets what changes all the time. While levels are hidden, it asks neither
+/// source.
 struct ApparatusSources {
-  /// The last seconds of these channels; empty where there are none.
+  /// Returns the last seconds of these channels; empty if there are none to show.
   std::function<ScopePicture(const std::vector<std::string>&)> scopes;
-  /// A texture that shows it, 0 while that is still loaded; empty where no picture can be
-  /// drawn.
+  /// Returns a texture that shows the apparatus, or 0 while that is still loading. The function
+  /// is empty if no picture can be drawn.
   std::function<std::uintptr_t(const SceneRequest&)> paint;
-  std::string paint_problem;  ///< Why not; "" for no reason known.
+  std::string paint_problem;  ///< Why no picture can be drawn; "" if that is not known.
 };
 
 struct ApparatusViewState {
   SceneCamera camera = camera_at_first();
   ScopePanelState scopes;
-  /// What stood there when somebody said "Hold", with every channel.
+  /// What was on the screen when somebody chose "Hold", with every channel.
   struct Held {
     core::Sample sample;
     std::vector<std::string> names;
@@ -35,10 +36,10 @@ struct ApparatusViewState {
   std::optional<Held> held;
 };
 
-/// The apparatus under way instead of the run view's cards, for the experimenter alone: robot,
-/// hand and forces in space, and scopes of any channel. Header, footer, dialogs and emergency
-/// stop are those of the run view. Where levels are hidden it says so, for forces, speeds and
-/// paths would tell them.
+/// Shows the apparatus instead of the run view's cards, for the experimenter alone: robot, hand
+/// and forces in space, and scopes of any channel. Header, footer, dialogs and emergency stop
+/// are those of the run view. Where levels are hidden, the view shows a notice instead, because
+/// forces, speeds and paths would tell the levels.
 [[nodiscard]] RunViewResult draw_apparatus_view(Ui& ui, const SessionView& view,
                                                 const ApparatusSources& sources,
                                                 RunViewState& run, ApparatusViewState& state);

@@ -19,7 +19,7 @@ bool draw_backup_dialog(Ui& ui, bool& asks, bool& is_new, std::string& folder) {
   const DialogChoice choice =
       draw_dialog_buttons(ui, inside.take_bottom(48), tr("Back up"), !folder.empty(), entered);
   ui.end_dialog();
-  // Enter ends a field; where something is missing yet, it goes on.
+  // Enter ends a field. If something is still missing, the field gets the keyboard again.
   is_new = entered && !choice.done;
   if (choice.done || choice.cancelled) asks = false;
   return choice.done;

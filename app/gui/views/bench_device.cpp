@@ -1,4 +1,4 @@
-// Which device it is, its profile, and the dialogs that choose one and try a force.
+// The device's name, its profile, and the dialogs that choose a device and try a force.
 
 #include <algorithm>
 
@@ -133,7 +133,7 @@ float draw_device_line(Ui& ui, const Rect& place, const DeviceLine& line) {
     ui.text(first, line.value, {.font = Font::kSmall, .align = Align::kRight});
     return kLine;
   }
-  // A path or a long word: below, wrapped.
+  // A path or a long value is on a line of its own below, wrapped.
   const TextStyle wrapped{.font = Font::kSmall, .wrap = true};
   ui.text(first, line.what, what);
   const float height = ui.text_height(place.width - 12, line.value, wrapped);

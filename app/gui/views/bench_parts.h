@@ -4,18 +4,18 @@
 
 namespace jnd::app::gui {
 
-// The parts of the view of a device, a file each.
+// Parts of the device's view, each in a file of its own.
 
-/// Which device, its profile, and what was measured.
+/// Draws the device, its profile, and what was measured.
 void draw_device_card(Ui& ui, const Rect& place, const BenchModel& model, BenchViewState& state,
                       BenchViewResult& result);
-/// Commissioning, daily check, a small force.
+/// Draws the commissioning, the daily check, the small force or the watch.
 void draw_work_card(Ui& ui, const Rect& place, const BenchModel& model, BenchViewState& state,
                     BenchViewResult& result);
 void draw_bench_dialog(Ui& ui, const BenchModel& model, BenchViewState& state,
                        BenchViewResult& result);
 
-/// Two columns of a line, the words at the left no wider than needed; returns its height.
+/// Draws a line in two columns, where the left one is no wider than needed. Returns its height.
 float draw_device_line(Ui& ui, const Rect& place, const DeviceLine& line);
 
 }  // namespace jnd::app::gui

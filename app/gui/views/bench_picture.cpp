@@ -15,7 +15,7 @@ struct Point {
   float x = 0, y = 0;
 };
 
-/// A sheet of 100 by 75 units, its origin at the top left, in the middle of the place.
+/// A sheet of 100 by 75 units in the middle of the place; its origin is at the top left.
 class Sheet {
  public:
   Sheet(Ui& ui, const Rect& place)
@@ -89,7 +89,7 @@ constexpr Point kShoulder{17, 30}, kElbow{44, 17};
 
 void draw_table(Sheet& sheet) { sheet.line({2, 70}, {98, 70}, Colour::kSoft, 0.8f); }
 
-/// The device with its tool at this place.
+/// Draws the device with its tool at this place.
 void draw_device(Sheet& sheet, Point tool) {
   sheet.box({8, 60}, {26, 70}, Colour::kBlueSoft, Colour::kInk);
   sheet.line({17, 60}, kShoulder, Colour::kInk, 1.6f);
@@ -138,7 +138,7 @@ void draw_weight(Sheet& sheet, Point tool, const std::string& load, bool comes_o
   }
 }
 
-/// Of all marks, seen from above the participant's right shoulder.
+/// The box of all marks, seen from above the participant's right shoulder.
 class MarkBox {
  public:
   explicit MarkBox(const std::vector<Eigen::Vector3d>& marks_m) {
@@ -155,7 +155,7 @@ class MarkBox {
     return {70.0f + static_cast<float>(30.0 * about.x() + 15.0 * about.y()),
             42.0f - static_cast<float>(28.0 * about.z() + 12.0 * about.y())};
   }
-  /// Its edges, as the corners are joined.
+  /// Draws the box's edges, which join corners that differ along one axis.
   void draw(Sheet& sheet) const {
     const auto corner = [&](int bits) {
       return (*this)({(bits & 1) != 0 ? high_m_.x() : low_m_.x(),

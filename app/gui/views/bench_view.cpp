@@ -11,7 +11,7 @@
 namespace jnd::app::gui {
 namespace {
 
-/// While it may move, nothing leads away from the stop.
+/// While the device may move, the header has no tabs that lead away from the stop.
 void draw_header(Ui& ui, const Rect& place, const BenchModel& model, bool may_move,
                  BenchViewResult& result) {
   ui.fill(place, Colour::kCard);

@@ -12,15 +12,16 @@
 
 namespace jnd::app::gui {
 
-/// What the view of a device shows.
+/// What the device's view shows.
 struct BenchModel {
   const DeviceView& device;
   struct Choice {
     std::string name, description;
     bool simulated = false;
   };
-  const std::vector<Choice>& choices;  ///< Devices without an address, and the one asked for.
-  bool has_study = false;              ///< One is open, so that its tabs lead somewhere.
+  /// The devices without an address, and the one that was asked for.
+  const std::vector<Choice>& choices;
+  bool has_study = false;  ///< A study is open, so the tabs that need one are shown.
 };
 
 struct BenchViewState {
@@ -28,17 +29,17 @@ struct BenchViewState {
   Page page = Page::kCommission;
   enum class Dialog { kNone, kChoose, kPush };
   Dialog dialog = Dialog::kNone;
-  /// Chosen by the person; none: the one that comes next.
+  /// The step that the person chose; none for the one that comes next.
   std::optional<std::size_t> step;
-  std::string address;  ///< Typed, of the dialog.
-  int axis = 0;         ///< That is tried.
+  std::string address;  ///< The address typed in the dialog.
+  int axis = 0;         ///< The axis along which a force is tried.
   bool rehearses = false;
   float left_height = 0, found_height = 0;
 };
 
 struct BenchViewResult {
   StudyTab tab = StudyTab::kNone;
-  std::optional<std::string> choose;  ///< A device.
+  std::optional<std::string> choose;  ///< The device to change to.
   std::optional<CommissioningStep> measure, undo;
   bool write_profile = false, check = false, push = false, watch = false, look_again = false;
   bool answer = false, leave_off = false;

@@ -1,4 +1,4 @@
-// What is done at the device: its steps one after the other, a check, a small force.
+// What is done at the device: the steps of its commissioning, a check, or a small force.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 using Page = BenchViewState::Page;
 
 constexpr float kButtons = 48;
-/// A drawing, however large the window.
+/// The greatest height of a drawing, however large the window is.
 constexpr float kTallest = 440;
 constexpr std::array kStepNames = {tr_later("Homing"), tr_later("Noise"),
                                    tr_later("Frame"),  tr_later("Force"),
@@ -63,7 +63,7 @@ void draw_pages(Ui& ui, Rect strip, const DeviceView& device, BenchViewState& st
 
 constexpr float kBesideStep = 36, kBetweenSteps = 8;
 
-/// As many side by side as have room for their names.
+/// As many steps side by side as have room for their names.
 std::size_t steps_in_row(const Ui& ui, float width) {
   float widest = 0;
   for (const char* name : kStepNames) {
@@ -122,7 +122,7 @@ void draw_step_strip(Ui& ui, const Rect& strip, const DeviceView& device,
   if (ui.pressed({Key::kLeft})) state.step = shown > 0 ? shown - 1 : 0;
 }
 
-/// A picture, and words beside it.
+/// Draws a picture with words beside it.
 void draw_scene(Ui& ui, const Rect& place, const BenchPicture& picture,
                 const std::string& title, const std::string& words, const std::string& below) {
   Rect rest = place;
@@ -140,7 +140,7 @@ void draw_scene(Ui& ui, const Rect& place, const BenchPicture& picture,
            (below.empty() ? 0 : ui.text_height(width, below, soft));
   };
   if (height_of(rest.width) > rest.height) plain.font = Font::kSmall;
-  // Narrower, where a thumb stands beside it.
+  // The words get less width if they scroll, because the scroll bar is beside them.
   const bool scrolls = height_of(rest.width) > rest.height;
   const float content = scrolls ? height_of(rest.width - 16) : rest.height;
   rest = ui.begin_scroll("scene_words", rest, content);
@@ -158,7 +158,7 @@ std::string num_words(const std::vector<Eigen::Vector3d>& marks_m,
             place_words(marks_m, question.mark_m));
 }
 
-/// What is asked, or what the device does now.
+/// Draws what is asked, or what the device is doing.
 void draw_under_way(Ui& ui, const Rect& place, const DeviceView& device,
                     const BenchViewState& state) {
   const std::vector<Eigen::Vector3d>& marks_m =
@@ -189,7 +189,7 @@ void draw_under_way(Ui& ui, const Rect& place, const DeviceView& device,
              tr("Keep clear, with the stop at hand."));
 }
 
-/// What came of the last work, on the page that began it.
+/// Tells how the last work ended, on the page that began it.
 void draw_outcome(Ui& ui, Rect& inside, const DeviceView& device, Page page) {
   const Page its = device.outcome_of == DeviceWork::kChecking      ? Page::kDaily
                    : device.outcome_of == DeviceWork::kTryingForce ? Page::kForce
@@ -206,7 +206,7 @@ void draw_outcome(Ui& ui, Rect& inside, const DeviceView& device, Page page) {
   ui.end_scroll();
 }
 
-/// At the bottom while something goes on: how far it is, Done, Stop.
+/// Draws the bottom line while work goes on: its progress, Done and Stop.
 void draw_busy_buttons(Ui& ui, Rect bottom, const DeviceView& device, BenchViewResult& result) {
   const bool may_leave =
       device.work != DeviceWork::kLooking && device.work != DeviceWork::kWriting;
@@ -410,7 +410,7 @@ void draw_force(Ui& ui, Rect inside, const DeviceView& device, BenchViewState& s
              tr("Look whether it moves that way first."));
 }
 
-/// What the device tells now, a large line each.
+/// Draws what the device tells at the moment, in large lines.
 void draw_watch(Ui& ui, Rect inside, const DeviceView& device, BenchViewState& state) {
   draw_outcome(ui, inside, device, state.page);
   const bool watches = device.work == DeviceWork::kWatching;

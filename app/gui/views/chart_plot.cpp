@@ -60,13 +60,13 @@ PlotSeries look_of(const ChartSeries& series) {
   return {};
 }
 
-/// The numbers of a table that a series shows, row by row.
+/// The rows of a table that a series shows.
 class SeriesRows {
  public:
   SeriesRows(const FigureTable& table, const ChartSeries& series)
       : table_(table), series_(series), series_at_(table.place_of(series.series_column)) {}
 
-  /// `show` is called with a row that has an x and a y.
+  /// Calls `show` with each row that has an x and a y.
   template <typename Show>
   void each(const Show& show) const {
     for (const auto& row : table_.rows) {
@@ -86,7 +86,7 @@ class SeriesRows {
   std::size_t series_at_;
 };
 
-/// "7 of 10" of a row that has counts; "".
+/// The counts of a row, as "7 of 10"; "" if it has none.
 std::string counts_of(const SeriesRows& rows, const std::vector<analysis::FigureCell>& row) {
   const auto num_yes = rows.number(row, "num_yes");
   const auto num_trials = rows.number(row, "num_trials");
@@ -140,7 +140,7 @@ PlotSeries band_of(const FigureTable& table, const ChartSeries& series, double y
   return plotted;
 }
 
-/// Bars along x: a line for each row, broken between them.
+/// Error bars along x: one line for each row, with gaps between them.
 PlotSeries bars_along_x(const FigureTable& table, const ChartSeries& series, double y_unit) {
   PlotSeries plotted = look_of(series);
   plotted.style = PlotSeries::Style::kLine;
@@ -203,7 +203,8 @@ PlotAxis axis_of(const analysis::ChartAxis& axis) {
   }
   plotted.label = axis.label;
   plotted.unit = axis.unit;
-  // Where the report's axes end, too; linear ones end at ticks.
+  // A logarithmic axis ends where the report's axis does, and an axis that begins at 0 begins
+  // there. Other linear axes end at ticks.
   if (axis.logarithmic || axis.range.low == 0.0) plotted.minimum = axis.range.low;
   if (axis.logarithmic) plotted.maximum = axis.range.high;
   return plotted;
@@ -215,7 +216,7 @@ PlotModel chart_plot(const analysis::ChartSet& set, const analysis::Chart& chart
   PlotModel plot{.title = set.heading};
   plot.x = axis_of(set.x);
   plot.y = axis_of(set.y);
-  // Beside the heading, where the widget has what the y axis is of.
+  // The widget shows beside the heading what the y axis is about.
   plot.unit = set.y.is_proportion || set.y.label.find(':') != std::string::npos ? set.y.label
                                                                                 : set.y.unit;
   plot.y.label.clear();
@@ -226,7 +227,7 @@ PlotModel chart_plot(const analysis::ChartSet& set, const analysis::Chart& chart
       plot.series.push_back(bars_along_x(set.tables[series.table], series, y_unit));
     }
     PlotSeries plotted = drawn(set, series, y_unit);
-    // Named last: the eye begins with what the chart is about.
+    // Faint curves are named last, so that the legend begins with what the chart is about.
     if (series.look == Look::kFaintCurve) plotted.name.clear();
     if (!plotted.x.empty()) plot.series.push_back(std::move(plotted));
   }

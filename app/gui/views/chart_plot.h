@@ -6,7 +6,7 @@
 
 namespace jnd::app::gui {
 
-/// One chart of the set for the plot widget; proportions in percent.
+/// One chart of the set, for the plot widget. Proportions are shown in percent.
 [[nodiscard]] PlotModel chart_plot(const analysis::ChartSet& set, const analysis::Chart& chart);
 [[nodiscard]] PlotModel box_plot(const results::BoxFigure& figure);
 

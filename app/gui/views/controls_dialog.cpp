@@ -23,7 +23,7 @@ std::string chosen_action(const ControlsState& state) {
   return std::string(core::kControlActions[state.chosen]);
 }
 
-/// One action: a light, what it does, and which control does it.
+/// Draws one action: a light, what the action does, and which control does it.
 void draw_action(Ui& ui, const Rect& place, std::size_t index, const core::ControlMap& map,
                  ControlsState& state) {
   const std::string action(core::kControlActions[index]);
@@ -84,8 +84,8 @@ void draw_devices_of_controls(Ui& ui, Rect place,
   }
 }
 
-/// What is asked about a device that may be the keyboard, or what was pressed: above the
-/// buttons.
+/// The words above the buttons: a question about a device that may be the keyboard, or what was
+/// pressed.
 std::string what_happens(const ControlsState& state) {
   if (state.asks_about) {
     return tr(
@@ -143,7 +143,8 @@ ControlsResult draw_controls_dialog(
   if (mapped) result.mapped = {chosen_action(state), *mapped};
   constexpr std::size_t kRows =
       (core::kControlActions.size() + kActionColumns - 1) / kActionColumns;
-  const float room = ui.screen().height - 100;  // The corner stays to be seen.
+  // The corner has to remain visible.
+  const float room = ui.screen().height - 100;
   Rect inside = ui.begin_dialog("controls", std::min(1240.0f, ui.screen().width - 24),
                                 std::min(room, 700.0f));
   ui.text(inside.take_top(34, 2), tr("Pedals and buttons"), {.font = Font::kLarge});

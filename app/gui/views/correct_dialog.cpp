@@ -1,5 +1,5 @@
-// Sets an earlier answer right: with the buttons or the field that its trial has, or by running
-// it again. First the answer, then why.
+// Corrects an earlier answer, with the buttons or the field of its trial, or by running the
+// trial again. The dialog asks for the answer first, and then for the reason.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ bool is_typed_again(const AnswerForm& form) {
          form.kind == AnswerKind::kMatch;
 }
 
-/// Why what is typed is no answer; "" if it is one, or nothing yet.
+/// Why what was typed is no answer; "" if it is one, or if nothing was typed yet.
 std::string problem_of_correction(const AnswerForm& form, const std::string& typed) {
   if (is_blank(typed)) return "";
   const std::optional<double> value = typed_number(typed);
@@ -39,7 +39,7 @@ class CorrectDialog {
   CorrectDialog(Ui& ui, CorrectState& state, ScaleTyping& scale)
       : ui_(ui), state_(state), scale_(scale), form_(state.line.form) {}
 
-  /// Of what it draws in a dialog of this width.
+  /// The height of what this draws in a dialog of this width.
   [[nodiscard]] float height(float width) const {
     if (is_typed_again(form_)) {
       return form_.is_hidden ? ui_.text_height(width, hidden_words(), kHiddenStyle) + 18
@@ -48,7 +48,7 @@ class CorrectDialog {
     return form_.kind == AnswerKind::kStep ? kCorrectScale + 14 : kCorrectButton + 18;
   }
 
-  /// What is to be stored instead.
+  /// Draws the answer that is to be stored instead.
   void draw_answer(Rect& inside) {
     if (is_typed_again(form_)) return draw_field(inside);
     if (form_.kind == AnswerKind::kStep) {
@@ -108,7 +108,8 @@ class CorrectDialog {
     const std::optional<double> value = typed_number(state_.typed);
     state_.has_choice = value && problem.empty();
     state_.value = state_.has_choice ? value : std::nullopt;
-    state_.is_new = entered && !state_.has_choice;  // The field keeps the keyboard.
+    // The field keeps the keyboard.
+    state_.is_new = entered && !state_.has_choice;
     if (entered && state_.has_choice) state_.asks_why = true;
   }
 
@@ -169,7 +170,7 @@ void draw_correct_dialog(Ui& ui, RunViewState& run, const std::vector<AnswerLine
   const char* verb = state.runs_again ? tr("Run it again") : tr("Correct");
   const ButtonStyle again{.key = {Key::kF5}, .selected = state.runs_again};
   const char* again_words = tr("Run the trial again");
-  // Beside the others, where all three have room.
+  // The button is beside the other two if all three have room.
   const float of_buttons = ui.button_width(again_words, again) + 12 +
                            ui.button_width(tr("Cancel"), {.key = {Key::kEnter}}) + 12 +
                            ui.button_width(verb, {.key = {Key::kEnter}});
@@ -215,7 +216,8 @@ void draw_correct_dialog(Ui& ui, RunViewState& run, const std::vector<AnswerLine
   }
   ui.end_dialog();
   if (entered && !done)
-    state.asks_why = true;  // Nothing written: the field keeps the keyboard.
+    // No reason was typed, so the field keeps the keyboard.
+    state.asks_why = true;
   if (done && state.runs_again) {
     result.requests.emplace_back(operate::RunAgain{line.trial, run.reason});
   } else if (done) {
@@ -238,7 +240,7 @@ void draw_doubt_dialog(Ui& ui, const DoubtView& doubt, RunViewResult& result) {
   ui.text(inside.take_top(34, 6), tr("Store this answer?"), {.font = Font::kTitle});
   ui.text(inside.take_top(words, 24), doubt.sentence, style);
   Rect row = inside.take_bottom(52);
-  // Not by Enter: whoever presses it twice has not read this.
+  // Enter does not store, because whoever presses it twice has not read the question.
   const ButtonStyle store{.key = {letter('S')}};
   const ButtonStyle back{.tone = Tone::kPrimary, .key = {Key::kF2}};
   const Rect store_place = row.take_right(ui.button_width(tr("Store it"), store), 12);

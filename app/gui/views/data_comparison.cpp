@@ -1,4 +1,4 @@
-// Which parameters differ between the groups, and how far their thresholds are apart.
+// Shows which parameters differ between the groups, and how far apart their thresholds are.
 
 #include <algorithm>
 
@@ -69,7 +69,7 @@ void draw_models(Ui& ui, Rect& place, const DataComparison& comparison) {
     ui.text(cells[0], one.name, {.font = Font::kSmall, .any_length = true});
     ui.text(cells[1], std::to_string(one.num_parameters), mono);
     ui.text(cells[2], one.log_likelihood, mono);
-    // The least one is told by a word, not by its colour alone.
+    // A word marks the least value, not the colour alone.
     const auto criterion = [&](const Rect& cell, const std::string& value, bool is_least) {
       ui.text(cell, is_least ? tr("least {}", value) : value,
               {.font = Font::kMono,
@@ -83,7 +83,7 @@ void draw_models(Ui& ui, Rect& place, const DataComparison& comparison) {
   }
 }
 
-/// Many groups are compared only if somebody asks.
+/// Offers to compare many groups, which happens only if somebody asks for it.
 void draw_offer(Ui& ui, const Rect& place, const DataView& data, DataViewResult& result) {
   const std::size_t groups = data.results ? data.results->groups.size() : 0;
   const TextStyle soft{.colour = Colour::kSoft, .align = Align::kCentre, .wrap = true};

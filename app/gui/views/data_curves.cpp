@@ -1,4 +1,4 @@
-// The curves, their table, and every number of the one that is chosen.
+// Shows the curves, their table, and every number of the chosen curve.
 
 #include <algorithm>
 #include <functional>
@@ -24,12 +24,13 @@ struct FitColumn {
   std::function<DataValue(const DataGroup&)> value_of;
 };
 
-/// Of an end that is open, the words come with the numbers beside the curve.
+/// The interval without the words about an open end; those are among the numbers beside the
+/// curve.
 std::string shown_interval(const DataValue& value) {
   return value.interval.substr(0, value.interval.find(" ("));
 }
 
-/// As many as have room, what matters most first to stay.
+/// As many columns as have room. The most important ones come first, so that they stay.
 std::vector<FitColumn> fit_columns(const Ui& ui, const DataResults& results, float width) {
   constexpr float kName = 150;
   float least_column = 92;
@@ -48,7 +49,8 @@ std::vector<FitColumn> fit_columns(const Ui& ui, const DataResults& results, flo
   std::vector<FitColumn> columns = {column(tr("PSE"), &DataGroup::pse),
                                     column(tr("JND"), &DataGroup::jnd)};
   for (std::size_t i = 0; i < results.levels.size(); ++i) {
-    if (results.levels[i] == 0.5) continue;  // It is the PSE.
+    // The threshold at 0.5 is the PSE, which has a column already.
+    if (results.levels[i] == 0.5) continue;
     columns.push_back({{tr("threshold {:.4g}", results.levels[i]), 1.0f, Align::kRight},
                        [i](const DataGroup& group) {
                          return i < group.thresholds.size() ? group.thresholds[i] : DataValue();
@@ -148,7 +150,7 @@ void draw_fits(Ui& ui, const Rect& place, const DataResults& results, DataViewSt
   ui.end_scroll();
 }
 
-/// Every number of a group, and what is to be thought of when they are read.
+/// Draws every number of a group, and the cautions for whoever reads them.
 void draw_numbers(Ui& ui, const Rect& place, const DataResults& results, DataViewState& state) {
   const DataGroup& group = results.groups[state.group];
   Rect inside = draw_card(ui, place, tr("Every number of"), group.name);
@@ -190,7 +192,7 @@ void draw_numbers(Ui& ui, const Rect& place, const DataResults& results, DataVie
   ui.end_scroll();
 }
 
-/// Nobody said what the task was, and it matters.
+/// Asks what the task was, because nobody said it and the fit depends on it.
 void draw_task_question(Ui& ui, const Rect& place, const DataView& data, int alternatives,
                         DataViewResult& result) {
   ui.card(place);
@@ -219,7 +221,7 @@ void draw_task_question(Ui& ui, const Rect& place, const DataView& data, int alt
   stack.draw(place.inset(kPadding));
 }
 
-/// Why there is nothing to be seen.
+/// Tells why there are no curves to see.
 void draw_without_curves(Ui& ui, const Rect& place, const DataView& data) {
   ui.card(place);
   if (!names_its_columns(data.request)) {

@@ -1,4 +1,4 @@
-// The dialogs in which columns, cells and curves are chosen, and names of files.
+// The dialogs that choose columns, cells, curves and names of files.
 
 #include <algorithm>
 #include <functional>
@@ -15,7 +15,7 @@ using DataDialog = DataViewState::Dialog;
 
 constexpr float kChoiceRow = 40;
 
-/// One line of a list that is chosen from.
+/// One line of the list in a dialog.
 struct ListChoice {
   std::string label, note;
   bool is_selected = false;
@@ -26,10 +26,12 @@ struct ListChoice {
 struct ListQuestion {
   std::string title, sentence;
   std::vector<ListChoice> choices;
-  bool goes_on = false;               ///< Several may be chosen, one after the other.
-  std::string hint;                   ///< Of a field for what is in no list; "" for none.
-  std::function<std::string()> type;  ///< Takes what was typed; why it cannot, or "".
-  std::string verb;                   ///< Of what is typed; "Use" where there is none.
+  bool goes_on = false;  ///< Several lines may be chosen, one after the other.
+  /// The hint of a field for what is in no list; "" for no field.
+  std::string hint;
+  /// Takes what was typed; returns why it cannot be used, or "".
+  std::function<std::string()> type;
+  std::string verb;  ///< The button for what is typed; "Use" if empty.
 };
 
 void close_dialog(DataViewState& state) {
@@ -37,7 +39,7 @@ void close_dialog(DataViewState& state) {
   state.problem.clear();
 }
 
-/// Plain digits where nothing can be typed.
+/// The key of a line. It needs no Control if the dialog has no field for typing.
 Chord list_key(std::size_t place, bool has_field) {
   Chord key = key_of_choice(place);
   if (!has_field) key.control = false;
@@ -97,7 +99,7 @@ void draw_list_question(Ui& ui, DataViewState& state, const ListQuestion& questi
   if (chosen != nullptr) {
     const DataDialog asked = state.dialog;
     chosen->act();
-    // It may have asked on.
+    // The act may have opened another dialog.
     if (!question.goes_on && state.dialog == asked) close_dialog(state);
   } else if (is_typed) {
     state.problem = question.type();
@@ -108,7 +110,7 @@ void draw_list_question(Ui& ui, DataViewState& state, const ListQuestion& questi
   }
 }
 
-/// As many of its cells as have room: "-90, -60, -30, 0 …".
+/// As many of the column's cells as have room: "-90, -60, -30, 0 …".
 std::string held_words(const PreviewColumn& column) {
   std::string cells;
   constexpr std::size_t kMostShown = 26;
@@ -119,14 +121,14 @@ std::string held_words(const PreviewColumn& column) {
   return cells;
 }
 
-/// A line for each column that has a name.
+/// A choice for each column that has a name.
 std::vector<ListChoice> column_choices(const DataView& data, ColumnRole role,
                                        DataViewResult& result) {
   std::vector<ListChoice> choices;
   for (const PreviewColumn& column : data.preview->columns) {
     if (column.name.empty()) continue;
     const bool is_selected = role_of(data.request, column.name) == role;
-    // A comma is what the command line has between columns.
+    // The command line separates columns by commas.
     const bool is_left_out =
         role == ColumnRole::kGroup && column.name.find(',') != std::string::npos;
     if (is_left_out) continue;
@@ -210,7 +212,7 @@ ListQuestion filters_question(const DataView& data, DataViewState& state,
          }});
   }
   for (const PreviewColumn& column : data.preview->columns) {
-    // The command line takes the first = for the end of the column's name.
+    // On the command line, the first = ends the column's name.
     if (column.name.empty() || column.name.find('=') != std::string::npos) continue;
     question.choices.push_back(
         {column.name, held_words(column), false, [&state, name = column.name] {
@@ -236,7 +238,7 @@ ListQuestion filter_cell_question(const DataView& data, DataViewState& state,
   return question;
 }
 
-/// A choice that sets one word of the request.
+/// A question whose answer sets one word of the request.
 ListQuestion word_question(const DataView& data, DataViewResult& result, std::string title,
                            std::string sentence, const std::vector<CurveChoice>& choices) {
   ListQuestion question{.title = std::move(title), .sentence = std::move(sentence)};
@@ -248,7 +250,8 @@ ListQuestion word_question(const DataView& data, DataViewResult& result, std::st
   return question;
 }
 
-/// The same with a field; `settle` makes a request of what was typed, or says why not.
+/// Adds a field to a question. `settle` makes a request of what was typed, or says why it
+/// cannot.
 void let_type(ListQuestion& question, const char* hint, const DataView& data,
               const DataViewState& state, DataViewResult& result,
               TypedRequest (*settle)(const CurveRequest&, const std::string&)) {

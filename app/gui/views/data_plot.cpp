@@ -21,7 +21,7 @@ class GroupRows {
   GroupRows(const FigureTable& table, std::size_t group)
       : table_(table), series_(static_cast<double>(group + 1)) {}
 
-  /// `show` gets a function that tells the number in a column.
+  /// Calls `show` for each row with a function that returns the number in a column.
   template <typename Show>
   void each(const Show& show) const {
     const std::size_t series_at = table_.place_of("series");
@@ -70,10 +70,11 @@ PlotSeries curve_of(const FigureTable& table, std::size_t group, Colour colour) 
   return line;
 }
 
-/// The intervals of a group's thresholds, a bar with its ends for each.
+/// The intervals of a group's thresholds; each is a bar with its ends.
 std::vector<PlotSeries> thresholds_of(const FigureTable& table, std::size_t group,
                                       Colour colour) {
-  constexpr double kEnd = 1.2;  // Percent, each way.
+  // Each end of a bar extends by so many percent up and down.
+  constexpr double kEnd = 1.2;
   std::vector<PlotSeries> bars;
   GroupRows(table, group).each([&](const auto& number) {
     const double low = number("low"), high = number("high");

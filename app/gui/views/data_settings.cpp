@@ -1,4 +1,5 @@
-// What the columns are and which curve is fitted: a row for each, a click or a key changes it.
+// The settings: what the columns are, and which curve is fitted. Each has a row, which a click
+// or a key changes.
 
 #include <algorithm>
 
@@ -19,8 +20,9 @@ struct Setting {
   const char* label;
   std::string value;
   char key;
-  DataDialog dialog = DataDialog::kNone;  ///< None: it changes by itself.
-  bool is_lacking = false;                ///< Without it nothing can be fitted.
+  /// With `kNone`, the setting changes without a dialog.
+  DataDialog dialog = DataDialog::kNone;
+  bool is_lacking = false;  ///< Nothing can be fitted without this setting.
 };
 
 std::string joined_words(const std::vector<std::string>& words, const std::string& none) {
@@ -91,7 +93,7 @@ std::vector<Setting> curve_settings(const CurveRequest& request) {
            'D', DataDialog::kGoodness}};
 }
 
-/// Its name at the left, its value in a frame with its key.
+/// Draws the setting's name at the left, and its value in a frame with its key.
 bool draw_setting(Ui& ui, Rect line, const Setting& setting, float label_width) {
   ui.text(line.take_left(label_width, 8), setting.label,
           {.font = Font::kSmall, .colour = Colour::kSoft});
@@ -116,12 +118,12 @@ float settings_card_height(std::size_t num_settings) {
   return 28 + kSettingRow * static_cast<float>(num_settings) + 2 * kPadding;
 }
 
-/// The one that was used.
+/// Returns the setting that was used, or nullptr.
 const Setting* draw_settings_card(Ui& ui, const Rect& place, const char* heading,
                                   const std::vector<Setting>& settings) {
   Rect inside = draw_card(ui, place, heading);
   const Setting* used = nullptr;
-  // Names have half at most, where they may stand on two lines.
+  // Names take less than half of the width; they may stand on two lines.
   float label_width = 0;
   for (const Setting& setting : settings) {
     label_width = std::max(label_width, ui.text_width(setting.label, Font::kSmall) + 2);
@@ -157,7 +159,7 @@ void draw_data_settings(Ui& ui, const Rect& place, const DataView& data, DataVie
   const std::vector<Setting> curve = curve_settings(data.request);
   const float of_columns = settings_card_height(columns.size());
   const float of_curve = settings_card_height(curve.size());
-  // Where room is short the cards are closer together before anything is scrolled away.
+  // If room is short, the cards first move closer together before they scroll.
   const float gap = std::clamp(place.height - of_columns - of_curve, 8.0f, kGap);
   Rect inside = ui.begin_scroll("settings", place, of_columns + gap + of_curve);
   const Setting* used =

@@ -1,4 +1,4 @@
-// The first rows of the file, with what its columns are.
+// Shows the first rows of the file, with the roles of its columns.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ using DataDialog = DataViewState::Dialog;
 
 constexpr float kHeadHeight = 52, kDataRow = 28, kCellPadding = 10;
 
-/// Wide enough for its name, what it is and its first cells, within reason.
+/// Wide enough for the column's name, its role and its first cells, within reason.
 float column_width(Ui& ui, const DataView& data, std::size_t place) {
   const PreviewColumn& column = data.preview->columns[place];
   constexpr std::size_t kMostLooked = 30;
@@ -32,7 +32,7 @@ struct ShownColumn {
   float x, width;
 };
 
-/// Those that have room from the first one on; at least one.
+/// The columns that have room, beginning with `first`; at least one.
 std::vector<ShownColumn> shown_columns(Ui& ui, const Rect& place, const DataView& data,
                                        std::size_t first) {
   std::vector<ShownColumn> shown;
@@ -46,7 +46,8 @@ std::vector<ShownColumn> shown_columns(Ui& ui, const Rect& place, const DataView
   return shown;
 }
 
-/// Which columns stand there, and ways to the others, at the right. Returns its width.
+/// Draws, at the right, which columns are shown and buttons that lead to the others. Returns
+/// their width.
 float draw_column_pager(Ui& ui, Rect line, const DataView& data,
                         const std::vector<ShownColumn>& shown, DataViewState& state) {
   const std::size_t count = data.preview->columns.size();

@@ -60,7 +60,7 @@ void draw_data_header(Ui& ui, const Rect& place, const DataView& data, DataViewS
       {"tab_start", tr("Start"), {.tone = Tone::kQuiet, .key = {letter('0'), true}}, 36, [&] {
          result.tab = StudyTab::kStart;
        }});
-  // The file's name keeps some room; keys give way before words do.
+  // Keeps some room for the file's name. If room is short, keys are left out before words are.
   constexpr float kLeastName = 140, kBetween = 10;
   const float room = strip.width - ui.text_width("jnd", Font::kLarge) - 18 - kLeastName;
   float wanted = 0;
@@ -111,11 +111,11 @@ void draw_without_file(Ui& ui, const Rect& place, const DataView& data, DataView
   stack.draw(place.inset(kPadding));
 }
 
-/// Its pages.
+/// Draws the tabs of the pages.
 void draw_data_strip(Ui& ui, Rect strip, const DataView& data, DataViewState& state) {
   std::vector<DataPageLook> pages = {{DataPage::kTable, "page_table", tr("Table")},
                                      {DataPage::kCurves, "page_curves", tr("Curves")}};
-  // While another curve is fitted, the page stays.
+  // The page stays while another curve is being fitted.
   if (data.can_compare || (data.is_computing && state.page == DataPage::kComparison)) {
     pages.push_back({DataPage::kComparison, "page_comparison", tr("Comparison")});
   }

@@ -12,20 +12,20 @@
 
 namespace jnd::app::gui {
 
-/// What the window remembers of the view of somebody's table.
+/// What the window remembers about the view of somebody's table.
 struct DataViewState {
   enum class Page { kTable, kCurves, kComparison, kCommand };
   enum class Dialog {
     kNone,
     kFile,
-    kRole,  ///< What `column` is.
+    kRole,  ///< Asks for the role of `column`.
     kIntensity,
     kYes,
     kYesValue,
     kTrials,
     kGroups,
     kFilters,
-    kFilterCell,  ///< Which cell of `column` rows must have.
+    kFilterCell,  ///< Asks which cell rows must have in `column`.
     kFamily,
     kTask,
     kLapse,
@@ -38,15 +38,16 @@ struct DataViewState {
   Page page = Page::kTable;
   Dialog dialog = Dialog::kNone;
   bool dialog_is_new = false;
-  std::string column;  ///< That a dialog is about.
-  std::string typed;   ///< In a dialog's field.
-  /// Counts the times that a dialog itself wrote there: a field that is edited keeps its own
-  /// text.
+  std::string column;  ///< The column that a dialog is about.
+  std::string typed;   ///< What is typed in a dialog's field.
+  /// Counts how often the dialog itself changed `typed`. A field that is being edited would
+  /// otherwise keep its own text.
   int num_rewrites = 0;
-  std::string problem;  ///< Of what was typed.
+  std::string problem;  ///< What is wrong with what was typed.
   FileDialogState opening;
-  std::size_t first_column = 0;  ///< Of the table; those before have no room.
-  std::size_t group = 0;         ///< Whose numbers are shown.
+  /// The first column of the table that is shown; those before it have no room.
+  std::size_t first_column = 0;
+  std::size_t group = 0;  ///< The group whose numbers are shown.
   float settings_height = 0, numbers_height = 0, comparison_height = 0;
   bool is_copied = false;  ///< The command is on the clipboard.
 };
@@ -59,8 +60,8 @@ struct DataViewResult {
   bool compare = false;
 };
 
-/// Shows the file's first rows with what its columns are, what is fitted, and what that comes
-/// to. `entries_of` lists a folder and the tables in it.
+/// Shows the file's first rows with their columns' roles, the settings of the fit, and its
+/// results. `entries_of` lists a folder and the tables in it.
 [[nodiscard]] DataViewResult draw_data_view(Ui& ui, const DataView& data,
                                             const EntriesOf& entries_of, DataViewState& state);
 

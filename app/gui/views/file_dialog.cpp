@@ -106,7 +106,7 @@ FileDialogResult draw_file_dialog(Ui& ui, const FileDialogWords& words,
   const bool is_ready = state.chosen || !state.open_path.empty();
   DialogChoice choice = draw_dialog_buttons(ui, buttons, tr("Open"), is_ready, entered);
   ui.end_dialog();
-  // Enter takes the entry that arrow keys have come to, before what is typed.
+  // Enter opens the entry that the arrow keys have reached, rather than what is typed.
   if (choice.done && state.chosen) {
     taken = state.chosen;
     choice.done = false;

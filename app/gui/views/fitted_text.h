@@ -6,12 +6,12 @@
 
 namespace jnd::app::gui {
 
-/// As many whole words as there is room for in a place that wraps them, with an ellipsis behind
-/// them where some are left out; "" where there is no room for a line.
+/// As many whole words as fit into a place that wraps them, with an ellipsis if some are left
+/// out; "" if the place has no room for a line.
 [[nodiscard]] std::string fitted(const Ui& ui, const Rect& place, std::string words,
                                  const TextStyle& style);
 
-/// Draws as many; where some are left out, all of them show when they are pointed at.
+/// Draws the words that fit. If some are left out, the mouse shows all of them.
 float draw_fitted(Ui& ui, const Rect& place, const std::string& words, const TextStyle& style);
 
 }  // namespace jnd::app::gui

@@ -33,7 +33,7 @@ std::string range_words(const ItemView& item) {
   return words.empty() ? tr("in {}", item.unit) : words + " " + item.unit;
 }
 
-/// One of the words between the commas is none.
+/// True if a part between the commas is blank.
 bool has_blank_word(std::string_view typed) {
   while (true) {
     const std::size_t comma = typed.find(',');
@@ -126,7 +126,8 @@ class ItemCard {
     state_.item.clear();
   }
 
-  /// Nobody reads an item in less time; a key that is held or hammered on ticks none unread.
+  /// An item can be ticked only after a moment, because nobody reads it in less time. So a key
+  /// that is held or hammered on ticks nothing unread.
   void draw_tick(const Rect& strip) {
     constexpr double kLeastReading_s = 0.4;
     const bool is_read = ui_.time_s() - state_.item_since_s >= kLeastReading_s;
@@ -182,12 +183,14 @@ class ItemCard {
                                                                  : range_words(item_);
       const bool entered =
           ui_.text_field("item_text", row, state_.typed, hint, state_.item_is_new);
-      // Below a dialog, also one that closes in this frame, it cannot get the keyboard yet.
+      // Below a dialog, even one that closes in this frame, the field cannot get the keyboard
+      // yet.
       if (ui_.drawn().find("item_text")->enabled) state_.item_is_new = false;
       if (!ui_.button("item_store", button, tr("Store"), style) && !entered) return;
       state_.item_problem = problem_with(item_, state_.typed);
       if (!state_.item_problem.empty()) {
-        state_.item_is_new = true;  // The field keeps the keyboard.
+        // The field keeps the keyboard.
+        state_.item_is_new = true;
         return;
       }
       give(item_.kind == Kind::kYesNoWhich ? as_is("yes: ") + state_.typed
@@ -233,7 +236,7 @@ class ItemCard {
   RunViewResult& result_;
 };
 
-/// The text that is agreed to, with its paragraphs; scrolls where it is long.
+/// Draws the paragraphs of a consent and the sentence that is agreed to; a long text scrolls.
 void draw_consent_text(Ui& ui, const Rect& place, const ItemView& item, RunViewState& state) {
   const Rect area = place.middle(std::min(820.0f, place.width - 48), place.height);
   Rect content = ui.begin_scroll("consent", area, state.consent_height);
@@ -249,7 +252,7 @@ void draw_consent_text(Ui& ui, const Rect& place, const ItemView& item, RunViewS
   ui.end_scroll();
 }
 
-/// What was answered in this questionnaire; a click asks it again.
+/// Draws the answers to this questionnaire so far; a click on one asks its question again.
 void draw_answered(Ui& ui, const Rect& place, const SessionView& view, RunViewState& state) {
   Rect area = place.middle(std::min(820.0f, place.width - 48), place.height);
   ui.text(area.take_top(24), tr("Answered: choose one to change it"),

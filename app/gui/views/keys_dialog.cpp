@@ -15,7 +15,7 @@ struct Line {
   std::string key, what;
 };
 
-/// Keys without a control of their own, and those whose control says less.
+/// Begins with keys that have no control, and keys whose control says less than the line here.
 std::vector<Line> lines_of(std::vector<Drawn::Widget> widgets) {
   const Chord larger = {.key = Key::kPlus, .control = true};
   const Chord smaller = {.key = Key::kMinus, .control = true};
@@ -31,7 +31,7 @@ std::vector<Line> lines_of(std::vector<Drawn::Widget> widgets) {
       {printed_words(leave), tr("Leave the program")}};
   std::set<std::string> known = {"", words({Key::kEscape}), words({Key::kF1}), words(dark),
                                  words(larger)};
-  // Line by line, from the left.
+  // Sorts the controls line by line, from the left.
   std::ranges::stable_sort(widgets, {}, [](const Drawn::Widget& widget) {
     constexpr float kLine = 20;
     return std::pair(std::round(widget.place.y / kLine), widget.place.x);
@@ -47,7 +47,7 @@ std::vector<Line> lines_of(std::vector<Drawn::Widget> widgets) {
 KeysResult draw_keys_dialog(Ui& ui, std::vector<Drawn::Widget> widgets) {
   const std::vector<Line> lines = lines_of(std::move(widgets));
   constexpr float kLine = 30;
-  constexpr float kAround = 2 * 28 + 34 + 8 + 44 + 8;  // Padding, title, button.
+  constexpr float kAround = 2 * 28 + 34 + 8 + 44 + 8;  // Padding, title and button.
   const float room = ui.screen().height - 2 * 12 - kAround;
   const auto rows = static_cast<std::size_t>(std::max(1.0f, std::floor(room / kLine)));
   const std::size_t columns = (lines.size() + rows - 1) / rows;
@@ -66,7 +66,7 @@ KeysResult draw_keys_dialog(Ui& ui, std::vector<Drawn::Widget> widgets) {
                   inside.y + kLine * static_cast<float>(i % used), width - 12, kLine};
     ui.text(place.take_left(std::min(140.0f, keys + 2), 12), lines[i].key,
             {.font = Font::kMono, .colour = Colour::kSoft});
-    // A button may be called by what somebody wrote.
+    // A button's label may have been written by somebody, so it may have any length.
     ui.text(place, lines[i].what, {.any_length = true});
   }
   KeysResult result;

@@ -6,14 +6,14 @@
 
 namespace jnd::app::gui {
 
-/// What was asked in the dialog.
+/// What the person asked for in the dialog.
 struct KeysResult {
   bool closed = false;
-  bool opens_manual = false;  ///< The page about the view below.
+  bool opens_manual = false;  ///< Opens the manual's page about the view below.
 };
 
-/// Every key that does something now: those of the program, and of what `widgets` are on
-/// screen, as one reads them; and the way to the manual.
+/// Lists every key that does something now: the program's keys, and those of the `widgets` on
+/// the screen in reading order. A button leads to the manual.
 [[nodiscard]] KeysResult draw_keys_dialog(Ui& ui, std::vector<Drawn::Widget> widgets);
 
 }  // namespace jnd::app::gui

@@ -34,7 +34,7 @@ CornerLook corner_look(const Ui& ui, std::string_view language) {
     };
     for (const CornerButton& button : corner_buttons(ui)) add(button.label, button.key);
     if (!language.empty()) add(language, {letter('L'), true});
-    // At the start, where it stands, the footer says next to nothing.
+    // The language button is on the start screen, whose footer has few words.
     const float most = language.empty() ? 0.5f : 0.75f;
     if (look.width <= most * ui.screen().width) break;
   }
@@ -62,8 +62,8 @@ void need_room_for_titles(const Ui& ui, std::vector<ColumnLook>& columns) {
   }
 }
 
-/// A column gets what its words need before the others share what is left; where all of them
-/// have too little, each has as much less.
+/// Each column gets at least the width that its words need, and the columns share the rest. If
+/// there is too little room for that, all columns are narrower in proportion.
 static std::vector<float> widths_of(const std::vector<ColumnLook>& columns, float room) {
   std::vector<float> widths(columns.size(), 0.0f);
   float least = 0;
@@ -166,7 +166,7 @@ bool draw_choice(Ui& ui, const std::string& name, const Rect& place, const std::
     const Rect cap = words.take_right(ui.key_cap_width(key), 12);
     ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, key);
   }
-  // What it is gives way to its name, but for half of the row.
+  // The kind gives way to the label, but the label takes at most half of the row from it.
   const float of_label = ui.text_width(label, selected ? Font::kStrong : Font::kBody);
   const float least = std::max(words.width / 2, words.width - of_label - 16);
   const float width = std::min(ui.text_width(kind, Font::kSmall) + 2, least);
@@ -210,8 +210,8 @@ void draw_name_and_value(Ui& ui, const Rect& line, std::string_view name,
   const float room = line.width - kBetween;
   float width = of_value;
   if (of_name + of_value > room) {
-    // A short one has all it needs; else both are narrower by as much, and a word of the name
-    // still has room.
+    // If one of the two is short, it gets all the room that it needs. Otherwise they share the
+    // room in proportion, but the longest word of the name has to fit.
     const float few = 0.4f * room;
     width = of_name < few    ? room - of_name
             : of_value < few ? of_value

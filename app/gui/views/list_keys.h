@@ -8,19 +8,20 @@
 
 namespace jnd::app::gui {
 
-// How lists are gone through by keyboard and mouse, the same everywhere.
+// How keyboard and mouse move through lists, the same everywhere.
 
-/// Up and Down go through a list, and stop at its ends; the first press chooses an end. Returns
-/// whether another row was chosen.
+/// Moves through a list by the keys Up and Down, and stops at its ends; the first press chooses
+/// an end. Returns true if another row was chosen.
 bool move_in_list(Ui& ui, std::size_t count, std::optional<std::size_t>& selected);
 
-/// Cuts the caps of the two keys off the right end of a strip and draws them.
+/// Cuts room for the caps of the two keys off the right end of a strip, and draws them.
 void draw_list_keys(Ui& ui, Rect& strip);
 
-/// Tells a second click on the same thing from the first.
+/// Distinguishes the second click on the same thing from the first.
 class DoubleClick {
  public:
-  /// True for the second of two clicks on `name` within half a second. `now_s`: of the frames.
+  /// Returns true for the second of two clicks on `name` within half a second. `now_s` is the
+  /// frames' time.
   bool clicked(const std::string& name, double now_s);
 
  private:

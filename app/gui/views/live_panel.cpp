@@ -1,4 +1,4 @@
-// How the hand moves: speed and force over the last ten seconds, and its path.
+// Shows how the hand moves: speed and force over the last ten seconds, and its path.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kSeconds = 10.0;
 
-/// An end of the axis that does not jump with every stroke: 1, 2, 3, 5 times a power of ten.
+/// An end of the axis that does not jump with every stroke: 1, 1.5, 2, 3, 5 or 7 times `least`
+/// times a power of ten.
 double calm_end(double largest, double least) {
   double end = least;
   for (double decade = least; end < largest; decade *= 10.0) {

@@ -1,4 +1,5 @@
-// How many are done, who comes next, how old the copy is; and how even orders and arms are.
+// How many participants are done, who comes next, how old the backup is, and how even orders
+// and arms are.
 
 #include <algorithm>
 
@@ -109,7 +110,7 @@ std::string counts_words(const BalanceLine& line) {
                            : std::to_string(line.num_done);
 }
 
-/// Where the parts of a line stand.
+/// The places of a line's parts.
 struct BalanceCells {
   Rect words, chip, bar, counts;
 };

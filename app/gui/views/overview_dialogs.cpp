@@ -1,4 +1,5 @@
-// What the overview asks: how many are planned, who comes when, whether nobody comes.
+// The overview's dialogs: how many participants are planned, who comes when, and whether an
+// appointment is cancelled.
 
 #include <algorithm>
 
@@ -11,7 +12,7 @@ namespace {
 
 using OverviewDialog = OverviewState::Dialog;
 
-/// Why it did not work, above the buttons.
+/// Tells above the buttons why the last attempt failed.
 void draw_why_not(Ui& ui, Rect& inside, const std::string& problem) {
   if (problem.empty()) return;
   const TextStyle style{.font = Font::kSmall, .colour = Colour::kRed, .wrap = true};
@@ -24,7 +25,7 @@ bool end_with(Ui& ui, Rect& inside, const char* verb, bool ready, bool entered,
   draw_why_not(ui, inside, state.problem);
   const DialogChoice choice = draw_dialog_buttons(ui, buttons, verb, ready, entered);
   ui.end_dialog();
-  // Enter ends a field; where something is missing yet, it goes on.
+  // Enter ends a field. If something is still missing, the field gets the keyboard again.
   state.dialog_is_new = entered && !choice.done;
   if (choice.done || choice.cancelled) state.dialog = OverviewDialog::kNone;
   return choice.done;

@@ -1,4 +1,4 @@
-// How well each session went, and who comes when.
+// The overview's lists: how well each session went, and who comes when.
 
 #include <algorithm>
 #include <string>

@@ -20,7 +20,7 @@ void draw_while_reading(Ui& ui, const Rect& place, const OverviewModel& model) {
   ui.progress(middle.take_top(8), model.progress);
 }
 
-/// Left and Right choose the list that the other arrow keys go through.
+/// Left and Right choose the list through which Up and Down move.
 void choose_list(Ui& ui, const StudyOverview& overview, OverviewState& state) {
   using List = OverviewState::List;
   if (ui.pressed({Key::kLeft})) state.list = List::kSessions;

@@ -1,5 +1,5 @@
-// Where the mouse moves the hand: the hand is drawn where the medium lets it get to, not where
-// the mouse is, and that is how a fluid is felt without a device (pseudo-haptics, Lécuyer et
+// The pad on which the mouse moves the hand. The hand is drawn where the medium lets it go, not
+// where the mouse is. That is how a fluid is felt without a device (pseudo-haptics, Lécuyer et
 // al. 2000).
 
 #include <algorithm>
@@ -16,7 +16,8 @@ float pad_height(const Rect& card, float below) noexcept {
 
 void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
               const std::vector<TracePoint>& trace, RunViewState& state) {
-  constexpr double kWidthM = 0.9;  // Of the workspace that the pad shows.
+  // The width of the part of the workspace that the pad shows.
+  constexpr double kWidthM = 0.9;
   state.pad = place;
   state.pad_m_per_px = kWidthM / place.width;
   ui.fill(place, Colour::kBlueSoft, 10);
@@ -31,7 +32,7 @@ void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
     const float y = centre_y - static_cast<float>(y_m / state.pad_m_per_px);
     return std::clamp(y, place.y + 12, place.bottom() - 12);
   };
-  // The last second of the way, then the hand, then the mouse that pulls it.
+  // The pad shows the last second of the hand's way, the hand, and the mouse that pulls it.
   const double newest_s = trace.empty() ? 0.0 : trace.back().time_s;
   for (std::size_t i = 1; i < trace.size(); ++i) {
     if (newest_s - trace[i].time_s > 1.0) continue;

@@ -14,8 +14,8 @@ struct ParticipantScreenResult {
   bool is_closed = false;
 };
 
-/// Over everything: where the participant's screen stands, as one of what there is. `problem`:
-/// why it is not where it was wanted; "" for nothing.
+/// Draws the dialog that chooses the monitor of the participant's screen. `problem` says why
+/// the screen is not where it was wanted; "" if nothing is wrong.
 [[nodiscard]] ParticipantScreenResult draw_participant_screen_dialog(
     Ui& ui, const ScreenChoice& choice, const std::vector<Monitor>& monitors,
     const std::string& problem);

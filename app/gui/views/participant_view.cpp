@@ -15,11 +15,12 @@
 namespace jnd::app::gui {
 namespace {
 
-/// How large everything is; the first in which all of it has room is taken.
+/// The size of everything on the screen. The first of the sizes in which everything fits is
+/// used.
 struct LetterSize {
   Font text, detail;
   float gap;
-  float sign_share;  ///< Of the screen's height.
+  float sign_share;  ///< A share of the screen's height.
 };
 constexpr LetterSize kLetterSizes[] = {{Font::kHuge, Font::kTitle, 30, 0.42f},
                                        {Font::kTitle, Font::kAnswer, 22, 0.36f},
@@ -27,7 +28,8 @@ constexpr LetterSize kLetterSizes[] = {{Font::kHuge, Font::kTitle, 30, 0.42f},
                                        {Font::kLarge, Font::kBody, 12, 0.24f},
                                        {Font::kBody, Font::kBody, 8, 0.18f}};
 
-constexpr float kMargin = 0.06f;  ///< Of the screen's width and height.
+/// The margin as a share of the screen's width and height.
+constexpr float kMargin = 0.06f;
 constexpr float kFoot = 40;
 
 TextStyle centred(Font font, Colour colour = Colour::kInk) {
@@ -44,14 +46,14 @@ float widest_word(const Ui& ui, std::string_view text, Font font) {
   return widest;
 }
 
-/// One size of everything, and whether it has room.
+/// The contents in one size, and whether they fit.
 class ParticipantLayout {
  public:
   ParticipantLayout(Ui& ui, const ParticipantScreen& shown, const LetterSize& size,
                     const Rect& room)
       : ui_(ui), shown_(shown), size_(size), room_(room), stack_(ui) {
     add_sign();
-    // What stands above a consent is no more than its title.
+    // The text above a consent is only its title.
     add_words(shown.text, shown.paragraphs.empty() ? size.text : size.detail, Colour::kInk);
     if (!shown.countdown.empty()) add_line(shown.countdown, Font::kHuge);
     add_consent();
@@ -98,7 +100,7 @@ class ParticipantLayout {
     add_words(shown_.agreement, size_.text, Colour::kBlue);
   }
 
-  /// A row of numbers between the words at its ends.
+  /// Adds a row of numbers, with the words of its two ends below.
   void add_scale() {
     if (shown_.num_steps < 2) return;
     constexpr float kBetween = 8;
@@ -124,7 +126,7 @@ class ParticipantLayout {
         ui_.text(its, std::to_string(step), {.font = size_.detail, .align = Align::kCentre});
       }
     });
-    // The words may be wider than a short scale is.
+    // The words may be wider than a short scale.
     const float wide = std::max(whole, room_.width * 0.7f);
     const float half = wide / 2 - size_.gap;
     for (const std::string& label : {shown_.low_label, shown_.high_label}) {
@@ -141,7 +143,7 @@ class ParticipantLayout {
       ui_.text(row.take_right(half), shown_.high_label, right);
     });
   }
-  /// Of more steps than there is room for: its ends.
+  /// Draws a scale that has too many steps for boxes, as a line with its two end numbers.
   void draw_line_of_scale(const Rect& row) {
     ui_.line(row.x, row.bottom() - 4, row.right(), row.bottom() - 4, Colour::kInk, 2);
     ui_.text(row, "1", {.font = size_.detail});
@@ -149,7 +151,8 @@ class ParticipantLayout {
              {.font = size_.detail, .align = Align::kRight});
   }
 
-  /// Cards side by side, as many in a row as have room; the control that does it below each.
+  /// Adds the choices as cards, as many in a row as have room. Below each label stands the
+  /// control that answers it.
   void add_choices() {
     if (shown_.choices.empty()) return;
     constexpr float kPad = 14;
@@ -206,12 +209,12 @@ class ParticipantLayout {
   bool has_wide_word_ = false;
 };
 
-/// A consent that is too long for one page in the smallest letters, page by page; what is
-/// agreed to stands on each.
+/// Shows a consent that is too long for one page in the smallest letters, page by page. What is
+/// agreed to is on each page.
 void draw_pages(Ui& ui, const ParticipantScreen& shown, Rect room,
                 ParticipantViewState& state) {
   constexpr Font kText = Font::kLarge;
-  constexpr double kLettersPerS = 12.0;  // About 140 words a minute: nobody is hurried.
+  constexpr double kLettersPerS = 12.0;  // About 140 words a minute, so that nobody is hurried.
   constexpr double kLeastOfPage_s = 8.0;
   const TextStyle head = centred(kText, Colour::kSoft);
   ui.text(room.take_top(ui.text_height(room.width, shown.text, head), 12), shown.text, head);

@@ -15,7 +15,7 @@ namespace {
 
 using Status = PreflightLine::Status;
 
-/// Why nobody can take part under this name; "" if somebody can.
+/// Why nobody can take part under this pseudonym; "" if somebody can.
 std::string participant_problem(const PrepareModel& model, const std::string& participant) {
   if (participant.empty()) return tr("Choose a participant.");
   if (!is_pseudonym(participant)) {
@@ -29,7 +29,7 @@ std::string participant_problem(const PrepareModel& model, const std::string& pa
   return "";
 }
 
-/// Why nothing can be kept of how the device was fitted; "" if it can.
+/// Why the words about the device's fitting cannot be stored; "" if they can.
 std::string fitting_problem(const PrepareViewState& state) {
   if (is_fitting(state.fitting)) return "";
   return tr("Fitting: write glove=M, thumb=thin pad. Keys in small letters, each once.");
@@ -59,7 +59,7 @@ std::string obstacle(const PrepareModel& model, const PrepareViewState& state) {
                                                        : "";
 }
 
-/// Below the field: what is wrong with the name, or which order it gets.
+/// The words below the field: what is wrong with the pseudonym, or which order it gets.
 std::pair<std::string, Colour> words_of_participant(const PrepareModel& model,
                                                     const PrepareViewState& state) {
   std::string problem = participant_problem(model, state.participant);
@@ -152,7 +152,7 @@ void draw_devices(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewSt
   inside.take_top(16);
 }
 
-/// Languages side by side; the key goes to the next one.
+/// Draws the languages side by side. The key chooses the next one.
 void draw_languages(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state) {
   ui.heading(inside.take_top(18, 6), tr("Language of the participant"));
   Rect line = inside.take_top(42, 20);
@@ -171,8 +171,8 @@ void draw_languages(Ui& ui, Rect& inside, const PrepareModel& model, PrepareView
   }
 }
 
-/// What has to be known of the participant: a line of answers to each question. The key goes to
-/// the next answer of the first question that has none.
+/// Draws a line of answers to each question about the participant. The key chooses the next
+/// answer to the first question that has none.
 void draw_fields(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewState& state,
                  PrepareViewResult& result) {
   const std::string& language = shown_language(model.languages);
@@ -209,7 +209,7 @@ void draw_fields(Ui& ui, Rect& inside, const PrepareModel& model, PrepareViewSta
   }
 }
 
-/// How the device is fitted to this person, in the words of whoever fits it.
+/// Asks how the device is fitted to this person, in words of whoever fits it.
 void draw_fitting(Ui& ui, Rect& inside, PrepareViewState& state) {
   ui.heading(inside.take_top(18, 6), tr("How the device was fitted"));
   (void)ui.text_field("fitting", inside.take_top(46, 6), state.fitting,
@@ -233,7 +233,7 @@ void draw_seed(Ui& ui, Rect place, const PrepareModel& model) {
           {.font = hidden ? Font::kBody : Font::kMono, .colour = Colour::kSoft});
 }
 
-/// Name, what was found, and what mends it.
+/// Draws the line's name, what was found, and what would remedy it.
 void draw_line(Ui& ui, Rect& inside, const PreflightLine& line, bool is_next) {
   const TextStyle remedy{.font = Font::kSmall, .colour = Colour::kSoft, .wrap = true};
   const float text_width = inside.width - 22;
@@ -322,7 +322,7 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
   Rect who = pair.take_left(of_who, 24);
   draw_participant(ui, who, model, state, entered);
   draw_kind(ui, pair, model, state);
-  // Side by side where their headings have room.
+  // The two are side by side if their headings have room.
   const float of_seed = std::min(300.0f, inside.width / 2);
   const bool is_beside =
       ui.text_width(tr("Seed of every order"), Font::kSmallStrong) <= of_seed &&
@@ -332,7 +332,8 @@ PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,
   draw_seed(ui, is_beside ? both.take_right(of_seed, 16) : both.take_bottom(70, 12), model);
   draw_languages(ui, both, model, state);
   draw_fields(ui, inside, model, state, result);
-  // Above the list of devices, which is long: who prepares a session must see it.
+  // The sound is above the list of devices, because that is long and whoever prepares a session
+  // must see the sound.
   result.sound = draw_sound_card(ui, inside, model.sound, state.sound_output);
   draw_devices(ui, inside, model, state, result);
   draw_fitting(ui, inside, state);

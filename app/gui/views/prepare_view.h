@@ -15,7 +15,8 @@
 
 namespace jnd::app::gui {
 
-/// What stands before a session: who, with which device, and whether everything is ready.
+/// What the view before a session shows: who takes part, with which device, and whether
+/// everything is ready.
 struct PrepareModel {
   const StudyFolder& study;
   struct Device {
@@ -23,12 +24,13 @@ struct PrepareModel {
     bool simulated = false;
   };
   std::vector<Device> devices;
-  std::vector<std::string> languages;  ///< Of the study.
-  /// Of the study: what has to be known of the participant.
+  std::vector<std::string> languages;  ///< The languages of the study.
+  /// What the study has to know about the participant.
   std::vector<experiments::ParticipantField> fields;
-  /// Who is taken, sessions and withdrawals alike, and so cannot take part again.
+  /// The pseudonyms of past sessions and withdrawals, which cannot take part again.
   std::vector<std::string> taken;
-  std::string assigned;  ///< The cell that comes next, in words; "" for one cell or hidden.
+  /// The cell that comes next, in words; "" if the study has one cell only, or if it is hidden.
+  std::string assigned;
   std::uint64_t seed = 0;
   SoundModel sound;
   std::vector<PreflightLine> lines;
@@ -37,28 +39,32 @@ struct PrepareModel {
 };
 
 struct PrepareViewState {
-  std::string participant;  ///< Proposed by the application: the next free pseudonym.
+  /// The next free pseudonym, as the application proposes it; the person may change it.
+  std::string participant;
   bool pilot = false;
-  bool kind_is_chosen = false;  ///< By a person; else a simulated device means a pilot.
+  /// A person chose the kind of session; otherwise a simulated device makes it a pilot.
+  bool kind_is_chosen = false;
   std::string device;
   std::string language;
-  std::map<std::string, std::string> fields;  ///< Chosen so far: name to value.
-  std::string fitting;       ///< Typed: "glove=M, thumb=thin pad"; may be empty.
-  std::string sound_output;  ///< Where the study's sound goes to, or "off".
+  /// The values chosen so far, by the field's name.
+  std::map<std::string, std::string> fields;
+  std::string fitting;       ///< As typed, such as "glove=M, thumb=thin pad"; may be empty.
+  std::string sound_output;  ///< The output of the study's sound, or "off".
   float lines_height = 0, session_height = 0;
 };
 
 struct PrepareViewResult {
   StudyTab tab = StudyTab::kNone;
-  bool start = false;       ///< With what the state holds.
-  bool look_again = false;  ///< Also after the device was changed.
+  bool start = false;       ///< Starts a session with what the state holds.
+  bool look_again = false;  ///< Checks again; also set when the device was changed.
   bool fields_changed = false;
   SoundCardResult sound;
-  bool map_controls = false;  ///< Which pedal does what is to be seen, or changed.
+  /// Opens the dialog that shows and changes which pedal does what.
+  bool map_controls = false;
 };
 
-/// A session on a simulated device is a pilot, one on a real device is not, unless a person has
-/// chosen otherwise.
+/// Makes a session on a simulated device a pilot, and one on a real device none, unless a
+/// person has chosen otherwise.
 void choose_kind(const PrepareModel& model, PrepareViewState& state);
 
 [[nodiscard]] PrepareViewResult draw_prepare_view(Ui& ui, const PrepareModel& model,

@@ -1,4 +1,4 @@
-// The answers of a session, each with what became of it.
+// Shows the answers of a session, each with its history.
 
 #include <algorithm>
 
@@ -23,7 +23,7 @@ std::vector<ColumnLook> columns_of_answers(const Ui& ui, const SessionRecord& re
   return columns;
 }
 
-/// The most important thing to be said of it, in a few words.
+/// The most important remark about the answer, in a few words.
 std::pair<std::string, Colour> remark_of(const RecordAnswer& answer) {
   if (answer.excluded) return {tr("left out"), Colour::kAmber};
   if (!answer.history.empty() && answer.attempt == 1) {
@@ -62,11 +62,11 @@ void draw_answer_row(Ui& ui, const Rect& row, const SessionRecord& record, std::
           answer.response_time_s ? formatted("%.1f s", *answer.response_time_s) : "",
           {.font = Font::kMono, .colour = ink, .align = Align::kRight});
   const auto [words, colour] = remark_of(answer);
-  // It is told at length below, once its row is chosen.
+  // The words may be cut, because the detail below shows them in full for the chosen row.
   ui.text(cells[next], words, {.font = Font::kSmall, .colour = colour, .any_length = true});
 }
 
-/// Everything that is known of the one that is chosen.
+/// Draws everything that is known about the chosen answer.
 void draw_answer_detail(Ui& ui, const Rect& place, const RecordAnswer* answer,
                         RecordViewState& state) {
   ui.line(place.x, place.y, place.right(), place.y, Colour::kLine);
@@ -128,7 +128,7 @@ void draw_record_answers(Ui& ui, const Rect& place, const SessionRecord& record,
   Rect rows = ui.begin_scroll("answers", inside, content);
   for (std::size_t i = 0; i < record.answers.size(); ++i) {
     const Rect row = rows.take_top(kAnswerRow);
-    // Of a thousand answers, those that can be seen.
+    // Draws only the answers that can be seen, because there may be a thousand.
     if (row.bottom() < inside.y || row.y > inside.bottom()) continue;
     draw_answer_row(ui, row, record, i, state);
   }

@@ -1,4 +1,4 @@
-// What is asked before something is done to a stored session.
+// Asks before something is done to a stored session.
 
 #include <algorithm>
 #include <string>
@@ -19,7 +19,8 @@ struct RecordDialogWords {
   std::string title, explanation, hint, verb;
 };
 
-/// Whether what is meant is left out already, and so is taken in again.
+/// True if the chosen trial or session is left out already, so that the dialog includes it
+/// again.
 bool takes_in_again(const SessionRecord& record, const RecordViewState& state) {
   if (!state.whole_session) {
     const RecordAnswer* answer = chosen_answer(record, state);
@@ -175,7 +176,7 @@ void draw_record_dialog(Ui& ui, const SessionRecord& record, RecordViewState& st
                   adverse_words, style);
   }
   ui.end_dialog();
-  // Enter without what is needed: the field keeps the keyboard.
+  // After Enter without the necessary words, the field keeps the keyboard.
   state.dialog_is_new = entered && !done;
   if (adverse) result.adverse_event = state.typed;
   if (done) ask_for_it(record, state, result);

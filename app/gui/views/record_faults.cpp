@@ -1,4 +1,4 @@
-// The faults of a session, and the last second before each.
+// Shows the faults of a session, and the last second before each.
 
 #include <algorithm>
 
@@ -113,7 +113,7 @@ void draw_record_faults(Ui& ui, const Rect& place, const RecordViewModel& model,
     }
     content += height;
   }
-  // What the list leaves is for the last second.
+  // The last second gets the room that the list leaves.
   const Rect list = inside.take_top(std::min(content, inside.height * 0.45f), 16);
   const Rect below = inside.take_top(std::min(inside.height, 340.0f));
   if (moved) ui.scroll_into_view("faults", chosen_from, chosen_height);

@@ -1,4 +1,5 @@
-// What was written down in a session: notes, adverse events, why it was paused or ended.
+// Shows what was written down in a session: notes, adverse events, and why it was paused or
+// ended.
 
 #include <utility>
 

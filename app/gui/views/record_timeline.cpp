@@ -1,5 +1,5 @@
-// What happened in a session, when: its stages and pauses as bars, its answers as points, and
-// all of it as a list.
+// Shows what happened in a session, and when: stages and pauses as bars, answers as points, and
+// everything as a list.
 
 #include <algorithm>
 #include <string>
@@ -18,7 +18,7 @@ namespace {
 constexpr float kBar = 30;
 constexpr double kSecondsPerMinute = 60.0;
 
-/// Points of one look: those of answers that count and nothing speaks against, and the others.
+/// The answers that `is_one` accepts, as points of one look.
 PlotSeries answer_points(const SessionRecord& record, const char* name, Colour colour,
                          bool (*is_one)(const RecordAnswer&)) {
   PlotSeries series{
@@ -78,13 +78,13 @@ void draw_span(Ui& ui, const Rect& bar, const RecordSpan& span, Colour ground, C
   }
 }
 
-/// One bar for each, where the axis of the plot below has its times.
+/// Draws each span as a bar, at its times on the axis of the plot below.
 void draw_spans(Ui& ui, const Rect& strip, const PlotArea& area,
                 const std::vector<RecordSpan>& spans, bool is_pause) {
   for (std::size_t i = 0; i < spans.size(); ++i) {
     const float begin = area.x(spans[i].begin_s / kSecondsPerMinute);
     const float end = area.x(spans[i].end_s / kSecondsPerMinute);
-    // What was over at once can be seen, too.
+    // A span that ended at once can be seen, too.
     const Rect bar{begin, strip.y, std::max(2.0f, end - begin - 1), strip.height};
     if (is_pause) {
       draw_span(ui, bar, spans[i], Colour::kAmber, Colour::kOnFilled);

@@ -13,7 +13,7 @@
 namespace jnd::app::gui {
 namespace {
 
-/// In a low window buttons are lower, too.
+/// The height of a button; less in a low window.
 float record_button(const Ui& ui) { return ui.screen().height < 720 ? 38 : 42; }
 
 struct PageLook {
@@ -49,7 +49,7 @@ std::string status_words(const SessionRecord& record) {
   return "";
 }
 
-/// Whose session it is, and the pages.
+/// Draws whose session it is, and the tabs of the pages.
 void draw_strip_of_record(Ui& ui, Rect strip, const SessionRecord& record,
                           RecordViewState& state) {
   float wanted = 0;
@@ -110,14 +110,14 @@ void draw_record_facts(Ui& ui, Rect& column, const SessionRecord& record, float 
   ui.end_scroll();
 }
 
-/// What a key does on the page that stands there.
+/// The buttons with the actions of the page that is shown.
 class RecordActions {
  public:
   RecordActions(Ui& ui, const SessionRecord& record, RecordViewState& state,
                 RecordViewResult& result, bool is_idle)
       : ui_(ui), record_(record), state_(state), result_(result), is_idle_(is_idle) {}
 
-  /// Returns how high they are.
+  /// The height of all buttons.
   float height() const { return static_cast<float>(count()) * (record_button(ui_) + 8); }
 
   void draw(Rect& column) {
@@ -211,7 +211,7 @@ void draw_page_of_record(Ui& ui, const Rect& place, const RecordViewModel& model
   }
 }
 
-/// What cannot be done here and why, in words.
+/// Says what cannot be done here, and why.
 std::string hint_of_record(const SessionRecord& record, RecordPage page) {
   if (record.is_backup) return tr("This folder is a backup: it can be read, and not changed.");
   if (page == RecordPage::kAnswers && !record.is_over) {
@@ -249,7 +249,8 @@ RecordViewResult draw_record_view(Ui& ui, const RecordViewModel& model,
   draw_record_facts(ui, column, record,
                     std::max(96.0f, column.height - actions.height() - kGap - below));
   draw_page_of_record(ui, rest, model, state, result);
-  // What goes on is drawn below, and everything scrolls where there is too little room.
+  // The work under way is drawn below. Everything in the column scrolls if there is too little
+  // room.
   column = ui.begin_scroll("record_actions", column, state.actions_height);
   const float top = column.y;
   actions.draw(column);

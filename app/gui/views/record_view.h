@@ -15,14 +15,14 @@
 
 namespace jnd::app::gui {
 
-/// One stored session, as its page shows it.
+/// What the page of a stored session shows.
 struct RecordViewModel {
   const StudyFolder& study;
-  const SessionRecord* record = nullptr;  ///< nullptr while it is being read.
-  std::string problem;                    ///< Why it cannot be read; "" otherwise.
-  /// Of the fault that is chosen; nullptr where there is none to show.
+  const SessionRecord* record = nullptr;  ///< nullptr while the session is being read.
+  std::string problem;                    ///< Why the session cannot be read; "" otherwise.
+  /// The flight record of the chosen fault; nullptr if there is none to show.
   const FlightRecord* flight = nullptr;
-  std::string flight_problem;  ///< Why it cannot be read; "" otherwise.
+  std::string flight_problem;  ///< Why the flight record cannot be read; "" otherwise.
   StudyWork work;
 };
 
@@ -30,22 +30,22 @@ enum class RecordPage { kTimeline, kAnswers, kNotes, kFaults };
 
 struct RecordViewState {
   RecordPage page = RecordPage::kTimeline;
-  std::optional<std::size_t> answer, note, fault;  ///< The row that is chosen, of each page.
-  std::string searched;                            ///< In notes.
-  bool searches = false;                           ///< Its field takes the keyboard.
-  bool unread_only = false;                        ///< Of notes.
+  std::optional<std::size_t> answer, note, fault;  ///< The chosen row of each page.
+  std::string searched;                            ///< The words searched for in the notes.
+  bool searches = false;                           ///< The search field gets the keyboard.
+  bool unread_only = false;  ///< Only notes that nobody has acknowledged are shown.
   enum class Dialog { kNone, kExclude, kNote, kWithdraw };
   Dialog dialog = Dialog::kNone;
   bool dialog_is_new = false;
-  bool whole_session = false;  ///< Every trial is left out, not the one that is chosen.
-  std::string typed;           ///< Reason, note, or the pseudonym once more.
-  RunViewState correcting;     ///< Of the dialog that sets an answer right.
+  bool whole_session = false;  ///< The dialog leaves out every trial, not only the chosen one.
+  std::string typed;           ///< The reason, the note, or the pseudonym typed once more.
+  RunViewState correcting;     ///< The state of the dialog that corrects an answer.
   DoubleClick clicks;
   float timeline_height = 0, detail_height = 0, notes_height = 0, faults_height = 0;
   float actions_height = 0;
 };
 
-/// What was asked. One of them in a frame.
+/// What was asked for; one thing in a frame.
 struct RecordViewResult {
   StudyTab tab = StudyTab::kNone;
   bool resume = false;
@@ -63,9 +63,9 @@ struct RecordViewResult {
   std::optional<Exclude> exclude;
   std::optional<std::string> note, adverse_event;
   std::optional<core::ReadNote> acknowledge;
-  bool withdraw = false;  ///< The pseudonym was typed once more.
+  bool withdraw = false;  ///< Withdraws the participant, whose pseudonym was typed once more.
   bool cancel = false;
-  std::optional<std::filesystem::path> open;  ///< With another program.
+  std::optional<std::filesystem::path> open;  ///< Opens this file with another program.
 };
 
 [[nodiscard]] RecordViewResult draw_record_view(Ui& ui, const RecordViewModel& model,

@@ -10,17 +10,18 @@
 
 namespace jnd::app::gui {
 
-// What the pages of figures share: a card a block, with its plot and what that comes to.
+// What the pages of figures share: a card for each block, with its plot and its result.
 
-/// The plot, and below it why it comes to nothing.
+/// Draws the plot, and below it why there is no value.
 void draw_without_value(Ui& ui, Rect inside, const PlotModel& plot, const std::string& why);
 
-/// Of `draw_value`.
+/// The height that `draw_value` needs.
 [[nodiscard]] float value_height(Ui& ui, float width, const analysis::Chart& chart);
-/// The number in large letters, then what belongs to it, below where one line has no room.
+/// Draws the number in large letters, followed by its detail; the detail is below if one line
+/// has no room.
 void draw_value(Ui& ui, Rect line, const std::string& value, const std::string& detail);
 
-/// As many side by side as have room; scrolls where there are more rows than that.
+/// Draws as many cards side by side as have room. The page scrolls if it has too many rows.
 template <typename Item, typename Draw>
 void draw_grid(Ui& ui, const char* name, const Rect& place, const std::vector<Item>& items,
                float least_width, float least_height, const Draw& draw) {

@@ -1,5 +1,6 @@
-// What the report draws as well: magnitudes with their power laws, answers with their curves,
-// matches, levels of adaptive blocks; and below them what the study comes to.
+// The charts that the report draws as well: magnitudes with their power laws, answers with
+// their curves, matches, and levels of adaptive blocks. Below them are the study's main
+// results.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ namespace {
 
 using namespace results;
 
-/// What the chart shows and how its curves were fitted, in the words of the report.
+/// The report's caption: what the chart shows, and how its curves were fitted.
 std::string caption_of(const analysis::ChartSet& set, const std::string& who) {
   if (who == kEveryone && set.whole) return set.whole->caption;
   return set.panels ? set.panels->caption : set.whole ? set.whole->caption : "";
@@ -51,7 +52,7 @@ std::string joined(const std::vector<std::string>& parts) {
   return all;
 }
 
-/// A large number under its name, for the card below the curves.
+/// A large number under its name, for the card below the charts.
 struct KeyFigure {
   std::string name, value, detail;
 };
@@ -74,7 +75,7 @@ void add_number(const ResultsModel& results, const std::string& name, const std:
 
 std::vector<KeyFigure> key_figures(const ResultsModel& results) {
   std::vector<KeyFigure> figures;
-  // What the study is about, where blocks are compared.
+  // If the study compares blocks, its primary comparison comes first.
   if (!results.comparisons.empty() && results.comparisons.front().is_primary &&
       results.num_participants > 1) {
     const ComparisonLine& first = results.comparisons.front();
@@ -87,7 +88,7 @@ std::vector<KeyFigure> key_figures(const ResultsModel& results) {
   return figures;
 }
 
-/// Key figures side by side and the chips below.
+/// Draws the key figures side by side, and the chips below them.
 void draw_summary(Ui& ui, const Rect& place, const ResultsModel& results,
                   ResultsViewState& state) {
   Rect inside = draw_card(ui, place,
@@ -120,7 +121,7 @@ void draw_summary(Ui& ui, const Rect& place, const ResultsModel& results,
   ui.end_scroll();
 }
 
-/// As high as what is in it, while the figures keep enough.
+/// The summary is as high as its contents, but leaves the figures at least their height.
 float summary_height(const Rect& place, float figures, const ResultsViewState& state) {
   const float wanted = state.summary_height + 28 + 2 * kPadding;
   return std::clamp(wanted, 120.0f, std::max(120.0f, place.height - figures - kGap));

@@ -15,23 +15,24 @@ struct ResultsPageLook {
   ResultsPage page;
   const char *name, *label;
 };
-/// Those that have anything to show.
+/// The pages that have something to show.
 [[nodiscard]] std::vector<ResultsPageLook> pages_of(const ResultsModel& results);
 
-/// Whom the figures are of: the participant chosen, or everybody.
+/// Whose results the figures show: the chosen participant's, or everybody's.
 [[nodiscard]] std::string shown_participant(const ResultsModel& results,
                                             const ResultsViewState& state);
 
 void draw_results_page(Ui& ui, const Rect& place, const ResultsModel& results, ResultsPage page,
                        ResultsViewState& state);
 void draw_charts_page(Ui& ui, Rect place, const ResultsModel& results, ResultsViewState& state);
-/// `marks`: says here that the data are simulated, for the header has no room to.
+/// `marks` makes it say that the data are simulated, because the header has no room for that.
 void draw_participants(Ui& ui, const Rect& place, const ResultsModel& results, bool marks,
                        ResultsViewState& state);
-/// How good the data are, as many lines of chips as it takes. Returns their height.
+/// Draws chips that tell how good the data are, in as many lines as needed. Returns their
+/// height.
 float draw_quality(Ui& ui, const Rect& place, const ResultsModel& results);
 
-/// "0.72": two digits after the point, as far as it goes.
+/// A number as `table_number` writes it, such as "0.72"; "none" if it is not finite.
 [[nodiscard]] std::string two_digits(double value);
 
 }  // namespace jnd::app::gui

@@ -35,14 +35,14 @@ std::vector<ColumnLook> columns_of(const ResultsModel& results) {
   return columns;
 }
 
-/// Titles of columns can be longer than numbers: on two lines.
+/// Draws the titles of columns, which may be longer than the numbers below, on two lines.
 void draw_participants_head(Ui& ui, Rect& place, const std::vector<ColumnLook>& columns) {
   constexpr float kHead = 44;
   const Rect head = place.take_top(kHead);
   const std::vector<Rect> cells = cells_of(head, columns, kBetweenNumbers);
   for (std::size_t i = 1; i < columns.size(); ++i) {
     Rect cell = cells[i];
-    // They name what the study measures, in its own words.
+    // Titles name what the study measures in its author's words, so they may be cut.
     const TextStyle style{.font = Font::kTiny,
                           .colour = Colour::kSoft,
                           .align = Align::kRight,
@@ -126,7 +126,7 @@ void draw_numbers_page(Ui& ui, const Rect& place, const ResultsModel& results,
                        ResultsViewState& state) {
   std::vector<ColumnLook> columns = {
       {"", 2.7f}, {tr("value"), 1.3f, Align::kRight}, {"95 %", 1.9f, Align::kRight}};
-  // Most studies have nothing published beside them.
+  // Most studies have no published values to compare with.
   const bool has_published = std::ranges::any_of(results.numbers, [](const NumberLine& line) {
     return !line.published.empty() || !line.basis.empty();
   });
@@ -259,7 +259,7 @@ float draw_quality(Ui& ui, const Rect& place, const ResultsModel& results) {
   float x = place.x;
   float y = place.y;
   for (const QualityChip& chip : results.quality) {
-    // A sentence too long for a chip is lines of words.
+    // A sentence that is too long for a chip is drawn as wrapped words.
     const float width = std::min(ui.chip_width(chip.text), place.width);
     if (x > place.x && x + width > place.right()) {
       x = place.x;

@@ -14,7 +14,7 @@ namespace {
 const ButtonStyle kExport{.key = {letter('E'), true}};
 const ButtonStyle kReport{.tone = Tone::kPrimary, .key = {letter('R'), true}};
 
-/// Keys give way where the tabs and the title would have too little room beside them.
+/// True if the tabs and the title have enough room beside the buttons and their keys.
 bool own_keys_have_room(const Ui& ui) {
   const float wanted = ui.button_width(tr("Export"), kExport) + 10 +
                        ui.button_width(tr("Write report"), kReport);
@@ -45,14 +45,14 @@ void draw_own_buttons(Ui& ui, Rect strip, const ResultsViewModel& model,
   }
 }
 
-/// What the page's figures are among those of the report; none where it has no figures.
+/// Which of the report's figures the page shows; none if it has no figures.
 std::optional<StudyFiguresRequest::What> figures_of_page(ResultsPage page) {
   if (page == ResultsPage::kCharts) return StudyFiguresRequest::What::kCharts;
   if (page == ResultsPage::kBoxes) return StudyFiguresRequest::What::kBoxes;
   return std::nullopt;
 }
 
-/// Pages at the left, whom it shows at the right.
+/// Draws the tabs of the pages at the left, and whose results are shown at the right.
 void draw_strip(Ui& ui, Rect strip, const std::vector<ResultsPageLook>& pages,
                 const ResultsViewModel& model, ResultsViewState& state,
                 ResultsViewResult& result) {
@@ -91,7 +91,7 @@ void draw_strip(Ui& ui, Rect strip, const std::vector<ResultsPageLook>& pages,
       state.page_height = 0;
     }
   }
-  // Arrow keys go through the participants, whose table has no room for keys.
+  // The arrow keys go through the participants, whose table has no room to show keys.
   const std::size_t count = results.rows.size() + 1;
   if (ui.pressed({Key::kDown}, true)) state.participant = (state.participant + 1) % count;
   if (ui.pressed({Key::kUp}, true)) state.participant = (state.participant + count - 1) % count;
@@ -138,13 +138,13 @@ void draw_unblind_dialog(Ui& ui, ResultsViewState& state, ResultsViewResult& res
   const DialogChoice choice = draw_dialog_buttons(ui, inside.take_bottom(48), tr("Unblind"),
                                                   !state.reason.empty(), entered);
   ui.end_dialog();
-  // Enter ends a field; where something is missing yet, it goes on.
+  // Enter ends a field. If something is still missing, the field gets the keyboard again.
   state.dialog_is_new = entered && !choice.done;
   result.unblind = choice.done;
   if (choice.done || choice.cancelled) state.asks_to_unblind = false;
 }
 
-/// As many as the command has, a key each.
+/// Draws the dialog that asks for the format; each has a key.
 void draw_export_dialog(Ui& ui, ResultsViewState& state, ResultsViewResult& result) {
   struct Format {
     const char *name, *label, *words;
@@ -191,7 +191,7 @@ void draw_export_dialog(Ui& ui, ResultsViewState& state, ResultsViewResult& resu
   if (cancelled || result.export_as) state.asks_for_format = false;
 }
 
-/// What came of the last work, and a way to it.
+/// Draws how the last work ended, and a button that opens what it wrote.
 void draw_written_card(Ui& ui, Rect& rest, const StudyWork& work, ResultsViewResult& result) {
   const Rect card = rest.take_bottom(42 + 2 * 12, kGap);
   ui.card(card);
@@ -207,7 +207,7 @@ void draw_written_card(Ui& ui, Rect& rest, const StudyWork& work, ResultsViewRes
            .any_length = true});
 }
 
-/// What goes on, or what came of it, above the footer.
+/// Draws the work under way, or how it ended, above the footer.
 void draw_work_card(Ui& ui, Rect& rest, const ResultsViewModel& model,
                     ResultsViewResult& result) {
   if (model.work.running.empty()) {
@@ -246,7 +246,8 @@ ResultsViewResult draw_results_view(Ui& ui, const ResultsViewModel& model,
   } else {
     const ResultsModel& results = *model.results;
     const std::vector<ResultsPageLook> pages = pages_of(results);
-    // One person's own value and interval are what everybody's would be.
+    // With one participant, their own value and interval are shown, because everybody's would
+    // be the same.
     if (std::exchange(state.is_new, false) && results.rows.size() == 1) state.participant = 1;
     state.page = std::min(state.page, pages.size() - 1);
     state.participant = std::min(state.participant, results.rows.size());

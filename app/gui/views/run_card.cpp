@@ -1,4 +1,4 @@
-// The card in the middle where no trial is under way.
+// The card in the middle while no trial is under way.
 
 #include <algorithm>
 #include <array>
@@ -142,7 +142,7 @@ void draw_break(Ui& ui, const Rect& place, const SessionView& view, RunViewState
   stack.draw(place);
 }
 
-/// One sentence and one thing to do.
+/// Draws one sentence and one button.
 void draw_simple(Ui& ui, const Rect& place, const SessionView& view, const RowButton& button) {
   Stack stack(ui);
   add_heading(ui, stack, view);
@@ -157,7 +157,7 @@ void draw_simple(Ui& ui, const Rect& place, const SessionView& view, const RowBu
   stack.draw(place);
 }
 
-/// What brings the force back: the stop is released first, by an act of its own.
+/// The button that brings the force back. The stop is released first, by an act of its own.
 RowButton arming_button(const SessionView& view, RunViewResult& result) {
   const ButtonStyle style{.tone = Tone::kPrimary, .key = {Key::kEnter, true}, .large = true};
   if (view.stop_pressed) {
@@ -171,7 +171,7 @@ RowButton arming_button(const SessionView& view, RunViewResult& result) {
           [&] { result.requests.emplace_back(operate::Rearm{view.telemetry.num_faults}); }};
 }
 
-/// A device that nobody has armed yet: nothing is wrong.
+/// Draws the card of a device that nobody has armed yet, which is no fault.
 void draw_disarmed(Ui& ui, const Rect& place, const SessionView& view, RunViewResult& result) {
   ui.outline(place, Colour::kAmber, 10, 3);
   Stack stack(ui);
@@ -208,7 +208,7 @@ void draw_fault(Ui& ui, const Rect& place, const SessionView& view, RunViewResul
   stack.draw(inside.inset(10));
 }
 
-/// Points of the hand that should be looked after before something is felt.
+/// Draws the points of the hand that need attention before something is felt.
 void draw_points(Ui& ui, Rect& card, const SessionView& view, RunViewState& state) {
   const bool is_loose = !view.loose_points.empty();
   if (!is_loose && view.absent_points.empty()) return;
@@ -241,7 +241,7 @@ void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
                    RunViewState& state, RunViewResult& result) {
   ui.card(place);
   Rect inside = place;
-  // Below everything else of the card, as high as it takes.
+  // Draws words at the bottom of the card, as high as they need.
   const auto say = [&](const std::string& words, Font font) {
     const TextStyle amber{
         .font = font, .colour = Colour::kAmber, .align = Align::kCentre, .wrap = true};

@@ -1,4 +1,5 @@
-// What is asked before something is undone, noted or left. Escape stays the emergency stop.
+// The dialogs that ask before something is undone, noted or left. Escape remains the emergency
+// stop in them.
 
 #include <algorithm>
 #include <span>
@@ -62,8 +63,8 @@ DialogWords words_of(Dialog dialog) {
   return {"", "", "", "", false};
 }
 
-// Reasons that a key gives at once. A study keeps them as they stand here, whatever language
-// the window speaks.
+// Reasons that are chosen by one key. A study stores them in these English words, whatever the
+// window's language is.
 constexpr const char* kPauseReasons[] = {
     tr_later("the participant needs a rest"), tr_later("the participant has a question"),
     tr_later("the device is looked after"), tr_later("an interruption from outside")};
@@ -84,8 +85,8 @@ float room_of_dialog(const Ui& ui, float width) {
 constexpr float kReasonRow = 42;
 constexpr float kReasonGap = 8;
 
-/// One under the other, with their number keys; the last one is for words of one's own. True
-/// when one was chosen.
+/// Draws the reasons below each other, with number keys; the last one is for words of one's
+/// own. Returns true when one was chosen.
 bool draw_reasons(Ui& ui, Rect& inside, RunViewState& state) {
   const std::span<const char* const> reasons = reasons_of(state.dialog);
   bool is_chosen = false;
@@ -196,7 +197,7 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
   }
   ui.end_dialog();
   if (adverse) result.requests.emplace_back(operate::ReportAdverseEvent{state.reason});
-  // Enter without what is needed: the field keeps the keyboard.
+  // After Enter without the necessary words, the field keeps the keyboard.
   const bool opens_field = has_reasons && state.writes_reason;
   state.dialog_is_new = (entered && !done) || opens_field;
   if (done) request(view, state, result);

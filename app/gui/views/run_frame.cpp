@@ -1,4 +1,4 @@
-// What stands around the card: header, footer, list of stages, progress, last answers.
+// Everything around the card: header, footer, list of stages, progress and last answers.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace jnd::app::gui {
 namespace {
 
-/// It does not wait for the mouse to be released.
+/// The button acts when the mouse button goes down.
 constexpr ButtonStyle kStop{.tone = Tone::kDanger, .key = {Key::kEscape}, .at_once = true};
 constexpr const char* kStopLabel = tr_later("Emergency stop");
 constexpr float kStopMargin = 20;
@@ -22,7 +22,7 @@ struct Chip {
   Colour colour;
 };
 
-/// What a session is, the most important first.
+/// What kind of session it is, as chips; the most important one comes first.
 std::vector<Chip> chips_of(const SessionView& view) {
   std::vector<Chip> chips = {{view.participant, Colour::kBlue}};
   if (view.pilot) chips.push_back({tr("pilot: not data"), Colour::kPilot});
@@ -34,12 +34,12 @@ std::vector<Chip> chips_of(const SessionView& view) {
   return chips;
 }
 
-/// Of those chips that are never left out, with what is between them.
+/// The width of the chips that are never left out, and of the gaps between them.
 float least_title_width(const Ui& ui, const SessionView& view) {
   constexpr float kTitle = 40, kAfterTitle = 18, kBetween = 10;
   float width = kTitle + kAfterTitle;
   const std::vector<Chip> chips = chips_of(view);
-  // Who it is, and whether it is a pilot.
+  // The participant's chip, and the pilot's if there is one.
   const std::size_t never_left_out = view.pilot ? 2 : 1;
   for (std::size_t i = 0; i < std::min(chips.size(), never_left_out); ++i) {
     width += ui.chip_width(chips[i].words) + kBetween;
@@ -47,8 +47,8 @@ float least_title_width(const Ui& ui, const SessionView& view) {
   return width;
 }
 
-/// Title and chips. A long title gives way to who it is and whether it is a pilot; chips that
-/// then still have no room are left out from the end.
+/// Draws the title and the chips. A long title is shortened in favour of the participant and
+/// the pilot chip. Chips without room are left out from the end.
 void draw_title(Ui& ui, const Rect& strip, const SessionView& view) {
   constexpr float kBetween = 10;
   constexpr float kAfterTitle = 18;
@@ -70,8 +70,8 @@ void draw_title(Ui& ui, const Rect& strip, const SessionView& view) {
   }
 }
 
-/// What of the session's health stands in the footer: a dot, then words of which those
-/// *between stars* stand out.
+/// A part of the session's state in the footer: a dot and words. Words *between stars* are
+/// drawn stronger.
 struct Health {
   Colour dot;
   std::string words;
@@ -105,8 +105,8 @@ void draw_health(Ui& ui, float x, const Rect& strip, const Health& health, Font 
   }
 }
 
-/// From the left, as large and as far apart as there is room for. Where there is too little,
-/// what is well is left out from the end, and never what is not.
+/// Draws the parts from the left, as large and as far apart as there is room for. If there is
+/// too little room, good news is left out from the end, but never bad news.
 void draw_healths(Ui& ui, const Rect& strip, std::vector<Health> healths) {
   struct Look {
     Font font;
@@ -145,7 +145,7 @@ std::string loop_words(const LoopView& loop) {
          (loop.num_dropped_samples > 0 ? tr(" · samples lost") : "");
 }
 
-/// What of the session is on disk.
+/// How much of the session is on disk.
 std::string stored_up_to(const SessionView& view) {
   if (view.trials_on_disk > 0) return tr("On disk up to *trial {}*", view.trials_on_disk);
   if (view.last_sequence > 0) return tr("On disk up to *event {}*", view.last_sequence);
@@ -170,7 +170,7 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
   Rect strip = place.inset(0);
   strip.take_left(20);
   strip.take_right(kStopMargin);
-  // Drawn last, above every dialog.
+  // The stop is drawn last, above every dialog.
   strip.take_right(ui.button_width(tr(kStopLabel), kStop), 10);
   using Dialog = RunViewState::Dialog;
   const bool running = view.step != Step::kFailed && view.step != Step::kFinished;
@@ -199,7 +199,8 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
   const bool has_apparatus = running && !view.is_alone;
   const char* apparatus_label =
       state.shows_apparatus ? tr("Back to the session") : tr("Apparatus");
-  // Keys give way to who takes part and whether it is a pilot; then words are narrower.
+  // If room is short, keys are left out first, so that participant and pilot remain; then the
+  // buttons are narrower.
   const float room =
       strip.width - ui.text_width("jnd", Font::kLarge) - 18 - least_title_width(ui, view);
   const auto wanted = [&](bool has_keys) {
@@ -222,14 +223,14 @@ void draw_run_header(Ui& ui, const Rect& place, const SessionView& view, RunView
     const Rect its = strip.take_right(shrink * ui.button_width(command.label, style), 4);
     if (!ui.button(command.name, its.middle(its.width, 36), command.label, style)) continue;
     if (command.dialog == Dialog::kWhyPaused) {
-      // The hand is let go first; why is asked once the pause holds.
+      // The hand is released first; the reason is asked once the pause has begun.
       result.requests.emplace_back(operate::Pause{});
       state.asked_to_pause = true;
     } else {
       open_dialog(state, command.dialog);
     }
   }
-  // Who is alone would read the answer from it.
+  // A participant who is alone could read the answer from the apparatus.
   if (has_apparatus) {
     ButtonStyle style = apparatus_style;
     style.hides_key = !has_keys;
@@ -283,12 +284,13 @@ void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
   strip.take_left(20);
   strip.take_right(16);
   (void)strip.take_right(ui.button_width(tr("All keys"), keys),
-                         8);  // Drawn by the application.
+                         // The application draws this button.
+                         8);
   float wanted = 0;
   for (const Health& health : healths) {
     wanted += health_width(ui, health.words, Font::kSmall) + 26;
   }
-  // Its name stands where the session was prepared, too: it gives way first.
+  // The device's name is left out first, because the preparation shows it, too.
   const float width = ui.text_width(view.device, Font::kSmall) + 2;
   if (wanted + width <= strip.width) {
     ui.text(strip.take_right(width, 10), view.device,
@@ -302,7 +304,7 @@ void draw_stage_list(Ui& ui, const Rect& place, const SessionView& view) {
   Rect inside = place.inset(18);
   Rect times = inside.take_bottom(84, 10);
   ui.heading(inside.take_top(16, 10), tr("Session"));
-  // A long session shows the part around the stage under way.
+  // A long session shows the stages around the one under way.
   constexpr float kLine = 38, kNarrow = 220;
   const bool is_narrow = place.width < kNarrow;
   const auto room = static_cast<std::size_t>(std::max(1.0f, inside.height / kLine));
@@ -431,7 +433,7 @@ void draw_answers(Ui& ui, const Rect& place, const SessionView& view, RunViewSta
     cells = cells_of(line, columns, 10);
     Rect trial = cells[0];
     const float width = ui.text_width(label, Font::kBody) + 2;
-    // What speaks against it stands beside it where there is room, and is pointed at elsewhere.
+    // A hint stands beside the trial if there is room; otherwise the mouse shows it.
     constexpr float kLeastHint = 80;
     const bool has_hint = !answer.hint.empty() && trial.width - width - 14 >= kLeastHint;
     ui.text(has_hint ? trial.take_left(width, 14) : trial, label,

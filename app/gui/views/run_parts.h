@@ -9,7 +9,7 @@
 
 namespace jnd::app::gui {
 
-// The parts of the run view, a file each.
+// The parts of the run view, each in a file of its own.
 
 inline constexpr float kRunHeader = 56;
 
@@ -29,7 +29,7 @@ void draw_doubt_dialog(Ui& ui, const DoubtView& doubt, RunViewResult& result);
 void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
                      RunViewResult& result);
 
-/// The card in the middle, by what the session waits for.
+/// Draws the card in the middle, which depends on what the session waits for.
 void draw_run_card(Ui& ui, const Rect& place, const SessionView& view,
                    const std::vector<TracePoint>& trace, AfterSession& after,
                    RunViewState& state, RunViewResult& result);
@@ -40,10 +40,10 @@ void draw_item_card(Ui& ui, const Rect& place, const SessionView& view, RunViewS
                     RunViewResult& result);
 void draw_after_card(Ui& ui, const Rect& place, const SessionView& view, AfterSession& after,
                      RunViewState& state, RunViewResult& result);
-/// How high the pad is above that much else on a card: half of it wherever the rest has room,
-/// so that it stays where it is from step to step.
+/// The height of the pad on a card with `below` logical pixels of other things. It is half of
+/// the card if the rest has room, so that the pad keeps its size from step to step.
 [[nodiscard]] float pad_height(const Rect& card, float below) noexcept;
-/// Where the mouse moves the hand.
+/// Draws the pad on which the mouse moves the hand.
 void draw_pad(Ui& ui, const Rect& place, const SessionView& view,
               const std::vector<TracePoint>& trace, RunViewState& state);
 
@@ -62,20 +62,20 @@ struct ScaleForm {
 [[nodiscard]] int draw_scale(Ui& ui, const Rect& place, const ScaleForm& form,
                              ScaleTyping& typing);
 
-/// How high the row is that "Store as adverse event" needs of its own above the buttons of a
-/// dialog with so much room: 0 where it stands beside them.
+/// The height of an extra row for "Store as adverse event" above the buttons of a dialog with
+/// this width of `room`; 0 if the button fits beside them.
 [[nodiscard]] float adverse_row(const Ui& ui, float room, std::string_view verb,
                                 std::string_view adverse);
 
 void open_dialog(RunViewState& state, RunViewState::Dialog dialog);
-/// Why, once the pause that was asked for here holds.
+/// Asks for the reason once the pause that was requested here has begun.
 void ask_why_paused(const SessionView& view, RunViewState& state);
 
-/// "41:07"
+/// Minutes and seconds, such as "41:07"; with hours, such as "1:02:03".
 [[nodiscard]] std::string clock_words(double seconds);
-/// "18 min", "40 s"
+/// A duration in round words: "18 min", "40 s".
 [[nodiscard]] std::string about_words(double seconds);
-/// In typographic quotes; "" for nothing.
+/// The words in typographic quotes; "" if there are none.
 [[nodiscard]] std::string in_quotes(std::string_view words);
 
 }  // namespace jnd::app::gui

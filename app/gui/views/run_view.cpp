@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kFooter = 40;
 
-/// The sides give way before the card in the middle does.
+/// The sides become narrower before the card in the middle does.
 float left_width(float width) { return width < 1400 ? 188.0f : 236.0f; }
 float right_width(float width) {
   return width < 1400 ? 280.0f : std::min(width * 0.282f, 480.0f);
@@ -69,7 +69,7 @@ RunViewResult draw_run_view(Ui& ui, const SessionView& view,
   const Rect footer = rest.take_bottom(kFooter);
   rest = rest.inset(kGap);
   draw_stage_list(ui, rest.take_left(left_width(ui.screen().width), kGap), view);
-  // Who is alone would read the answer from it.
+  // A participant who is alone could read the answer from this panel.
   if (ui.screen().width >= 1000 && !view.is_alone) {
     draw_live_panel(ui, rest.take_right(right_width(ui.screen().width), kGap), view, trace);
   }
@@ -89,7 +89,7 @@ RunViewResult draw_run_view(Ui& ui, const SessionView& view,
     draw_doubt_dialog(ui, *view.doubt, result);
   }
   if (!state.is_covered) result.stop = draw_emergency_stop(ui);
-  // A field that comes back, after a stop or from below a dialog, takes the keyboard again.
+  // A field that is shown again, after a stop or a dialog, gets the keyboard again.
   const bool has_item =
       view.step == Step::kItem || view.step == Step::kFeeling || view.step == Step::kStageDone;
   if (!has_item || state.is_covered || has_dialog) {

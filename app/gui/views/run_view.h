@@ -12,15 +12,15 @@
 
 namespace jnd::app::gui {
 
-/// An answer that is being set right.
+/// An answer that is being corrected.
 struct CorrectState {
-  AnswerLine line;     ///< As it stood when somebody chose it.
-  std::string typed;   ///< Where it is a number.
-  bool is_new = true;  ///< Its field takes the keyboard.
+  AnswerLine line;     ///< The answer as it was when somebody chose it.
+  std::string typed;   ///< The text typed for a numeric answer.
+  bool is_new = true;  ///< The answer's field gets the keyboard.
   bool has_choice = false;
-  std::optional<double> value;  ///< What was chosen; none: "cannot tell".
-  bool runs_again = false;      ///< Instead of another answer.
-  bool asks_why = false;        ///< The field for the reason takes the keyboard.
+  std::optional<double> value;  ///< The value that was chosen; none means "cannot tell".
+  bool runs_again = false;      ///< The trial is run again instead of changing its answer.
+  bool asks_why = false;        ///< The reason's field gets the keyboard.
 };
 
 /// What was typed of a step on a scale of more than ten steps.
@@ -43,62 +43,73 @@ struct RunViewState {
     kGoOnWithout
   };
   Dialog dialog = Dialog::kNone;
-  bool dialog_is_new = false;    ///< Its first field takes the keyboard.
-  bool is_covered = false;       ///< By a dialog of the application, which then draws the stop.
-  bool shows_apparatus = false;  ///< Instead of the card and what is around it.
-  std::string reason;            ///< Or the note.
-  bool writes_reason = false;    ///< None of those that have a key of their own.
-  bool asked_to_pause = false;   ///< The pause that was asked for will have to be explained.
-  std::uint8_t given_up_bits = 0;  ///< Points, of the dialog that goes on without them.
-  CorrectState correct;            ///< Of the dialog that corrects.
+  bool dialog_is_new = false;  ///< The dialog's first field gets the keyboard.
+  /// A dialog of the application covers the view; the application then draws the stop.
+  bool is_covered = false;
+  /// The apparatus is shown instead of the card and what is around it.
+  bool shows_apparatus = false;
+  std::string reason;  ///< The reason, or the note.
+  /// The operator types a reason instead of choosing one by its key.
+  bool writes_reason = false;
+  /// The operator asked for a pause, which has to be explained once it has begun.
+  bool asked_to_pause = false;
+  /// The points that the operator gives up, one bit each, in the dialog that goes on without
+  /// them.
+  std::uint8_t given_up_bits = 0;
+  CorrectState correct;  ///< The state of the dialog that corrects an answer.
 
   std::string percent;                                  ///< Typed so far.
   std::int64_t percent_trial = 0, percent_attempt = 0;  ///< What it was typed for.
   ScaleTyping scale;
   std::string item;  ///< Name of the item that `typed` belongs to.
   std::string typed;
-  bool says_yes = false;  ///< Of "yes, which?".
+  bool says_yes = false;  ///< The answer to "yes, which?" is yes so far.
   bool item_is_new = false;
-  double item_since_s = 0.0;  ///< On the screen; the frames' time.
-  std::string changed_item;   ///< Of a questionnaire: answered already, asked again.
-  std::string item_problem;   ///< Why what is typed is no answer.
+  /// Since when the item has been on the screen, in the frames' time.
+  double item_since_s = 0.0;
+  /// An item of a questionnaire that was answered already and is asked again.
+  std::string changed_item;
+  std::string item_problem;  ///< Why what was typed is no answer.
   float consent_height = 0;
 
-  /// Where the mouse moves the hand, and how many metres a logical pixel is; empty without.
+  /// The place where the mouse moves the hand, and the metres for each logical pixel. The place
+  /// is empty if there is no pad.
   Rect pad;
   double pad_m_per_px = 0.0;
 };
 
-/// After the last event: what was checked and where a copy is.
+/// The check and the backup after the session's last event.
 struct AfterSession {
   bool checking = false, backing_up = false;
   double progress = 0.0;
-  std::string check, backup;  ///< Sentences; "" before.
+  /// How the check and the backup ended, in a sentence each; "" before.
+  std::string check, backup;
   bool check_failed = false, backup_failed = false;
-  bool backup_has_caution = false;  ///< It is there, but not as safe as it should be.
-  std::string backup_folder;        ///< Known, or proposed.
+  /// The backup was made, but it is not as safe as it should be.
+  bool backup_has_caution = false;
+  std::string backup_folder;  ///< A known backup's folder, or a proposal.
 };
 
 struct RunViewResult {
   std::vector<OperatorRequest> requests;
-  bool stop = false;     ///< The emergency stop's button was pressed.
-  bool back_up = false;  ///< Into `AfterSession::backup_folder`.
+  bool stop = false;     ///< The button of the emergency stop was pressed.
+  bool back_up = false;  ///< Backs the study up into `AfterSession::backup_folder`.
   bool to_results = false;
   bool to_sessions = false;  ///< The session is over, or was left.
 };
 
-/// The session under way. `trace`: of the hand, empty where levels are hidden.
+/// Draws the session under way. `trace` is the hand's way; it is empty where levels are hidden.
 [[nodiscard]] RunViewResult draw_run_view(Ui& ui, const SessionView& view,
                                           const std::vector<TracePoint>& trace,
                                           AfterSession& after, RunViewState& state);
 
-/// The button at the right of the header, to be drawn after any dialog: what is drawn below one
-/// cannot be used. True when it was pressed.
+/// Draws the emergency stop at the right of the header. Draw it after any dialog, because what
+/// is drawn below one cannot be used. Returns true when it was pressed.
 [[nodiscard]] bool draw_emergency_stop(Ui& ui);
-/// How much of the header it takes.
+/// The width that the stop takes of the header.
 [[nodiscard]] float emergency_stop_width(const Ui& ui);
 
-/// Asks whether to leave a session that goes on, as when the window is being closed.
+/// Asks whether to leave a session that goes on, for example when the window is being closed.
 void ask_to_leave(RunViewState& state);
 
 }  // namespace jnd::app::gui

@@ -43,7 +43,7 @@ PlotSeries scope_curve(const std::vector<ScopePoint>& points, const ScopePicture
     series.x.push_back(time_s - picture.newest_s);
     series.y.push_back(value);
   };
-  // Columns stand still in time, so that a curve does not flicker as it moves on.
+  // The columns are fixed in time, so that a moving curve does not flicker.
   const auto column_of = [&](const ScopePoint& point) {
     return std::floor(point.time_s / column_s);
   };

@@ -35,7 +35,7 @@ std::string value_words(const ScopePoint& point, const std::string& unit) {
   return unit.empty() ? words : words + " " + unit;
 }
 
-/// One scope; where its curve is.
+/// Draws one scope and returns the place of its curve.
 std::optional<PlotArea> draw_scope(Ui& ui, const Rect& place, int number,
                                    const std::vector<ScopePoint>& points,
                                    const ScopePicture& picture, ScopePanelState& state) {
@@ -65,14 +65,14 @@ std::optional<PlotArea> draw_scope(Ui& ui, const Rect& place, int number,
   plot.x = {.minimum = -kScopeSeconds, .maximum = 0.0, .tick_suffix = " s"};
   const AxisRange range = scope_range(points, channel.unit);
   plot.series.push_back(scope_curve(points, picture, inside, range));
-  // Two numbers at least: one alone tells no scale.
+  // There are at least two numbers, because a single one tells no scale.
   const int num_ticks = std::max(4, static_cast<int>(inside.height / 30));
   plot.y = {.unit = channel.unit, .minimum = range.low, .maximum = range.high};
   plot.y.ticks = linear_ticks(range, num_ticks);
   return draw_plot(ui, inside, plot);
 }
 
-/// The value at the time under the mouse, else the newest, at the head's right end.
+/// Draws a value at the right end of the head: the one at the mouse's time, or the newest one.
 void draw_value(Ui& ui, const Rect& place, const std::vector<ScopePoint>& points,
                 const std::string& unit, std::optional<double> time_s) {
   if (points.empty()) return;
@@ -80,7 +80,8 @@ void draw_value(Ui& ui, const Rect& place, const std::vector<ScopePoint>& points
     return std::abs(point.time_s - time_s.value_or(points.back().time_s));
   });
   Rect head = place.inset(kInset).take_top(kHead);
-  head.take_right(12);  // As far as the curve.
+  // Ends where the curve ends.
+  head.take_right(12);
   ui.text(head.take_right(head.width * 0.37f), value_words(*nearest, unit),
           {.font = Font::kSmallStrong, .align = Align::kRight});
 }

@@ -11,7 +11,7 @@ namespace jnd::app::gui {
 namespace {
 
 constexpr float kSessionHeight = 38;
-/// From the dot of a state to its word.
+/// The distance from the dot of a state to its word.
 constexpr float kAfterDot = 17;
 
 const InterruptedSession* interrupted_in(const StudyFolder& study, std::int64_t session) {
@@ -21,7 +21,8 @@ const InterruptedSession* interrupted_in(const StudyFolder& study, std::int64_t 
   return nullptr;
 }
 
-/// The one that is selected; else the one interrupted last.
+/// The selected session if it can be resumed; if none is selected, the one that was interrupted
+/// last.
 const InterruptedSession* resumable(const StudyFolder& study, std::int64_t selected) {
   if (selected != 0) return interrupted_in(study, selected);
   return study.interrupted.empty() ? nullptr : &study.interrupted.front();
@@ -61,7 +62,7 @@ std::vector<ColumnLook> all_columns_of(const Ui& ui, const StudyFolder& study) {
   if (!study.hides_levels) columns.push_back({tr("Order"), 2.0f});
   columns.push_back({tr("Marks"), 1.0f});
   need_room_for_titles(ui, columns);
-  // Of very many sessions, as many as tell how long the words are.
+  // If there are very many sessions, these are enough to know how long the words are.
   constexpr std::size_t kMostLooked = 60;
   constexpr float kMostOrder = 150;
   const std::size_t order = study.hides_levels ? columns.size() : columns.size() - 2;
@@ -82,8 +83,8 @@ std::vector<ColumnLook> all_columns_of(const Ui& ui, const StudyFolder& study) {
   return columns;
 }
 
-/// Of a table of this width. The device stands on the session's page, too: it gives way where
-/// the words of the other columns have too little room.
+/// The columns of a table of this width. The device is left out first if the other columns have
+/// too little room, because the session's page shows it, too.
 std::vector<ColumnLook> columns_of(const Ui& ui, const StudyFolder& study, float width,
                                    bool& has_device) {
   std::vector<ColumnLook> columns = all_columns_of(ui, study);
@@ -126,7 +127,7 @@ void draw_session(Ui& ui, const Rect& row, const StudyFolder& study, const Sessi
   ui.text(cells[next], marks_of(line), {.font = Font::kSmall, .colour = Colour::kAmber});
 }
 
-/// Arrow keys go through the rows, whose place is drawn at the heading.
+/// The arrow keys go through the rows; the caps of the keys are drawn at the heading.
 void move_selection(Ui& ui, const StudyFolder& study, SessionsViewState& state) {
   const auto found = std::ranges::find(study.sessions, state.selected, &SessionLine::session);
   std::optional<std::size_t> place;
@@ -179,7 +180,7 @@ void draw_table(Ui& ui, const Rect& place, const StudyFolder& study, SessionsVie
 bool is_low(const Ui& ui) { return ui.screen().height < 760; }
 float height_of_fact(const Ui& ui) { return is_low(ui) ? 25 : 28; }
 
-/// A soft name, and a value that stands out.
+/// Draws a name in soft letters and its value in strong ones.
 void draw_fact(Ui& ui, Rect& inside, const std::string& name, const std::string& value,
                Colour colour = Colour::kInk) {
   draw_name_and_value(ui, inside.take_top(height_of_fact(ui)), name, {.colour = Colour::kSoft},

@@ -12,29 +12,30 @@
 
 namespace jnd::app::gui {
 
-/// What the application does beside the window for this view.
+/// The work that the application does in the background for this view.
 struct StudyWork {
-  std::string running;  ///< "Verifying"; "" for nothing.
+  std::string running;  ///< What the work is, such as "Verifying"; "" if none runs.
   double progress = 0.0;
-  ActionOutcome outcome;  ///< Of the last; its sentence is "" before any.
+  ActionOutcome outcome;  ///< How the last work ended; its sentence is "" before any has.
 };
 
 struct SessionsViewState {
-  std::int64_t selected = 0;  ///< Session; 0 for none.
+  std::int64_t selected = 0;  ///< The chosen session; 0 for none.
   bool asks_for_backup = false;
   bool dialog_is_new = false;
-  std::string backup_folder;  ///< Proposed by the application: the known one, or beside it.
+  /// The application proposes a known backup's folder, or a new one beside the study.
+  std::string backup_folder;
   DoubleClick clicks;
-  float column_height = 0;  ///< Of what stands beside the table.
+  float column_height = 0;  ///< The height of the column beside the table.
 };
 
 struct SessionsViewResult {
   StudyTab tab = StudyTab::kNone;
   bool new_session = false;
   std::optional<std::int64_t> resume;
-  std::optional<std::int64_t> show;  ///< The page of this session.
+  std::optional<std::int64_t> show;  ///< Shows this session's page.
   bool verify = false;
-  bool back_up = false;  ///< Into `backup_folder`.
+  bool back_up = false;  ///< Backs the study up into `backup_folder`.
   bool cancel = false;
 };
 

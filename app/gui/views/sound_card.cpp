@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostOutputs = 6;
 
-/// Outputs one below the other, the key on the one that comes next.
+/// Draws the outputs below each other. The key chooses the next one.
 bool draw_outputs(Ui& ui, Rect& inside, const SoundModel& model, std::string& output) {
   std::vector<SoundModel::Output> all(
       model.outputs.begin(), model.outputs.begin() + static_cast<std::ptrdiff_t>(std::min(

@@ -8,34 +8,36 @@
 
 namespace jnd::app::gui {
 
-/// What stands before a session of what its participant will hear.
+/// What the participant of a session will hear, as the view before the session shows it.
 struct SoundModel {
   bool is_wanted = false;  ///< The study has sound.
   struct Output {
     std::string name, description;
     bool is_calibrated = false;
   };
-  std::vector<Output> outputs;      ///< Without "off".
-  std::vector<std::string> levels;  ///< "Pink noise, 65 dB SPL, -36.5 dB re full scale."
-  std::string problem;  ///< Why it cannot be heard from the chosen output; "" if it can.
+  std::vector<Output> outputs;  ///< The outputs, without "off".
+  /// Levels in words, such as "Pink noise, 65 dB SPL, -36.5 dB re full scale."
+  std::vector<std::string> levels;
+  /// Why the sound cannot be heard from the chosen output; "" if it can.
+  std::string problem;
   bool is_required = false;
-  bool is_tested = false;  ///< A test plays.
+  bool is_tested = false;  ///< A test sound is playing.
 };
 
 struct SoundCardResult {
   bool output_changed = false;
-  bool test = false;  ///< Play, or end what plays.
+  bool test = false;  ///< Begins the test sound, or ends it if it is playing.
 };
 
-/// Outputs to choose from and "off", how loud it will be, and a test. Nothing where the study
-/// has no sound. Takes what it needs off the top of `inside`.
+/// Draws the outputs to choose from and "off", how loud the sound will be, and a test. Takes
+/// its room off the top of `inside`. Draws nothing if the study has no sound.
 [[nodiscard]] SoundCardResult draw_sound_card(Ui& ui, Rect& inside, const SoundModel& model,
                                               std::string& output);
 
-/// The same as one of the lines that tell whether everything is ready.
+/// The sound as one of the lines that tell whether everything is ready.
 [[nodiscard]] PreflightLine sound_line(const SoundModel& model, const std::string& output);
 
-/// Why no session of the study begins, as far as sound is concerned; "" if one may.
+/// Why the sound keeps sessions of the study from beginning; "" if it does not.
 [[nodiscard]] std::string sound_obstacle(const SoundModel& model);
 
 }  // namespace jnd::app::gui

@@ -4,7 +4,7 @@
 
 namespace jnd::app::gui {
 
-/// Of the words of a card, by how much they stand out.
+/// The next smaller font for words on a card.
 static Font smaller_on_card(Font font) {
   switch (font) {
     case Font::kHuge:
@@ -90,7 +90,8 @@ void draw_button_row(Ui& ui, const Rect& strip, const std::vector<RowButton>& bu
     widths.push_back(std::max(width, ui.button_width(button.label, button.style)));
     sum += widths.back() + kBetween;
   }
-  // Where room is short the widest become narrower, and their words smaller or on two lines.
+  // If room is short, the widest buttons become narrower, with their words in smaller letters
+  // or on two lines.
   if (sum > strip.width) {
     const float gaps = kBetween * static_cast<float>(buttons.size() - 1);
     float most = (strip.width - gaps) / static_cast<float>(buttons.size());

@@ -9,17 +9,17 @@
 
 namespace jnd::app::gui {
 
-/// Things one under the other in the middle of a card.
+/// Things below each other in the middle of a card.
 class Stack {
  public:
   explicit Stack(Ui& ui) : ui_(ui) {}
 
-  /// `draw` gets a rectangle of the card's width and this height.
+  /// Adds a thing. `draw` gets a rectangle of the card's width and this height.
   void add(float height, float gap_after, std::function<void(const Rect&)> draw);
-  /// Centred words, wrapped; nothing for none.
+  /// Adds words, centred and wrapped; adds nothing if there are none.
   void add_text(std::string_view words, Font font, Colour colour, float width, float gap_after);
-  /// Draws everything, in the middle of the card. Where there is too little room, gaps give way
-  /// first, then letters are smaller, and at last it scrolls.
+  /// Draws everything in the middle of the card. If there is too little room, first the gaps
+  /// become smaller, then the letters; at last the card scrolls.
   void draw(const Rect& card);
   [[nodiscard]] float height() const noexcept;
 
@@ -27,7 +27,7 @@ class Stack {
   struct Part {
     float height, gap_after;
     std::function<void(const Rect&)> draw;
-    std::string words;  ///< Of a text.
+    std::string words;  ///< The words, if this part is a text.
     Font font = Font::kBody;
     Colour colour = Colour::kInk;
     float width = 0;
@@ -44,7 +44,8 @@ struct RowButton {
   ButtonStyle style;
   std::function<void()> act;
 };
-/// Buttons side by side in the middle of a strip; wide ones where `width` > 0.
+/// Draws buttons side by side in the middle of a strip. If `width` > 0, each is at least so
+/// wide.
 void draw_button_row(Ui& ui, const Rect& strip, const std::vector<RowButton>& buttons,
                      float width = 0.0f);
 

@@ -26,21 +26,22 @@ std::size_t num_cards(const StartModel& model) {
   return model.drafts.size() + model.shipped.size();
 }
 
-/// Drafts first; nullptr for none.
+/// The card at this place, counting drafts first; nullptr if there is none.
 const StudyCard* card_at(const StartModel& model, std::size_t place) {
   if (place < model.drafts.size()) return &model.drafts[place];
   place -= model.drafts.size();
   return place < model.shipped.size() ? &model.shipped[place] : nullptr;
 }
 
-/// What the new study is begun with: a path, or the name of a shipped one; "" for nothing.
+/// The file that the new study begins with: a path, or the name of a shipped study; "" for
+/// none.
 std::string study_of(const StartModel& model, const StartViewState& state) {
   if (!state.study_file.empty()) return typed_path(state.study_file).string();
   const StudyCard* card = card_at(model, state.chosen_card);
   return card == nullptr ? "" : card->name;
 }
 
-/// A place for the study, unless one was typed.
+/// Proposes a folder for the study, unless the person typed one.
 void propose_folder(const StartModel& model, StartViewState& state) {
   if (state.new_folder != state.proposed_folder) return;
   const std::string name = fs::path(study_of(model, state)).stem().string();
@@ -55,7 +56,8 @@ void draw_problem(Ui& ui, Rect& inside, const std::string& problem) {
   ui.text(inside.take_bottom(height, 8), problem, style);
 }
 
-/// What a study is for, how long it takes, whom it follows.
+/// Draws a card that says what a study is for, how long it takes, and which publication it
+/// follows.
 bool draw_card_of_study(Ui& ui, const std::string& name, const Rect& place,
                         const StudyCard& card, const Chord& key, bool is_chosen) {
   if (is_chosen) ui.fill(place, Colour::kBlueSoft, 9);
@@ -158,7 +160,7 @@ void draw_new_dialog(Ui& ui, const StartModel& model, StartViewState& state,
   const bool ready = !study_of(model, state).empty() && !state.new_folder.empty();
   const DialogChoice choice = draw_dialog_buttons(ui, buttons, tr("Begin"), ready, entered);
   ui.end_dialog();
-  // Enter ends a field; where something is missing yet, it goes on.
+  // Enter ends a field. If something is still missing, the field gets the keyboard again.
   state.dialog_is_new = entered && !choice.done;
   if (choice.done) result.create = {study_of(model, state), typed_path(state.new_folder)};
   if (choice.done || choice.cancelled) state.dialog = StartViewState::Dialog::kNone;

@@ -11,7 +11,7 @@ void open_open_dialog(StartViewState& state);
 
 void draw_new_dialog(Ui& ui, const StartModel& model, StartViewState& state,
                      StartViewResult& result);
-/// Finds a study file for the new study.
+/// Draws the dialog that finds a study file for the new study.
 void draw_browse_dialog(Ui& ui, const EntriesOf& entries_of, StartViewState& state);
 void draw_open_dialog(Ui& ui, const EntriesOf& entries_of, StartViewState& state,
                       StartViewResult& result);

@@ -15,7 +15,7 @@ constexpr float kStudyCard = 76;
 constexpr float kBetweenCards = 12;
 bool is_small(const Ui& ui) { return ui.screen().height < 860; }
 float gap_between_groups(const Ui& ui) { return is_small(ui) ? 14 : 2 * kGap; }
-/// So many cards leave room for the studies.
+/// With so many cards, the studies still have room.
 std::size_t most_resumes(const Ui& ui) { return is_small(ui) ? 1 : 2; }
 constexpr std::size_t kMostKeys = 9;
 
@@ -24,7 +24,7 @@ struct Open {
   const InterruptedSession* session;
 };
 
-/// Interrupted sessions, those of the study opened last first.
+/// Interrupted sessions; those of the study that was opened last come first.
 std::vector<Open> interrupted_in(const StartModel& model) {
   std::vector<Open> all;
   for (const StartModel::Study& study : model.studies) {
@@ -43,10 +43,10 @@ std::string safe_words(const Open& open) {
   return words + " · " + open.session->safe() + ".";
 }
 
-/// Returns the height it took.
+/// Draws the card of an interrupted session. Returns its height.
 float draw_resume_card(Ui& ui, const Rect& top, const Open& open, std::size_t place,
                        bool has_chosen, StartViewResult& result) {
-  // While arrow keys have come to a study, Enter opens that.
+  // While the arrow keys have reached a study, Enter opens that study instead.
   const Chord key =
       place == 0 && has_chosen ? Chord{} : Chord{.key = Key::kEnter, .control = place > 0};
   const ButtonStyle style{.tone = place == 0 ? Tone::kPrimary : Tone::kPlain, .key = key};
@@ -72,7 +72,7 @@ float draw_resume_card(Ui& ui, const Rect& top, const Open& open, std::size_t pl
   return height;
 }
 
-/// Returns the height of all of them.
+/// Draws the cards of interrupted sessions. Returns the height of all.
 float draw_resume_cards(Ui& ui, Rect column, const StartModel& model,
                         const StartViewState& state, StartViewResult& result) {
   const std::vector<Open> all = interrupted_in(model);
@@ -114,7 +114,7 @@ void draw_study_card(Ui& ui, const Rect& card, const StartModel::Study& study,
     const Rect cap = inside.take_right(ui.key_cap_width(shown), 16);
     ui.key_cap(cap.x, cap.y + (cap.height - 20) / 2, shown);
   }
-  // Long words about it stand on two lines.
+  // A long summary takes two lines.
   const bool is_long = ui.text_width(study.summary, Font::kSmall) > inside.width;
   inside = inside.middle(inside.width, is_long ? 56 : 44);
   ui.text(inside.take_top(22), study.title, {.font = Font::kStrong, .any_length = true});
@@ -178,7 +178,7 @@ void draw_tour(Ui& ui, Rect& column, StartViewResult& result) {
   }
 }
 
-/// For who has answers already, wherever they are from.
+/// Draws the entry for people who already have answers, wherever they come from.
 void draw_own_data(Ui& ui, Rect& column, StartViewResult& result) {
   ui.heading(column.take_top(18, 10), tr("Your own data"));
   const Rect card = column.take_top(is_small(ui) ? 64 : kStudyCard, gap_between_groups(ui));
@@ -252,7 +252,7 @@ StartViewResult draw_start_view(Ui& ui, const StartModel& model, const EntriesOf
   constexpr float kBetweenColumns = 48;
   Rect left = rest.take_left((rest.width - kBetweenColumns) / 2, kBetweenColumns);
   Rect right = rest;
-  // First of all, for what Enter does depends on it.
+  // The list's keys come first, because Enter's meaning depends on them.
   if (move_in_list(ui, model.studies.size(), state.study)) {
     ui.scroll_into_view(
         "studies", (kStudyCard + kBetweenCards) * static_cast<float>(*state.study), kStudyCard);

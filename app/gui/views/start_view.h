@@ -13,18 +13,20 @@
 
 namespace jnd::app::gui {
 
-/// What the start view shows. Studies were opened lately; one that cannot be read says why.
+/// What the start view shows. The studies are recent ones; a study that cannot be read says
+/// why.
 struct StartModel {
   struct Study {
     std::filesystem::path path;
-    std::optional<StudyFolder>
-        folder;                  ///< Nothing for a study file, or where it cannot be read.
-    std::string title, summary;  ///< In words, also of a file with problems.
+    std::optional<StudyFolder> folder;  ///< None for a file, or if it is unreadable.
+    /// In words, also for a file with problems.
+    std::string title, summary;
   };
-  std::vector<Study> studies;          ///< The newest first.
-  std::vector<PreflightLine> machine;  ///< Empty until it was looked at.
-  std::vector<StudyCard> drafts;       ///< Study files of one's own, the newest first.
-  std::vector<StudyCard> shipped;      ///< Studies that come with the program, by title.
+  std::vector<Study> studies;          ///< The newest study comes first.
+  std::vector<PreflightLine> machine;  ///< Empty until the machine was looked at.
+  std::vector<StudyCard> drafts;       ///< The user's own study files, the newest first.
+  /// Studies that come with the program, sorted by title.
+  std::vector<StudyCard> shipped;
   std::string version;
 };
 
@@ -33,13 +35,14 @@ struct StartViewState {
   enum class Dialog { kNone, kNew, kOpen, kBrowse };
   Dialog dialog = Dialog::kNone;
   bool dialog_is_new = false;
-  std::optional<std::size_t> study;  ///< Of those opened lately, that arrow keys have come to.
-  std::size_t chosen_card = 0;       ///< Drafts first, then shipped ones.
-  std::string study_file;            ///< Typed instead of a card; "" for none.
-  std::string new_folder;            ///< Where the new study goes.
-  std::string proposed_folder;       ///< What stood there before anybody typed.
+  std::optional<std::size_t> study;  ///< The recent study that the arrow keys have reached.
+  /// The place of the chosen card; drafts come first, then shipped studies.
+  std::size_t chosen_card = 0;
+  std::string study_file;       ///< A file typed instead of choosing a card; "" for none.
+  std::string new_folder;       ///< The folder of the new study.
+  std::string proposed_folder;  ///< The last proposal for `new_folder`.
   FileDialogState opening;
-  std::string problem;  ///< Why the last attempt did not work.
+  std::string problem;  ///< Why the last attempt failed.
 };
 
 struct StartViewResult {
@@ -48,15 +51,15 @@ struct StartViewResult {
     std::int64_t session = 0;
   };
   std::optional<Resume> resume;
-  std::optional<std::filesystem::path> open;  ///< Folder or study file.
+  std::optional<std::filesystem::path> open;  ///< A folder or a study file.
   struct New {
-    std::string study;  ///< Name of a shipped study, or a path.
+    std::string study;  ///< The name of a shipped study, or a path.
     std::filesystem::path folder;
   };
   std::optional<New> create;
   bool start_tour = false;
-  bool device = false;  ///< Its view.
-  bool data = false;    ///< That of somebody's own table.
+  bool device = false;  ///< Shows the device's view.
+  bool data = false;    ///< Shows the view of somebody's own table.
 };
 
 [[nodiscard]] StartViewResult draw_start_view(Ui& ui, const StartModel& model,

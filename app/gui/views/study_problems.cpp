@@ -18,7 +18,7 @@ std::string place_words(const experiments::StudyProblem& problem) {
                           : std::string(tr("the file as a whole"));
 }
 
-/// What is wrong, and where, in the file's own text.
+/// Draws the file's text around a problem, and marks the place of the problem.
 void draw_excerpt(Ui& ui, const Rect& place, const FileExcerpt& excerpt) {
   ui.fill(place, Colour::kGround, 6);
   Rect inside = place.inset(6);

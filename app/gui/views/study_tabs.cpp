@@ -71,7 +71,7 @@ StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& stud
   const float title = ui.text_width(study.title, Font::kBody) + 2;
   float chips = 0;
   for (const HeaderChip& chip : chips_of(study)) chips += ui.chip_width(chip.words) + 10;
-  // The words in the middle of the view say the same where there is no room for chips.
+  // If there is no room for chips, the words in the middle of the view say the same.
   const bool has_chips = strip.width >= std::min(title, 180.0f) + 8 + chips;
   const float room = has_chips ? strip.width - chips - 8 : strip.width;
   const Rect words = strip.take_left(std::min(title, room), 18);

@@ -30,31 +30,30 @@ inline constexpr StudyTab StudyTab::kOverview{"overview"};
 struct StudyTabLook {
   StudyTab tab;
   const char *name, *label;
-  char digit;  ///< Its key, with Ctrl.
+  char digit;  ///< The tab's key, with Ctrl.
 };
 /// Every tab, from the right: the larger digits first.
 [[nodiscard]] std::vector<StudyTabLook> study_tabs();
 
-/// At the right end of a header's strip, which it shortens; `kept` of it stays free. Where
-/// there is too little room, keys give way, then words are smaller. Returns the tab that was
-/// chosen.
+/// Draws tabs at the right end of a header's strip and shortens the strip; `kept` of it stays
+/// free. If there is too little room, keys are left out, then words are smaller. Returns the
+/// tab that was chosen.
 [[nodiscard]] StudyTab draw_tabs(Ui& ui, Rect& strip, const std::vector<StudyTabLook>& tabs,
                                  StudyTab current, float kept);
 
-/// The header of every view of a study: its name, its marks, and the tabs. Leaves room at the
-/// right for a view's own buttons: `own_buttons` is that rectangle. Returns the tab that was
-/// chosen.
+/// The result of the header that every view of a study has: its name, its marks, and the tabs.
+/// `own_buttons` is the rectangle at the right for the view's own buttons.
 struct StudyHeader {
   StudyTab chosen = StudyTab::kNone;
   Rect own_buttons;
   bool shows_marks = false;  ///< There was room to say that the data are simulated.
 };
-/// `own_width`: how wide the view's own buttons are together.
+/// Draws the header. `own_width` is the width of all of the view's own buttons.
 [[nodiscard]] StudyHeader draw_study_header(Ui& ui, const Rect& place, const StudyFolder& study,
                                             StudyTab current, float own_width = 0);
 
-/// The footer of these views: `left`, what came of the last work, and `right` in words.
-/// `is_path`: what is at the right is one.
+/// Draws the footer of these views: `left`, which says how the last work ended, and `right`.
+/// `is_path` tells that `right` is a path.
 void draw_study_footer(Ui& ui, const Rect& place, const std::string& left,
                        const std::string& right, bool is_path = false);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMostParticipants = 60;
 
-/// The header where there is a file alone, and so neither sessions nor results.
+/// Draws the header for a file alone, which has neither sessions nor results.
 StudyTab draw_file_header(Ui& ui, const Rect& place, const StudyViewModel& model,
                           StudyViewState& state) {
   const StudyOutline& outline = model.outline;

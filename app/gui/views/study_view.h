@@ -13,29 +13,30 @@
 namespace jnd::app::gui {
 
 struct StudyViewModel {
-  const StudyFolder* study = nullptr;  ///< Of the folder; nullptr for a file alone.
+  const StudyFolder* study = nullptr;  ///< The open study folder; nullptr for a file alone.
   const StudyOutline& outline;
   const std::vector<PlannedOrder>& orders;
-  std::string orders_problem;  ///< Why there are none; "" otherwise.
+  std::string orders_problem;  ///< Why there are no orders; "" otherwise.
   int num_reloads = 0;
   double since_reload_s = 0.0;
-  std::string proposed_folder{};  ///< For a study that is begun with a file alone.
+  /// The folder proposed for a study of which only the file exists.
+  std::string proposed_folder{};
 };
 
 struct StudyViewState {
-  int num_participants = 8;  ///< Whose orders are shown.
+  int num_participants = 8;  ///< How many participants' orders are shown.
   float outline_height = 0, orders_height = 0;
-  std::optional<std::size_t> problem;  ///< That arrow keys have come to.
+  std::optional<std::size_t> problem;  ///< The problem that the arrow keys have reached.
   bool asks_for_folder = false, dialog_is_new = false;
-  std::string new_folder;      ///< Of the study that is begun with the file.
-  std::string folder_problem;  ///< Why it cannot be; "" otherwise.
+  std::string new_folder;      ///< The folder of the study that begins with the file.
+  std::string folder_problem;  ///< Why the folder cannot be used; "" otherwise.
 };
 
 struct StudyViewResult {
   StudyTab tab = StudyTab::kNone;
-  bool orders_changed = false;  ///< `num_participants` is another one.
-  bool edit = false;            ///< The file, with another program.
-  bool begin = false;           ///< A study with the file, in `new_folder`.
+  bool orders_changed = false;  ///< `num_participants` has changed.
+  bool edit = false;            ///< Opens the file with another program.
+  bool begin = false;           ///< Begins a study with the file, in `new_folder`.
 };
 
 [[nodiscard]] StudyViewResult draw_study_view(Ui& ui, const StudyViewModel& model,

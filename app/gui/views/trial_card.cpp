@@ -1,4 +1,4 @@
-// The card of a trial: which fluid, what to ask, the answers.
+// The card of a trial: which fluid is felt, what to ask, and the answers.
 
 #include <algorithm>
 #include <optional>
@@ -18,7 +18,7 @@ using experiments::StepSize;
 constexpr float kAnswerButton = 84;
 constexpr float kSmallButton = 46;
 
-/// An interval of a trial, as requests name it, and what its buttons say.
+/// An interval of a trial: its name in requests, and the labels of its buttons.
 struct Interval {
   const char *name, *present, *again, *back, *button;
   Key key;
@@ -54,12 +54,12 @@ constexpr Interval kThird = {"third",
                              "present_third",
                              Key::kDown};
 
-/// Of the trial, by its name.
+/// The interval with this name.
 const Interval& interval_named(const std::string& name) {
   return name == kFirst.name ? kFirst : name == kSecond.name ? kSecond : kThird;
 }
 
-/// What is felt first, and what the question is about.
+/// The interval that is felt first.
 const Interval& first_of(const TrialView& trial) {
   return trial.order_is_drawn ? kFirst : trial.has_reference ? kReference : kTest;
 }
@@ -98,9 +98,9 @@ bool is_typed(AnswerKind kind) {
   return kind == AnswerKind::kPercent || kind == AnswerKind::kNumber;
 }
 
-/// What can be typed as a percent or another number: digits and one point.
+/// Takes digits and one point, for a percentage or another number.
 void type_number(Ui& ui, const TrialView& trial, RunViewState& state) {
-  // An attempt that was undone or broken off takes what was typed with it.
+  // When an attempt is undone or broken off, what was typed for it is dropped.
   if (state.percent_trial != trial.trial || state.percent_attempt != trial.attempt) {
     state.percent_trial = trial.trial;
     state.percent_attempt = trial.attempt;
@@ -117,7 +117,7 @@ void type_number(Ui& ui, const TrialView& trial, RunViewState& state) {
 
 class TrialCard {
  public:
-  /// `width`: of the card.
+  /// `width` is the card's width.
   TrialCard(Ui& ui, float width, const SessionView& view, RunViewState& state,
             RunViewResult& result)
       : ui_(ui),
@@ -162,20 +162,20 @@ class TrialCard {
   }
 
  private:
-  /// What is felt has been felt for as long as the study asks.
+  /// True if the present stimulus has been felt for as long as the study asks.
   [[nodiscard]] bool may_go_on() const noexcept { return trial_.least_left_s <= 0.0; }
-  /// The pedal or button that does the same; "" for none.
+  /// The pedal or button for this action; "" if none is mapped.
   [[nodiscard]] std::string_view control_of(const std::string& action) const {
     const auto found = view_.controls.find(action);
     return found == view_.controls.end() ? std::string_view() : found->second;
   }
-  /// One of two actions may be mapped to it.
+  /// The control for either of two actions, whichever is mapped.
   [[nodiscard]] std::string_view control_of(const std::string& action,
                                             const std::string& other) const {
     const std::string_view found = control_of(action);
     return found.empty() ? control_of(other) : found;
   }
-  /// What is done next stands out where the experimenter does it.
+  /// The answers stand out if the experimenter gives them.
   [[nodiscard]] Tone answer_tone() const noexcept {
     return view_.participant_answers ? Tone::kPlain : Tone::kPrimary;
   }
@@ -199,7 +199,7 @@ class TrialCard {
                        .note = control_of("present")},
                       [&] { present(first.name); }}},
                     320);
-    // What it is called elsewhere does the same.
+    // The key that the interval has in other places works as well.
     if (ui_.pressed({first.key})) present(first.name);
   }
 
@@ -220,7 +220,7 @@ class TrialCard {
                        .note = control_of("present")},
                       [&] { present(next.name); }}},
                     320);
-    // As it is called everywhere else.
+    // The key that the interval has everywhere else works as well.
     if (!to_first && may_go_on() && ui_.pressed({next.key})) present(next.name);
   }
 
@@ -243,7 +243,7 @@ class TrialCard {
                           [&] { answer(0.0); }}});
   }
 
-  /// Of a choice; behind them "cannot tell", where that is an answer.
+  /// Draws the answers of a choice, followed by "cannot tell" if that is an answer.
   void draw_answers(const Rect& place, std::vector<RowButton> buttons) {
     if (trial_.takes_cannot_tell) {
       buttons.push_back({"answer_cannot_tell",
@@ -317,7 +317,8 @@ class TrialCard {
             }};
   }
 
-  /// In one row with "Matches" in the middle; on a narrow card below it.
+  /// Adds the steps in one row with "Matches" in the middle; on a narrow card, "Matches" is
+  /// below.
   void add_steps(Stack& stack) {
     const RowButton matches{"matches",
                             tr("Matches"),

@@ -10,9 +10,9 @@
 
 namespace jnd::app::gui {
 
-/// A number as people write it: digits, one point, a minus; no exponent and nothing besides.
-/// Where half is written "0,5" a comma is one, too; elsewhere it might mean thousands, and is
-/// none.
+/// Reads a number as people write it: digits, one point and a minus, but no exponent and
+/// nothing else. In languages that write a half as "0,5", a comma is a point, too; elsewhere a
+/// comma might mean thousands, and then it is no number.
 [[nodiscard]] inline std::optional<double> typed_number(
     std::string_view typed, bool takes_comma = writes_decimal_comma()) {
   std::string written(typed);
@@ -28,14 +28,15 @@ namespace jnd::app::gui {
   return value;
 }
 
-/// What is typed and is a number, as a study keeps it: with a point.
+/// Returns a typed number in the form in which a study stores it: with a point instead of a
+/// comma.
 [[nodiscard]] inline std::string with_point(std::string typed) {
   const std::size_t comma = typed.find(',');
   if (comma != std::string::npos) typed[comma] = '.';
   return typed;
 }
 
-/// Nothing that anybody could read.
+/// True if the text is empty or consists of white space only.
 [[nodiscard]] inline bool is_blank(std::string_view typed) noexcept {
   return typed.find_first_not_of(" \t\n") == std::string_view::npos;
 }

@@ -4,10 +4,10 @@
 
 namespace jnd::app::gui {
 
-/// How high it wants to be.
+/// The height that `draw_work` needs.
 [[nodiscard]] float work_height(const Ui& ui, float width, const StudyWork& work);
-/// What goes on beside the window with its progress and "Cancel" (F2), or what came of the last
-/// of it. Returns whether to cancel.
+/// Draws the work in the background with its progress and "Cancel" (F2), or how the last work
+/// ended. Returns true to cancel the work.
 [[nodiscard]] bool draw_work(Ui& ui, Rect place, const StudyWork& work);
 
 }  // namespace jnd::app::gui
