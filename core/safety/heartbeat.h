@@ -5,7 +5,7 @@
 
 namespace jnd::core {
 
-/// The sign of life of the thread that a person talks to. Real time, any thread.
+/// The sign of life of the thread that a person interacts with. Real time, any thread.
 class Heartbeat {
  public:
   void beat() noexcept { count_.fetch_add(1, std::memory_order_relaxed); }
@@ -17,16 +17,16 @@ class Heartbeat {
   std::atomic<std::uint64_t> count_{0};
 };
 
-/// The listening side, owned by the haptic loop. It counts ticks instead of reading a clock: a
-/// loop that stands still renders nothing either. Real time.
+/// Watches the heartbeat on the haptic loop's side. It counts ticks instead of reading a clock,
+/// because a loop that stands still renders nothing either. Real time.
 class HeartbeatMonitor {
  public:
-  /// `heartbeat` may be nullptr: a simulation, where silence means nothing.
+  /// `heartbeat` may be nullptr, for a simulation, in which silence means nothing.
   HeartbeatMonitor(const Heartbeat* heartbeat, std::int64_t timeout_ticks) noexcept
       : heartbeat_(heartbeat), timeout_ticks_(timeout_ticks) {}
 
-  /// Called once a tick; true once `timeout_ticks` have passed without a beat. The first tick
-  /// counts as a beat.
+  /// Call it once a tick. It returns true once `timeout_ticks` have passed without a beat. The
+  /// first tick counts as a beat.
   [[nodiscard]] bool is_silent() noexcept {
     if (heartbeat_ == nullptr) return false;
     const std::uint64_t count = heartbeat_->count();
@@ -35,7 +35,7 @@ class HeartbeatMonitor {
       silent_ticks_ = 0;
       return false;
     }
-    // Saturates, so that a night of silence does not overflow.
+    // The count saturates, so that a night of silence does not overflow it.
     if (silent_ticks_ < timeout_ticks_) ++silent_ticks_;
     return silent_ticks_ >= timeout_ticks_;
   }
