@@ -34,7 +34,7 @@ void MotionGuide::take_order(const core::HapticState& state) noexcept {
   if (!orders_.fetch()) return;
   num_ticks_ = 0;
   if (!was_held || !has_reference_) {
-    // From where it is, so that nothing jumps.
+    // The reference starts where the device is, so that nothing jumps.
     reference_m_ = mean_m(state);
     for (std::size_t i = 0; i < shares_.size(); ++i) {
       from_mean_m_[i] = state.tip_position_m[i] - reference_m_;
