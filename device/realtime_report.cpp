@@ -87,7 +87,8 @@ void obtain_scheduler(int priority, RealtimeReport& report) {
   sched_param given{};
   int policy = SCHED_OTHER;
   pthread_getschedparam(pthread_self(), &policy, &given);
-  // This serves systems whose timers are not exact. A real-time thread has exact timers anyway.
+  // Timers of ordinary threads become as exact as possible. A real-time thread has exact timers
+  // anyway.
   if (policy != SCHED_FIFO && policy != SCHED_RR) prctl(PR_SET_TIMERSLACK, 1UL);
   report.priority = given.sched_priority;
   report.scheduler = words(policy, given.sched_priority);
