@@ -11,12 +11,12 @@
 
 namespace jnd::chaos {
 
-/// What one device was given from its opening to its end, by its own record. Times are those of
+/// What one device was given from its opening to its end, by its own record. Times are by
 /// CLOCK_MONOTONIC.
 struct ForceLog {
   struct Record {
     std::int64_t time_ns = 0;
-    core::PointVectors force_n;  ///< That stands from then on.
+    core::PointVectors force_n;  ///< The force from then on.
   };
   std::vector<Record> records;
   /// When the process that has the device surely ran, rising. By these it is told apart whether
