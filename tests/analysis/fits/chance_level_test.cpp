@@ -83,7 +83,8 @@ TEST(ChanceLevel, TheChanceIsTheLargestThatNoLevelLiesBelow) {
 TEST(ChanceLevel, AnswersOfYesAndNoAreNot) {
   EXPECT_FALSE(suspected_chance({{5, 2, 20}, {8, 10, 20}, {12, 17, 20}, {20, 20, 20}}));
   EXPECT_FALSE(suspected_chance({{0.5, 0, 5}, {0.8, 1, 5}, {1.25, 4, 5}, {2, 5, 5}}));
-  // These are everybody's answers to a thin fluid. Not all of the lowest level lies far below.
+  // These are everybody's answers to a thin fluid. The lowest level is far below the reference,
+  // but is called "thicker" in some trials.
   EXPECT_FALSE(suspected_chance({{1.093, 14, 65},
                                  {1.237, 17, 65},
                                  {1.646, 26, 65},

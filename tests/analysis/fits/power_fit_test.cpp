@@ -211,7 +211,7 @@ TEST(PowerFit, RowsAtIntensityZeroTellNothingAndAreNoDegreesOfFreedom) {
 }
 
 TEST(PowerFit, SomethingFeltAtZeroDoesNotHideAFallingLaw) {
-  // 0^a is infinite for a < 0, and the row with magnitude 20 is there.
+  // 0^a is infinite for a < 0, so the row of 20 at 0 cannot have the residual 20 - 0.
   const PowerFit found = fit_power({{0, 20}, {1, 10}, {2, 5}, {4, 2.6}, {8, 1.2}});
   EXPECT_NEAR(*found.a, -0.993, 5e-4);
   EXPECT_GT(*found.r_squared, 0.99);

@@ -114,8 +114,8 @@ TEST(PredictiveStudies, TogetherIsFarOutWhatIsNotSoOneByOne) {
   EXPECT_LT(contradicting->p_value, 0.005);
 }
 
-/// The published study is one more of the simulated ones: then its p value is as likely below
-/// any share as that share says.
+/// If the published study is one more of the simulated ones, its p value lies below any share
+/// with the probability of that share.
 TEST(PredictiveStudies, TheJointTailOfAStudyLikeTheSimulatedOnesIsEvenlySpread) {
   const PredictivePeople all = people();
   const PredictiveStudies studies(all, 13, 400);
