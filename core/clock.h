@@ -6,12 +6,12 @@ namespace jnd::core {
 
 inline constexpr std::int64_t kNsPerS = 1'000'000'000;
 
-/// Where a session takes the time of its events from. Passed in, so that a simulated session
-/// runs on simulated time and a test on its own.
+/// A session takes the times of its events from a clock that is passed in. So a simulated
+/// session runs in simulated time, and a test moves its own clock.
 class Clock {
  public:
   virtual ~Clock() = default;
-  /// Nanoseconds since 1970-01-01 UTC; a simulated session counts from 0.
+  /// Returns nanoseconds since 1970-01-01 UTC. A simulated session counts from 0.
   [[nodiscard]] virtual std::int64_t now_ns() const = 0;
 };
 

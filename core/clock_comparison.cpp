@@ -10,9 +10,10 @@
 namespace jnd::core {
 namespace {
 
-/// Between two measurements: no clock drifts so far, and no way takes so long.
+/// A larger step between two measurements means that a clock was set: no clock drifts this far
+/// in between, and no transfer takes this long.
 constexpr std::int64_t kLeap_ns = kNsPerS / 2;
-/// 73 years. What is further off is no time, and might overflow in a sum.
+/// This is 73 years. A difference beyond it is no valid time, and could overflow in a sum.
 constexpr std::int64_t kFar_ns = std::numeric_limits<std::int64_t>::max() / 4;
 constexpr double kFewestSeconds = 10.0;
 
@@ -28,7 +29,8 @@ void ClockComparison::begin(std::int64_t ours_ns, std::int64_t device_ns) noexce
 
 void ClockComparison::observe(std::int64_t ours_ns, std::int64_t device_ns) noexcept {
   if (!has_begun_) begin(ours_ns, device_ns);
-  // Unsigned, for a device may tell any time without making the subtraction overflow.
+  // The subtraction is unsigned, because a device may report any time and a signed one could
+  // overflow.
   const auto since = [](std::int64_t now_ns, std::int64_t first_ns) {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(now_ns) -
                                      static_cast<std::uint64_t>(first_ns));
@@ -45,7 +47,7 @@ void ClockComparison::observe(std::int64_t ours_ns, std::int64_t device_ns) noex
     end_second();
     second_ends_ns_ = (ours / kNsPerS + 1) * kNsPerS;
   }
-  // The more it is ahead, the shorter was the way.
+  // The measurement whose clock is furthest ahead had the shortest transfer.
   if (has_best_ && ahead <= best_.ahead_ns) return;
   best_ = {.ours_ns = ours, .ahead_ns = ahead};
   has_best_ = true;

@@ -7,11 +7,12 @@ namespace jnd::core {
 namespace {
 
 constexpr double kWindow_s = 60.0;
-/// No clock drifts so far between two comparisons, and no way takes so long.
+/// A larger step between two comparisons is a leap: no clock drifts this far in between, and no
+/// message takes this long.
 constexpr double kLeapOfOffset_s = 0.05;
-/// Of a comparison without any way: what reading two clocks takes.
+/// A comparison that travels no distance still takes this long, because two clocks are read.
 constexpr double kLeastRoundTrip_s = 20e-6;
-/// A line through less than this is no better than its mean.
+/// A line through a shorter span is no better than its mean.
 constexpr double kShortestLine_s = 10.0;
 
 struct OffsetLine {
@@ -26,7 +27,8 @@ OffsetLine line_at(double time_s, const std::vector<ClockOffset>& offsets, std::
     const double trip_s = std::max(one.round_trip_s, kLeastRoundTrip_s);
     return 1.0 / (trip_s * trip_s);
   };
-  const double base_s = offsets[first].offset_s;  // Differences are small, offsets need not be.
+  // The offsets may be huge, but their differences are small.
+  const double base_s = offsets[first].offset_s;
   for (std::size_t i = first; i < end; ++i) {
     const ClockOffset& one = offsets[i];
     if (std::abs(one.time_s - time_s) > kWindow_s) continue;
@@ -85,7 +87,7 @@ double ClockCorrection::offset_s(double time_s) const noexcept {
   const auto after = std::ranges::upper_bound(nodes_, time_s, {}, &Node::time_s);
   if (after == nodes_.begin()) return along(nodes_.front());
   const Node& before = *(after - 1);
-  // What comes before the first comparison after a leap belongs to the clock before it.
+  // Times before the first comparison after a leap belong to the clock before the leap.
   if (after == nodes_.end() || after->first != before.first) return along(before);
   const double span_s = after->time_s - before.time_s;
   if (!(span_s > 0.0)) return before.offset_s;

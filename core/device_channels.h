@@ -12,10 +12,10 @@
 
 namespace jnd::core {
 
-/// x, y, z without Eigen, which is not trivially copyable.
+/// x, y and z. An Eigen vector is not trivially copyable.
 using PlainVector = std::array<double, 3>;
 
-/// A set of what a device may measure beside positions and velocities.
+/// A set of what a device may measure besides positions and velocities.
 using ChannelBits = std::uint8_t;
 inline constexpr ChannelBits kMeasuredForce = 1 << 0;
 inline constexpr ChannelBits kOrientation = 1 << 1;
@@ -24,11 +24,11 @@ inline constexpr ChannelBits kGripper = 1 << 3;
 inline constexpr ChannelBits kButtons = 1 << 4;
 inline constexpr ChannelBits kAllChannels = (1 << 5) - 1;
 
-/// In the order of their bits, as JSON spells them.
+/// Their names in the order of their bits, as JSON spells them.
 inline constexpr std::array<std::string_view, 5> kChannelNames = {
     "measured_force", "orientation", "torque", "gripper", "buttons"};
 
-/// The names of a set. Not real time.
+/// Returns the names of a set. Not real time.
 [[nodiscard]] inline std::vector<std::string> channel_names(ChannelBits bits) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < kChannelNames.size(); ++i) {
@@ -37,23 +37,26 @@ inline constexpr std::array<std::string_view, 5> kChannelNames = {
   return names;
 }
 
-/// What it measured of these, workspace frame. What it does not measure stays as it is here.
-/// Trivially copyable: it goes through queues and pages of memory.
+/// What a device measured of these channels, in the workspace frame. Channels that the device
+/// lacks keep the defaults. Trivially copyable, because it passes through queues and shared
+/// memory.
 struct DeviceChannels {
-  ChannelBits bits = 0;  ///< Those that the device has, of every sample the same.
-  /// On the hand at each point, by a sensor of force and not by what the motors were told, N.
+  ChannelBits bits = 0;  ///< Channels that the device has; the same in every sample.
+  /// Force on the hand at each point, N, from force sensors and not from motor commands.
   std::array<PlainVector, kNumContactPoints> force_n{};
-  std::array<double, 4> orientation_wxyz{1.0, 0.0, 0.0, 0.0};  ///< Of the end effector, unit.
-  PlainVector torque_n_m{};   ///< On the hand at the end effector.
-  double gripper_m = 0.0;     ///< Opening.
-  std::uint32_t buttons = 0;  ///< Bit i: button i is pressed.
+  /// Orientation of the end effector, a unit quaternion.
+  std::array<double, 4> orientation_wxyz{1.0, 0.0, 0.0, 0.0};
+  PlainVector torque_n_m{};   ///< Torque on the hand at the end effector.
+  double gripper_m = 0.0;     ///< Opening of the gripper.
+  std::uint32_t buttons = 0;  ///< Bit i is 1 while button i is pressed.
 
   [[nodiscard]] bool has(ChannelBits channel) const noexcept { return (bits & channel) != 0; }
 };
 static_assert(std::is_trivially_copyable_v<DeviceChannels>);
 
-/// Whether every number is one, and so large at most that a recording holds it, and the
-/// orientation of a device that has one is one: others tell zeros. Real time.
+/// Whether every number is finite and small enough for a recording, and the orientation is a
+/// unit quaternion if the device has one. (Devices without an orientation report zeros.) Real
+/// time.
 [[nodiscard]] inline bool is_sound(const DeviceChannels& channels) noexcept {
   constexpr double kMost = 1e6, kMostOffUnit = 0.01;
   double sum = std::abs(channels.gripper_m), squared = 0.0;

@@ -5,10 +5,10 @@
 
 namespace jnd::core {
 
-/// The joints of an exoskeleton that an arm carries, in the order of every array of joints: the
-/// arm's from its base on, then of each finger, in the order of `ContactPoint`, abduction and
-/// extension of its base and extension of its proximal joint. The distal joint follows the
-/// proximal one 1:1 and is no degree of freedom of its own.
+/// The joints of an exoskeleton that is carried by an arm, in the order of every array of
+/// joints. First come the arm's joints from its base on. Then come those of each finger, in the
+/// order of `ContactPoint`: abduction and extension of its base, and extension of its proximal
+/// joint. The distal joint follows the proximal one 1:1 and is no degree of freedom of its own.
 inline constexpr int kNumArmJoints = 7;
 inline constexpr int kNumJointsPerFinger = 3;
 inline constexpr int kNumJoints = 22;
@@ -38,7 +38,7 @@ inline constexpr std::array<std::string_view, kNumJoints> kJointNames = {
     "middle_proximal",
 };
 
-/// Index of a finger's joint: 0 abduction, 1 extension, 2 proximal.
+/// Returns the index of a finger's joint: 0 abduction, 1 extension, 2 proximal.
 [[nodiscard]] constexpr int finger_joint(int contact_point, int joint) noexcept {
   return kNumArmJoints + kNumJointsPerFinger * contact_point + joint;
 }

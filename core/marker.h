@@ -7,23 +7,23 @@
 
 namespace jnd::core {
 
-/// What another recorder is told of by a pulse. There is none for a level, an interval or an
-/// answer: whoever sees the pulses of a session learns when something happened, never what.
+/// The kinds of pulses that tell another recorder about a session. No kind tells a level, an
+/// interval or an answer, so pulses show when something happened, but never what.
 enum class MarkerKind {
   kStage,         ///< A stage was entered.
   kTrial,         ///< An attempt at a trial began.
-  kPresentation,  ///< The medium is about to be switched, to whatever it is.
-  kAnswer,        ///< A trial was answered, however.
+  kPresentation,  ///< The medium is about to change, whatever the new one is.
+  kAnswer,        ///< A trial was answered, whatever the answer.
   kFault,         ///< The loop latched a fault.
-  kEnd,           ///< The session ended, or its program left it.
+  kEnd,           ///< The session ended, or the program left it.
 };
 inline constexpr std::size_t kNumMarkerKinds = 6;
-/// As studies name them.
+/// Their names in study files.
 inline constexpr std::array<std::string_view, kNumMarkerKinds> kMarkerNames = {
     "stage", "trial", "presentation", "answer", "fault", "end"};
 
-/// The code of each kind, 1 to 255; 0: it has no pulse. A bit each unless the study says
-/// otherwise, so that a recorder with a line for each bit tells them apart as well.
+/// The code of each kind, 1 to 255; 0 means no pulse. Unless the study says otherwise, each
+/// code is one bit, so that a recorder with a line for each bit can tell them apart.
 struct MarkerCodes {
   std::array<int, kNumMarkerKinds> codes{1, 2, 4, 8, 16, 32};
 
@@ -34,10 +34,10 @@ struct MarkerCodes {
 
 /// A pulse that was written to a port.
 struct MarkerPulse {
-  std::int64_t event = 0;  ///< Sequence of the event that it tells of; 0: of the end.
+  std::int64_t event = 0;  ///< Sequence number of the event that it reports; 0 for the end.
   int code = 0;
-  /// Of CLOCK_MONOTONIC when writing it began. It had left this program `uncertainty_s` later:
-  /// the pulse began in between.
+  /// Time by CLOCK_MONOTONIC when the writing began. The code had left this program
+  /// `uncertainty_s` later, so the pulse began in between.
   double monotonic_s = 0.0, uncertainty_s = 0.0;
 };
 

@@ -4,8 +4,8 @@
 
 namespace jnd::core {
 
-/// The system does not allow this user what was asked for: something that the environment
-/// lacks, not a flaw of what was asked about.
+/// The system does not grant this user a right. The environment lacks something; what the user
+/// asked about has no flaw.
 class MissingRight : public Error {
  public:
   using Error::Error;

@@ -9,7 +9,7 @@ struct PowerFunction {
 
   /// `intensity` >= 0.
   [[nodiscard]] double magnitude(double intensity) const noexcept;
-  /// The intensity that gives this magnitude >= 0.
+  /// Returns the intensity that gives this magnitude, which is >= 0.
   [[nodiscard]] double intensity_at(double magnitude) const noexcept;
 };
 

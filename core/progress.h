@@ -5,14 +5,15 @@
 
 namespace jnd::core {
 
-/// Told how much of some work is done, 0 to 1; what it throws ends the work. May be empty.
+/// A function that is told how much of some work is done, 0 to 1. If it throws, the work ends.
+/// It may be empty.
 using Progress = std::function<void(double)>;
 
 inline void tell(const Progress& progress, double done) {
   if (progress) progress(done);
 }
 
-/// Of the first `num_done` of so many parts alike.
+/// Tells that the first `num_done` of `num_parts` equal parts are done.
 template <typename Number>
 void tell(const Progress& progress, Number num_done, Number num_parts) {
   if (num_parts > Number{}) {
@@ -20,7 +21,8 @@ void tell(const Progress& progress, Number num_done, Number num_parts) {
   }
 }
 
-/// A part of the work as a whole of its own: from `from` to `to` of all of it.
+/// Returns a progress for a part of the work, which maps its 0 to 1 to `from` to `to` of the
+/// whole.
 [[nodiscard]] inline Progress part_of(Progress whole, double from, double to) {
   if (!whole) return {};
   return

@@ -29,14 +29,14 @@ double standard_normal_quantile(double probability) noexcept {
   }
   if (probability == 0.0) return -std::numeric_limits<double>::infinity();
   if (probability == 1.0) return std::numeric_limits<double>::infinity();
-  // Work in the lower tail, where the cdf keeps its relative accuracy.
+  // The computation uses the lower tail, where the cdf keeps its relative accuracy.
   const double tail = probability < 0.5 ? probability : 1.0 - probability;
-  // Start: Hastings' rational approximation (Abramowitz and Stegun 26.2.23), error
-  // below 4.5e-4.
+  // It starts from Hastings' rational approximation (Abramowitz and Stegun 26.2.23), whose
+  // error is below 4.5e-4.
   const double t = std::sqrt(-2.0 * std::log(tail));
   double z = -(t - (2.515517 + t * (0.802853 + t * 0.010328)) /
                        (1.0 + t * (1.432788 + t * (0.189269 + t * 0.001308))));
-  // Halley's steps, cubic convergence.
+  // Halley's steps converge cubically.
   for (int step = 0; step < 3; ++step) {
     const double density =
         std::exp(-0.5 * z * z) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;

@@ -6,7 +6,7 @@
 namespace jnd::core {
 namespace {
 
-/// The finaliser of SplitMix64: a bijection that scatters neighbouring values.
+/// The finaliser of SplitMix64, a bijection that scatters neighbouring values.
 std::uint64_t scattered(std::uint64_t value) noexcept {
   value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9ULL;
   value = (value ^ (value >> 27)) * 0x94d049bb133111ebULL;
@@ -23,7 +23,7 @@ std::uint64_t derived_seed(std::uint64_t seed, std::string_view purpose,
   for (const char letter : purpose) {
     hash = scattered(hash + kGoldenGamma + static_cast<unsigned char>(letter));
   }
-  // The length keeps ("ab", 1) apart from ("a", 'b', 1).
+  // The length keeps the keys ("ab", 1) and ("a", 'b', 1) apart.
   hash = scattered(hash ^ purpose.size());
   for (const std::int64_t index : indices) {
     hash = scattered(hash + kGoldenGamma + static_cast<std::uint64_t>(index));
@@ -58,7 +58,7 @@ double RandomStream::normal(double mean, double standard_deviation) noexcept {
 }
 
 std::uint64_t RandomStream::below(std::uint64_t num_values) noexcept {
-  // Reject the incomplete last block, so that every value is equally likely.
+  // Values of the incomplete last block are rejected, so that every result is equally likely.
   const std::uint64_t rejected_below = (0 - num_values) % num_values;
   while (true) {
     const std::uint64_t bits = next_bits();

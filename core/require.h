@@ -7,19 +7,19 @@
 
 namespace jnd::core {
 
-/// No bound.
+/// Stands for "no bound".
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Throws `Error` "FIELD: expected RULE, found VALUE" unless `holds`. Write the condition so
 /// that NaN fails it: `require(x > 0, ...)`. Not real time.
 void require(bool holds, std::string_view field, std::string_view rule, double value);
 
-/// A finite number > 0.
+/// Requires a finite number > 0. Throws `Error`.
 void require_positive(double value, std::string_view field);
-/// A finite number >= 0.
+/// Requires a finite number >= 0. Throws `Error`.
 void require_not_negative(double value, std::string_view field);
 
-/// Seconds of a period at `rate_hz`, a finite number > 0.
+/// Returns the period in seconds. `rate_hz` is a finite number > 0; throws `Error` otherwise.
 [[nodiscard]] double period_s_at(double rate_hz);
 
 }  // namespace jnd::core

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kAxes[] = {"x", "y", "z"};
 
-/// The three columns of a vector: of a part, or of an array that has no parts.
+/// Adds the three columns of a vector, which belongs to a part or to an array without parts.
 void add_vector(std::vector<SampleColumn>& columns, std::string_view part,
                 const std::string& quantity, const std::string& unit) {
   const std::string front = part.empty() ? quantity : std::string(part) + "_" + quantity;
@@ -118,7 +118,7 @@ std::vector<double> sample_values(const Sample& sample, const SampleColumns& col
 }
 
 bool has_joints(const Sample& sample) noexcept {
-  // Written so that NaN counts as something to be kept.
+  // The condition is written so that NaN counts as something to keep.
   const auto is_something = [](float value) { return !(value == 0.0F); };
   return std::ranges::any_of(sample.joint_position_rad, is_something) ||
          std::ranges::any_of(sample.joint_torque_n_m, is_something);

@@ -7,35 +7,36 @@
 
 namespace jnd::core {
 
-/// How the data of an event has what a column holds, where an event tells of it.
+/// How the JSON of an event stores the value of a column.
 enum class EventKey {
-  kWhereThere,  ///< Left out where there is none, or 0. For every new column: events of older
-                ///< programs know nothing of it.
-  kLater,       ///< null where there is none; left out by older programs alone.
-  kAlways,      ///< null where there is none; an event without it is damaged.
+  /// Left out if the value is missing or 0. Use it for every new column, because events of
+  /// older programs do not have it.
+  kWhereThere,
+  kLater,   ///< null if the value is missing; left out only by older programs.
+  kAlways,  ///< null if the value is missing; an event without it is damaged.
 };
 
-/// Whether BIDS tells of what was measured in a presentation, among the columns of its events.
+/// Whether the events of a BIDS data set have a column for this measure of a presentation.
 enum class BidsEvents { kHave, kHaveNot };
 
-/// A column of a stored row: a field with what everybody has to know of it. From here follow
-/// the SQL, its values in and out, the key of the event's JSON, and column and codebook of
-/// every data set. What may be stored is told by the type of the field: a bool, a whole number,
-/// a double, a text, or a number that may be missing; one without sign of 64 bits is stored as
-/// text.
+/// A column of a stored row: a field, and everything about it. The SQL, reading and writing,
+/// the key of the event's JSON, and the column and codebook of every data set follow from it.
+/// The field's type says how it is stored: bool, integer, double, text, or a number that may be
+/// missing. An unsigned integer of 64 bits is stored as text.
 template <typename Row, typename Value>
 struct StoredColumn {
   Value Row::*field;
-  const char* name;        ///< One spelling: of the field, in SQL, JSON and data sets.
-  const char* unit = "";   ///< "" where there is none.
-  const char* words = "";  ///< For the codebook; "": data sets have no such column.
+  /// The one spelling of its name, for the field, SQL, JSON and data sets.
+  const char* name;
+  const char* unit = "";   ///< "" if it has no unit.
+  const char* words = "";  ///< Words for the codebook; "" if data sets do not have this column.
   EventKey key = EventKey::kWhereThere;
   BidsEvents bids_events = BidsEvents::kHave;
 };
 template <typename Row, typename Value, typename... Rest>
 StoredColumn(Value Row::*, Rest...) -> StoredColumn<Row, Value>;
 
-/// Columns of a struct that the row holds, among its own.
+/// The columns of a struct that is a member of the row.
 template <typename Row, typename Part>
 struct StoredPart {
   Part Row::*part;
@@ -44,7 +45,7 @@ template <typename Row, typename Part>
 StoredPart(Part Row::*) -> StoredPart<Row, Part>;
 
 /// The columns of a row, in the order in which data sets have them: a tuple of `StoredColumn`
-/// and `StoredPart`, beside the struct.
+/// and `StoredPart`, defined beside the struct.
 template <typename Row>
 inline constexpr std::tuple<> kColumns{};
 
@@ -66,8 +67,8 @@ constexpr void visit_column(const StoredPart<Row, Part>& whole, const Visit& vis
   });
 }
 
-/// Calls `visit(column, value_in)` for every column in its order, those of parts in their
-/// place. `value_in(row)` is the column's value in a row, to be read or set.
+/// Calls `visit(column, value_in)` for every column in order, with those of parts in their
+/// place. `value_in(row)` is a reference to the column's value in a row.
 template <typename Row, typename Visit>
 constexpr void for_each_column(const Visit& visit) {
   static_assert(std::tuple_size_v<decltype(kColumns<Row>)> > 0, "the row has no columns");
@@ -83,7 +84,8 @@ constexpr std::string_view name_of(const StoredPart<Row, Part>&) {
   return "";
 }
 
-/// Where the table of a row has the column of this name; behind its end where it has none.
+/// Returns the place of the column with this name in the table of a row, or the number of
+/// columns if there is none.
 template <typename Row>
 constexpr std::size_t place_of_column(std::string_view name) {
   std::size_t place = 0;
@@ -96,8 +98,8 @@ constexpr std::size_t place_of_column(std::string_view name) {
   return place;
 }
 
-/// Calls `visit(value_in_a, value_in_b)`, members of each, for every column of `A`: `B` has to
-/// have one of each name.
+/// Calls `visit(value_in_a, value_in_b)` with pointers to members for every column of `A`. `B`
+/// must have a column of each name.
 template <typename A, typename B, typename Visit>
 constexpr void for_each_shared_column(const Visit& visit) {
   [&]<std::size_t... kPlaces>(std::index_sequence<kPlaces...>) {
@@ -109,14 +111,14 @@ constexpr void for_each_shared_column(const Visit& visit) {
   (std::make_index_sequence<std::tuple_size_v<decltype(kColumns<A>)>>());
 }
 
-/// Sets the columns of `to` that `from` has, too.
+/// Copies to `to` the columns that `from` has.
 template <typename From, typename To>
 void copy_columns(const From& from, To& to) {
   for_each_shared_column<From, To>(
       [&](auto in_from, auto in_to) { to.*in_to = from.*in_from; });
 }
 
-/// Whether `b` has in the columns of `a` what that has.
+/// Whether `b` has the same values as `a` in the columns of `a`.
 template <typename A, typename B>
 [[nodiscard]] bool has_same_columns(const A& a, const B& b) {
   bool same = true;

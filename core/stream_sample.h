@@ -9,7 +9,7 @@
 
 namespace jnd::core {
 
-/// What the values of a stream of other recorders are (docs/lab_streaming_layer.md).
+/// The type of the values in a stream of another recorder (docs/lab_streaming_layer.md).
 enum class ChannelFormat : std::uint8_t {
   kFloat32,
   kDouble64,
@@ -23,12 +23,12 @@ enum class ChannelFormat : std::uint8_t {
 inline constexpr std::string_view kChannelFormatNames[] = {
     "float32", "double64", "string", "int32", "int16", "int8", "int64"};
 
-/// "float32", as streams and files spell it.
+/// Returns "float32" and its like, as streams and files spell them.
 [[nodiscard]] constexpr std::string_view name(ChannelFormat format) noexcept {
   return kChannelFormatNames[static_cast<std::size_t>(format)];
 }
 
-/// None for a word that is no format.
+/// Returns none for a word that is no format.
 [[nodiscard]] constexpr std::optional<ChannelFormat> channel_format_of(std::string_view word) {
   for (std::size_t i = 0; i < std::size(kChannelFormatNames); ++i) {
     if (kChannelFormatNames[i] == word) return static_cast<ChannelFormat>(i);
@@ -36,7 +36,7 @@ inline constexpr std::string_view kChannelFormatNames[] = {
   return std::nullopt;
 }
 
-/// Of one value; 0 for texts, each of which has a length of its own.
+/// Returns the size of one value, or 0 for texts, each of which has its own length.
 [[nodiscard]] constexpr std::size_t value_bytes(ChannelFormat format) noexcept {
   switch (format) {
     case ChannelFormat::kFloat32:
@@ -57,11 +57,11 @@ inline constexpr std::string_view kChannelFormatNames[] = {
 
 /// One sample of a stream: a value for each channel.
 struct StreamSample {
-  double time_s = 0.0;  ///< By the clock of whoever sent it.
-  /// Of numbers: little-endian, channel after channel, as the format says. Kept as they came,
-  /// so that nothing is rounded on the way.
+  double time_s = 0.0;  ///< By the sender's clock.
+  /// Numbers in little-endian order, channel after channel, in the stream's format. They are
+  /// kept as they came, so that nothing is rounded.
   std::string values;
-  std::vector<std::string> texts;  ///< Of texts: one a channel.
+  std::vector<std::string> texts;  ///< Texts, one for each channel.
 
   friend bool operator==(const StreamSample&, const StreamSample&) = default;
 };

@@ -8,9 +8,9 @@
 
 namespace jnd::device {
 
-/// Where the tips are relative to a simulated hand, in metres: a stiff hand seen from the
-/// right, fingers along +y, thumb up, all in the plane x = 0. Multiples of 0.1 um, the grid of
-/// a recording, with mean zero.
+/// Positions of the tips relative to a simulated hand, in metres. The stiff hand has its
+/// fingers along +y and its thumb up, all in the plane x = 0. The positions are multiples of
+/// 0.1 um, the grid of a recording, with mean zero.
 [[nodiscard]] inline const core::PointVectors& lumped_hand_tips_m() noexcept {
   static const core::PointVectors kTips = {
       Eigen::Vector3d(0.0, -0.061, 0.017), Eigen::Vector3d(0.0, -0.061, -0.043),
@@ -19,20 +19,20 @@ namespace jnd::device {
   return kTips;
 }
 
-/// What simulated hands have in common: one mass that somebody draws through the medium, with
-/// five tips fixed to it, the hand plane's normal along x, so that a stroke along x meets the
-/// medium head on. Its own time moves on by one period a move, so that a run is the same to the
-/// bit, however fast it goes. Single-threaded; real time.
+/// What all simulated hands share: one mass that is pulled through the medium, with five tips
+/// fixed to it. The hand plane's normal is along x, so a stroke along x meets the medium head
+/// on. Its time advances by one period with each move, so a run is the same to the bit, however
+/// fast it goes. Single-threaded; real time.
 class DrawnMass {
  public:
   /// `rate_hz` > 0 and finite. Not real time.
   DrawnMass(double rate_hz, const Eigen::Vector3d& position_m) noexcept
       : period_s_(1.0 / rate_hz), period_ns_(std::llround(1e9 / rate_hz)) {
     rest_at(position_m);
-    (void)lumped_hand_tips_m();  // Made now and not in the first tick.
+    (void)lumped_hand_tips_m();  // The tips are computed here and not in the first tick.
   }
 
-  /// At rest there, time and sums at 0.
+  /// Puts the hand there at rest, with time and sums at 0.
   void rest_at(const Eigen::Vector3d& position_m) noexcept {
     position_m_ = position_m;
     velocity_m_per_s_.setZero();
@@ -48,11 +48,11 @@ class DrawnMass {
       state.tip_velocity_m_per_s[i] = velocity_m_per_s_;
       state.attached[i] = true;
     }
-    // The platform that carries the fingers, behind the hand.
+    // The platform that carries the fingers is behind the hand.
     state.end_effector_position_m = position_m_ - Eigen::Vector3d(0.0, 0.12, 0.0);
   }
 
-  /// Adds one tick to the sums: the force rendered, and the device's own damping at this speed.
+  /// Adds one tick to the sums: the rendered force, and the device's own damping at this speed.
   void feel(const Eigen::Vector3d& rendered_n, double damping_n_s_per_m) noexcept {
     const double speed_m_per_s = std::sqrt(velocity_m_per_s_.squaredNorm());
     const double rendered_opposing_n =
@@ -63,7 +63,7 @@ class DrawnMass {
     sums_.speed_m_per_s += speed_m_per_s;
   }
 
-  /// Takes on this velocity, then moves by it for one period: semi-implicit Euler.
+  /// Sets the velocity and moves by it for one period (semi-implicit Euler).
   void move_at(const Eigen::Vector3d& velocity_m_per_s) noexcept {
     velocity_m_per_s_ = velocity_m_per_s;
     position_m_ += period_s_ * velocity_m_per_s_;
@@ -86,7 +86,7 @@ class DrawnMass {
   core::ContactSums sums_;
 };
 
-/// Sum of the forces at the points. Real time.
+/// Returns the sum of the forces at the points. Real time.
 [[nodiscard]] inline Eigen::Vector3d total_of(const core::PointVectors& force_n) noexcept {
   Eigen::Vector3d total_n = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& force : force_n) total_n += force;

@@ -13,17 +13,17 @@ enum class Injection {
   kNonFiniteVelocity,  ///< Infinity at the point.
   kReadFailure,
   kWriteFailure,  ///< The write does not reach the device.
-  kFrozenSample,  ///< The measurement stands still, with its velocity; time goes on.
-  kStaleTime,     ///< The same measurement again, with its time.
+  kFrozenSample,  ///< Position and velocity stand still, but time goes on.
+  kStaleTime,     ///< The same measurement is repeated with its time.
   kDetachedPoint,
-  kPositionJump,   ///< The point is off by `magnitude`, in metres, along +x.
-  kVelocitySpike,  ///< The point's velocity is off by `magnitude`, in m/s, along +x.
-  kForceSpike,     ///< The device adds `magnitude`, in newtons, along +x, whatever it was told.
-  kStall,          ///< Each read takes `magnitude` seconds of the wall clock.
-  kOpenFailure,    ///< `open` throws, the first `num_ticks` times.
+  kPositionJump,   ///< The point is displaced by `magnitude`, in metres, along +x.
+  kVelocitySpike,  ///< The point's velocity is changed by `magnitude`, in m/s, along +x.
+  kForceSpike,     ///< The device adds `magnitude`, in newtons, along +x to any force.
+  kStall,          ///< Each read takes `magnitude` seconds of real time.
+  kOpenFailure,    ///< `open` throws the first `num_ticks` times.
 };
 
-/// One fault, over a range of ticks.
+/// One fault over a range of ticks.
 struct ScheduledFault {
   std::int64_t first_tick = 0;  ///< Counted in reads since `open`, from 0.
   std::int64_t num_ticks = 1;
@@ -32,11 +32,11 @@ struct ScheduledFault {
   double magnitude = 0.0;
 };
 
-/// Any device, with things going wrong at set ticks: for tests, and for rehearsing what to do.
-/// It counts as simulated only if the device inside does.
+/// Any device, with faults at set ticks, for tests and to rehearse what to do. It counts as
+/// simulated only if the device inside does.
 class FaultInjectingDevice final : public HapticDevice {
  public:
-  /// `inner` has to outlive this. Not real time.
+  /// `inner` must outlive this object. Not real time.
   FaultInjectingDevice(HapticDevice& inner, std::vector<ScheduledFault> faults);
 
   [[nodiscard]] std::string_view name() const noexcept override { return inner_.name(); }
@@ -47,7 +47,7 @@ class FaultInjectingDevice final : public HapticDevice {
   [[nodiscard]] bool wait_for_sample(std::int64_t deadline_ns) noexcept override {
     return inner_.wait_for_sample(deadline_ns);
   }
-  /// Ticks are counted from here.
+  /// Opens the device inside. Ticks are counted from here.
   void open() override;
   [[nodiscard]] bool read(core::HapticState& state) noexcept override;
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;

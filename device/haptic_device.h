@@ -17,14 +17,14 @@ namespace jnd::device {
 class Bench;
 class SimulatedHand;
 
-/// The device is not there, or not to be had now: nothing is wrong with what was asked for.
+/// The device is missing or not available now. The request itself was correct.
 class DeviceUnreachable final : public core::Error {
  public:
   using core::Error::Error;
 };
 
 struct DeviceCapabilities {
-  /// Of the hand's force at each point; 0 at one that the device does not have.
+  /// Share of the hand's force at each point; 0 at a point that the device does not have.
   core::ShareRatios share_ratio = core::kAreaShareRatio;
   [[nodiscard]] bool has_point(int i) const noexcept {
     return share_ratio[static_cast<std::size_t>(i)] > 0.0;
@@ -34,131 +34,142 @@ struct DeviceCapabilities {
     for (int i = 0; i < core::kNumContactPoints; ++i) num_points += has_point(i) ? 1 : 0;
     return num_points;
   }
-  double rate_hz = 1000.0;              ///< Of its control loop.
-  double max_force_per_point_n = 10.0;  ///< What it can render at one point.
-  double max_total_force_n = 30.0;      ///< Sum over the points.
-  /// For how long its last measurement may stand in for one that did not come.
+  double rate_hz = 1000.0;              ///< Rate of its control loop.
+  double max_force_per_point_n = 10.0;  ///< Largest force that it can render at one point.
+  double max_total_force_n = 30.0;      ///< Limit of the sum over the points.
+  /// How long its last measurement may be reused for a missing one.
   double max_stale_s = 0.005;
-  /// How long the loop may be silent before the watchdog takes the force away. Longer only
-  /// where nobody can be hurt.
+  /// How long the loop may be silent before the watchdog takes the force away. Longer only if
+  /// nobody can be hurt.
   double watchdog_timeout_s = 0.020;
-  /// How long the window may be silent before the force fades. Longer only where nobody feels
-  /// it.
+  /// How long the window may be silent before the force fades. Longer only if nobody feels the
+  /// force.
   double heartbeat_timeout_s = 0.250;
-  /// It lives at its own pace: a session on it runs in real time, also if it is simulated.
+  /// The device runs at its own pace. A session on it runs in real time, even if the device is
+  /// simulated.
   bool has_own_clock = false;
-  bool simulated = false;  ///< No person can be hurt by it.
-  int num_joints = 0;      ///< It tells of: 0 or `core::kNumJoints`.
-  /// Its measurements say which force acted until then, `HapticState::acted_n`: what was sent
-  /// is late by the way there and may have been limited. A device that does not tell is taken
-  /// to act at once, and only a simulated one is armed so.
+  bool simulated = false;  ///< It cannot hurt anybody.
+  int num_joints = 0;      ///< Number of joints that it reports: 0 or `core::kNumJoints`.
+  /// Its measurements say which force has acted, in `HapticState::acted_n`. A sent force acts
+  /// late, and the device may limit it. A device that does not report this is assumed to act at
+  /// once, and is armed only if it is simulated.
   bool tells_acting_force = false;
-  /// For how long a hand that a solid or a float pushes may read the very same position, to the
-  /// last digit, before the loop takes the force away to see whether it moves: what its noise,
-  /// its resolution and its friction make likely. Of no meaning for a simulation, which comes
-  /// to rest exactly.
+  /// How long a hand that a solid or buoyancy pushes may read exactly the same position before
+  /// the loop takes the force away to see whether the hand moves. It depends on the device's
+  /// noise, resolution and friction. It has no meaning for a simulation, which comes to rest
+  /// exactly.
   double max_still_s = 2.0;
-  bool moves_by_itself = false;                ///< By a simulated arm: nobody has to be there.
-  double max_slew_n_per_s = core::kInfinity;   ///< Change of a point's force that it follows.
-  double max_speed_m_per_s = core::kInfinity;  ///< Of a point, above which it is not sound.
-  /// In which it may give force, within that of the loop.
+  /// A simulated arm moves it, so nobody has to be there.
+  bool moves_by_itself = false;
+  /// Largest change of a point's force that it can follow.
+  double max_slew_n_per_s = core::kInfinity;
+  double max_speed_m_per_s = core::kInfinity;  ///< Largest valid speed of a point.
+  /// Space in which it may give force, within that of the loop.
   core::Workspace workspace{core::kInfinity, core::kInfinity, core::kInfinity};
-  core::ChannelBits channels = 0;  ///< What it measures besides, `HapticState::channels`.
-  bool takes_orders = true;        ///< Of one that moves by itself: it strokes as it is told.
-  bool has_enable_switch = false;  ///< Of which `HapticState::enabled` tells.
-  bool paces_loop = false;         ///< A tick is due when it has measured: `wait_for_sample`.
-  double own_mass_kg = 0.0;        ///< That a hand feels in free space; 0: it does not say.
-  double own_damping_n_s_per_m = 0.0;  ///< Likewise.
-  double closed_loop_delay_s = 0.0;  ///< From a write until a read shows its effect, likewise.
+  core::ChannelBits channels = 0;  ///< What it measures besides, in `HapticState::channels`.
+  /// For a device that moves by itself: it strokes as ordered.
+  bool takes_orders = true;
+  bool has_enable_switch = false;  ///< `HapticState::enabled` reports this switch.
+  /// A tick is due when it has measured; see `wait_for_sample`.
+  bool paces_loop = false;
+  double own_mass_kg = 0.0;  ///< Mass that a hand feels in free space; 0 if unknown.
+  /// Damping that a hand feels in free space; 0 if unknown.
+  double own_damping_n_s_per_m = 0.0;
+  /// Time from a write until a read shows its effect; 0 if unknown.
+  double closed_loop_delay_s = 0.0;
 };
 
-/// Which one of its kind it is.
+/// Identifies a device among those of its kind.
 struct DeviceIdentity {
-  std::string model;     ///< What it calls itself.
-  std::string serial;    ///< "": it does not say.
-  std::string firmware;  ///< Likewise.
+  std::string model;     ///< The name that the device reports.
+  std::string serial;    ///< "" if it does not report one.
+  std::string firmware;  ///< "" if it does not report one.
 };
 
-/// How good the way to a device is that is elsewhere.
+/// Quality of the connection to a remote device.
 struct LinkReport {
   std::string_view level;  ///< "excellent", "good", "poor" or "unacceptable".
-  bool may_arm = false;    ///< Good enough to bring the force back after a fault.
+  /// Whether the connection is good enough to bring the force back after a fault.
+  bool may_arm = false;
   bool may_give_force = false;
-  double lost_ratio = 0.0;    ///< Of the device's datagrams, 0 to 1.
-  double round_trip_s = 0.0;  ///< There and back, with the waiting for both sides' ticks.
+  double lost_ratio = 0.0;    ///< Share of the device's datagrams that were lost, 0 to 1.
+  double round_trip_s = 0.0;  ///< Includes the waiting for the ticks of both sides.
 };
 
-/// A device that holds a hand at five points. Everything it takes and gives is in SI units and
-/// in the workspace frame of `core::HapticState`; a device with another frame transforms
-/// inside. Forces are those that act on the hand, not on the device.
+/// A device that holds a hand at five points. All values are in SI units and in the workspace
+/// frame of `core::HapticState`; a device with another frame transforms inside. Forces are
+/// those that act on the hand, not on the device.
 ///
-/// Zero force is none on the hand, not none in the motors: a device that has weight of its own
-/// holds it while forces fade, while it is halted and while it is faulted, and after `close`
-/// its brakes do. A device that let go would fall on the hand.
+/// Zero force means no force on the hand, not no torque in the motors. A device with a weight
+/// of its own holds it while forces fade, while it is halted and while it has a fault. After
+/// `close` its brakes hold it. A device that let go would fall on the hand.
 ///
-/// Used by one thread at a time. A real device zeroes its force by itself when writes stop.
+/// One thread at a time may use it. A real device sets its force to zero by itself if writes
+/// stop.
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
 
-  /// As in the registry and on the command line. Real time.
+  /// Returns the name in the registry and on the command line. Real time.
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
   [[nodiscard]] virtual DeviceCapabilities capabilities() const noexcept = 0;
 
-  /// All of it is known once it is open. Not real time.
+  /// Returns what is known of the device; everything is known once it is open. Not real time.
   [[nodiscard]] virtual DeviceIdentity identity() const {
     return {.model = std::string(name())};
   }
 
-  /// Throws `core::Error`: the device cannot be used, and why. Motors may be on afterwards, so
-  /// check for real time first (`require_realtime`). Not real time.
+  /// Opens the device. Throws `core::Error` that says why the device cannot be used. Its motors
+  /// may be on afterwards, so call `require_realtime` first. Not real time.
   virtual void open() = 0;
 
-  /// The newest measurement. False: there was none; `state` is then undefined. Real time.
+  /// Reads the newest measurement. Returns false if there was none; `state` is then undefined.
+  /// Real time.
   [[nodiscard]] virtual bool read(core::HapticState& state) noexcept = 0;
 
-  /// Of a device that paces the loop: until it has measured anew, or this monotonic time is
-  /// over. False: it was over. Real time but for the waiting.
+  /// For a device that paces the loop: waits until it has a new measurement, or until this
+  /// monotonic time. Returns false in the second case. Real time apart from the waiting.
   [[nodiscard]] virtual bool wait_for_sample(std::int64_t /*deadline_ns*/) noexcept {
     return false;
   }
 
-  /// Applies these forces until the next write; a simulated device moves on by its period.
-  /// False: they were not taken. Real time.
+  /// Applies these forces until the next write. A simulated device also advances by its period.
+  /// Returns false if it did not accept the forces. Real time.
   [[nodiscard]] virtual bool write(const core::PointVectors& force_on_hand_n) noexcept = 0;
 
-  /// Zero force, motors off. May be called twice. Not real time.
+  /// Sets zero force and switches the motors off. It may be called twice. Not real time.
   virtual void close() noexcept = 0;
 
-  /// Why the last `read` or `write` returned false, where the device knows better than that it
-  /// did. Real time.
+  /// Returns why the last `read` or `write` returned false, if the device knows. Real time.
   [[nodiscard]] virtual core::Fault fault() const noexcept { return core::Fault::kNone; }
 
-  /// What the device's own program said of it, a part of a sentence; "": nothing. Of what was
-  /// last wrong since it was opened. Any thread. Not real time.
+  /// Returns what the device's own program reported about the last problem since the device was
+  /// opened, as part of a sentence, or "". Any thread. Not real time.
   [[nodiscard]] virtual std::string words_of_fault() const { return ""; }
 
-  /// Whether a person may bring the force back now, after a fault. False: not before whatever
-  /// is wrong has mended; `fault` says what, or the connection. Real time.
+  /// Whether a person may bring the force back now, after a fault. It is false until the cause
+  /// is gone, which `fault` or the connection tells. Real time.
   [[nodiscard]] virtual bool may_arm() const noexcept { return true; }
 
-  /// Zero force at once and until a `write` of nothing but zeros: a loop that was held up in
-  /// the middle of a tick must not bring an old force back. The watchdog's, which may call it
-  /// from any thread, also while the loop's thread is stuck in the middle of the device; and
-  /// the loop's, whose writes fail. A device that computes its forces in this program keeps a
-  /// `HaltLatch`; one elsewhere passes it on. Real time.
+  /// Sets zero force at once, until a `write` consists of zeros only, because a loop that was
+  /// held up in the middle of a tick must not bring an old force back. The watchdog calls it
+  /// from any thread, even while the loop's thread is stuck inside of the device. The loop
+  /// calls it if its writes fail. A device that computes its forces in this program uses a
+  /// `HaltLatch`; a remote one passes the halt on. Real time.
   virtual void halt() noexcept = 0;
 
-  /// The simulated person on it; nullptr: the hand is moved by somebody else.
+  /// Returns the simulated person at the device, or nullptr if somebody else moves the hand.
   [[nodiscard]] virtual SimulatedHand* simulated_hand() noexcept { return nullptr; }
 
-  /// Somebody simulated who does at it what measuring takes; nullptr: a person has to.
+  /// Returns a simulated person who does what a measurement requires, or nullptr if a real
+  /// person has to.
   [[nodiscard]] virtual Bench* bench() noexcept { return nullptr; }
 
-  /// How good the way to it is; none: it is here. Not while another thread reads or writes.
+  /// Returns the quality of the connection, or none for a local device. Not while another
+  /// thread reads or writes.
   [[nodiscard]] virtual std::optional<LinkReport> link() const noexcept { return std::nullopt; }
 
-  /// What the hand has been through, where the device knows it: a simulation. Real time.
+  /// Returns what the hand has felt, if the device is a simulation that knows it. Real time.
   [[nodiscard]] virtual core::ContactSums contact_sums() const noexcept { return {}; }
 };
 

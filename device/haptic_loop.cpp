@@ -36,7 +36,7 @@ core::PlainVector plain(const Eigen::Vector3d& vector) noexcept {
 }
 
 bool is_finite(const core::HapticState& state, bool has_joints, bool tells_force) noexcept {
-  // A sum is finite only if every term is; overflow would need coordinates of 1e307.
+  // A sum is finite only if every term is. It could overflow only for coordinates of 1e307.
   Eigen::Vector3d sum = state.end_effector_position_m;
   for (int i = 0; i < kNumContactPoints; ++i) {
     sum += state.tip_position_m[i] + state.tip_velocity_m_per_s[i];
@@ -46,7 +46,7 @@ bool is_finite(const core::HapticState& state, bool has_joints, bool tells_force
   for (int i = 0; has_joints && i < core::kNumJoints; ++i) {
     joints += std::abs(state.joint_position_rad[i]) + std::abs(state.joint_torque_n_m[i]);
   }
-  // Joints are recorded as `float`, which overflows far beyond this.
+  // Joints are recorded as `float`, which overflows only far above this.
   return std::isfinite(sum.x() + sum.y() + sum.z()) && joints < 1e30 &&
          (state.channels.bits == 0 || core::is_sound(state.channels));
 }
@@ -133,11 +133,12 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
 }
 
 void HapticLoop::render() noexcept {
-  // The stop comes first, before anything that could go wrong.
+  // The emergency stop comes first, before anything that could go wrong.
   obey_emergency_stop();
   wait_after_release();
   rearm_if_requested();
-  disarm_if_requested();  // After it: who asks for both gets no force.
+  // This comes after rearming, so that a request for both gives no force.
+  disarm_if_requested();
   obey_watchdog();
   watch_heartbeats();
   advance_authority();
@@ -146,7 +147,7 @@ void HapticLoop::render() noexcept {
   if (found != Fault::kNone) latch_found(found);
   take_command();
   compute_force();
-  // Held up between the read and here: what was computed is too old to be sent.
+  // If the tick was held up after the read, the computed force is too old to be sent.
   obey_watchdog();
   obey_emergency_stop();
   if (authority_ratio_ == 0.0) force_on_hand_n_ = core::zero_vectors();
@@ -160,14 +161,15 @@ void HapticLoop::write_device() noexcept {
     return;
   }
   latch(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceWriteFailed);
-  // The zeros to come may get lost as well, and the last force would stand. Several times, for
-  // a single halt may get lost, too; not for ever, for the device may be about to come back.
+  // Later zeros may get lost as well, and the last force would persist. The halt is repeated,
+  // because a single one may get lost, too. It is not repeated for ever, because the device may
+  // be about to recover.
   constexpr int kNumHalts = 10;
   if (num_failed_writes_ < kNumHalts) device_.halt();
   num_failed_writes_ = std::min(num_failed_writes_ + 1, kNumHalts);
 }
 
-/// Also one that was released again before anybody looked.
+/// This also obeys a press that was released before the loop saw it.
 void HapticLoop::obey_emergency_stop() noexcept {
   const std::uint64_t num_presses = exchange_.emergency_stop.num_presses();
   // Every press is another one to be told of: whoever asked before it has to ask again, also
@@ -213,8 +215,8 @@ bool HapticLoop::stands_still() const noexcept {
          (exchange_.watchdog != nullptr && exchange_.watchdog->has_bitten());
 }
 
-/// A hand that is being put in moves the device about, and whoever holds its switch leaves it
-/// open: that is no fault while there is no force.
+/// While a hand is being put in, the device moves about, and its enabling switch is open. This
+/// is no fault while there is no force.
 static bool is_of_no_matter_yet(Fault fault) noexcept {
   return fault == Fault::kNotEnabled || fault == Fault::kPositionFrozen ||
          fault == Fault::kPositionJump || fault == Fault::kOverVelocity ||
@@ -223,8 +225,8 @@ static bool is_of_no_matter_yet(Fault fault) noexcept {
 }
 
 void HapticLoop::latch(Fault fault, double fading_s) noexcept {
-  // The first fault is the one to tell, but the fading of a lost heartbeat must not soften what
-  // comes on top of it.
+  // The first fault is the one to report, but the fading after a lost heartbeat must not soften
+  // a later fault.
   if (fault_ == Fault::kNotArmed && is_of_no_matter_yet(fault)) return;
   // A stop is told whatever came before it, for only who knows of it asks for its release.
   const bool gives_way = fault_ == Fault::kHeartbeatLost || fault_ == Fault::kNotArmed ||
@@ -241,7 +243,7 @@ void HapticLoop::latch(Fault fault, double fading_s) noexcept {
   if (fading_s_ == 0.0) authority_ratio_ = 0.0;
 }
 
-/// In this tick, by the loop itself.
+/// Latches a fault that the loop itself found in this tick.
 void HapticLoop::latch_found(Fault fault) noexcept {
   latch(fault, core::fades(fault) ? parameters_.guard_fade_s : 0.0);
 }
@@ -296,7 +298,7 @@ void HapticLoop::rearm_if_requested() noexcept {
 
 void HapticLoop::advance_authority() noexcept {
   if (is_first_armed_tick_) {
-    // Zeros are written once more: a device that was halted waits for them.
+    // Zeros are written once more, because a halted device waits for them.
     is_first_armed_tick_ = false;
     return;
   }
@@ -312,11 +314,11 @@ Fault HapticLoop::read_device() noexcept {
   last_state_ = state_;
   if (!device_.read(state_)) {
     state_ = last_state_;
-    // Whatever the device calls it: here there is nothing left to fade.
+    // Whatever fault the device reports, no force is left to fade.
     latch(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceReadFailed);
     return Fault::kNone;
   }
-  // Whatever a device says of points that it does not have.
+  // What a device reports about points that it does not have is ignored.
   for (int i = 0; i < kNumContactPoints; ++i) {
     if (shares_[i] > 0.0) continue;
     state_.attached[i] = false;
@@ -327,7 +329,7 @@ Fault HapticLoop::read_device() noexcept {
   if (acts_at_once_) state_.acted_n = force_on_hand_n_;
   state_.channels.bits = channels_;
   if (!is_finite(state_, has_joints_, watches_port_)) {
-    // Recordings and telemetry get the last state that was one.
+    // Recordings and telemetry get the last valid state.
     state_ = last_state_;
     return Fault::kNonFiniteState;
   }
@@ -337,7 +339,7 @@ Fault HapticLoop::read_device() noexcept {
   }
   Fault found = has_last_state_ ? check_against_last() : Fault::kNone;
   has_last_state_ = true;
-  // A measurement that stands in for one that is missing says nothing of the hand.
+  // A reused measurement says nothing about the hand.
   const bool is_new = state_.device_time_ns != last_state_.device_time_ns;
   // In simulated time there is only one clock.
   if (is_new && monotonic_ns_ != 0) {
@@ -360,7 +362,8 @@ Fault HapticLoop::read_device() noexcept {
   return found != Fault::kNone ? found : place;
 }
 
-/// A magnet that chatters must not knock: a point that is held again gets its force slowly.
+/// A magnet that chatters must not knock, so a point that is attached again gets its force
+/// slowly.
 void HapticLoop::watch_attachment() noexcept {
   for (int i = 0; i < kNumContactPoints; ++i) {
     double& ratio = point_authority_ratio_[i];
@@ -373,15 +376,17 @@ void HapticLoop::watch_attachment() noexcept {
   }
 }
 
-/// Time that is said to have passed widens what a hand may have moved, but no further than a
-/// measurement may stand in: a clock that leaps excuses no leap of the hand.
+/// More elapsed time allows a hand to have moved farther, but only up to the time for which a
+/// measurement may be reused. So a leap of the device's clock does not excuse a leap of the
+/// hand.
 double HapticLoop::max_distance_m(double elapsed_s) const noexcept {
   return parameters_.max_jump_m + parameters_.limits.max_speed_m_per_s *
                                       std::clamp(elapsed_s, period_s_, staleness_.longest_s());
 }
 
 Fault HapticLoop::check_against_last() noexcept {
-  // Unsigned, for a device may report any time without making the subtraction overflow.
+  // The subtraction is unsigned, because a device may report any time and a signed one could
+  // overflow.
   const auto elapsed_ns =
       static_cast<std::int64_t>(static_cast<std::uint64_t>(state_.device_time_ns) -
                                 static_cast<std::uint64_t>(last_state_.device_time_ns));
@@ -398,14 +403,15 @@ Fault HapticLoop::check_against_last() noexcept {
   const Fault port =
       elapsed_s > 0.0 ? guards_.observe_port(state_, contact_, elapsed_s) : Fault::kNone;
   staleness_.observe(state_, last_state_, elapsed_s, num_missed_);
-  // What ends the force at once must not wait behind what lets it fade.
+  // A fault that ends the force at once must not be hidden by one that lets it fade.
   if (port != Fault::kNone && !core::fades(port)) return port;
   if (!staleness_.is_stale()) return port;
   return staleness_.may_be_the_loops() ? Fault::kHostTooSlow : Fault::kStaleSample;
 }
 
-/// Points around which this command puts something that stores: they did not enter it, nor were
-/// they in anything that stores, which gives back no more than it got if it hardens.
+/// Returns the points around which this command puts a medium that stores energy. They did not
+/// enter it, and were not in such a medium before. (A medium that only becomes stiffer gives
+/// back no more than it got.)
 std::uint8_t HapticLoop::surrounded_bits(const core::HapticCommand& command) const noexcept {
   std::uint8_t bits = 0;
   if (!command_is_finite_) return bits;
@@ -422,7 +428,7 @@ void HapticLoop::take_command() noexcept {
   if (exchange_.commands.fetch()) {
     const core::HapticCommand& command = exchange_.commands.value();
     command_is_finite_ = command.medium.is_finite() && command.immersion.is_sound();
-    // A ramp that had met a value that is no number would never get rid of it.
+    // A ramp that took a value that is not a number would keep it for ever.
     if (command_is_finite_) {
       ramp_.start(command.medium, command.ramp_s);
     }
@@ -446,7 +452,7 @@ void HapticLoop::compute_force() noexcept {
   const core::MediumAmounts& medium = ramp_.advance(elapsed_s());
   motion_ =
       core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
-  // Of a device without a hand plane the hand meets the fluid head on.
+  // If a device has no hand plane, the hand counts as head on.
   if (!has_hand_plane_ && motion_.speed_m_per_s > 0.0) motion_.sin_angle_of_attack = 1.0;
   const bool is_solid = core::SolidSurfaces::are_there(medium);
   if (is_solid) {
@@ -467,7 +473,7 @@ void HapticLoop::compute_force() noexcept {
   limited_ = false;
   contact_.pushed_bits = 0;
   if (authority_ratio_ == 0.0) {
-    // Limiter and passivity start from here when the loop is armed again.
+    // Limiter and passivity start from this force when the loop is armed again.
     force_on_hand_n_ = core::zero_vectors();
     return;
   }
@@ -478,7 +484,7 @@ void HapticLoop::compute_force() noexcept {
     for (int i = 0; i < kNumContactPoints; ++i) force_on_hand_n_[i] += solid_force_n_[i];
   }
   for (int i = 0; i < kNumContactPoints; ++i) {
-    // Friction holds a hand against less.
+    // Friction can hold a hand against a smaller force.
     constexpr double kPushN = 1.0;
     const bool is_pushed = (contact_.storing_bits >> i & 1) != 0 &&
                            force_on_hand_n_[i].squaredNorm() >= kPushN * kPushN;
@@ -498,7 +504,7 @@ void HapticLoop::compute_force() noexcept {
   if (limiter_.fault() != Fault::kNone) latch(limiter_.fault());
 }
 
-/// As authority and attachment allow, like every force.
+/// Scales the guide's force by authority and attachment, like every force.
 void HapticLoop::add_guide_force() noexcept {
   guide_n_ = parameters_.guide->force_n(state_, period_s_);
   for (int i = 0; i < kNumContactPoints; ++i) {
@@ -507,8 +513,8 @@ void HapticLoop::add_guide_force() noexcept {
   }
 }
 
-/// What a guide gives is no debt of the medium's. Where the limiter cut both, this is too much
-/// or too little by what it cut.
+/// Returns the force without the guide's part, which is no energy of the medium. If the limiter
+/// reduced both, the result is wrong by what it took away.
 core::PointVectors HapticLoop::force_of_medium() const noexcept {
   core::PointVectors medium_n = force_on_hand_n_;
   for (int i = 0; parameters_.guide != nullptr && i < kNumContactPoints; ++i) {
@@ -519,7 +525,8 @@ core::PointVectors HapticLoop::force_of_medium() const noexcept {
 
 void HapticLoop::warm() const noexcept {
   constexpr std::size_t kCacheLine = 64;
-  constexpr std::size_t kOfTheDevice = 4096;  // As much of it as is likely to be its state.
+  // The part of the device that is likely to be its state.
+  constexpr std::size_t kOfTheDevice = 4096;
   const auto fetch = [](const void* from, std::size_t size) {
     for (std::size_t i = 0; i < size; i += kCacheLine) {
       __builtin_prefetch(static_cast<const unsigned char*>(from) + i, 1);
@@ -540,7 +547,7 @@ void HapticLoop::warm() const noexcept {
   limiter.limit(state_.attached, state_.tip_velocity_m_per_s, force_on_hand_n);
 }
 
-/// Force stands while ticks are missed.
+/// The force persists while ticks are missed.
 void HapticLoop::add_exposure() noexcept {
   constexpr double kFeltN = 0.1;
   double whole_n = 0.0;

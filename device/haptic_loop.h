@@ -28,23 +28,23 @@ namespace jnd::device {
 
 /// One tick of haptics over a device and a command:
 ///
-///     emergency stop -> read -> command, ramp -> kinematics -> solids, immersion -> fluid
-///     -> distribution -> passivity -> limiter -> write -> sample, telemetry
+///   emergency stop -> read -> command, ramp -> kinematics -> solids, immersion -> fluid
+///   -> distribution -> passivity -> limiter -> write -> sample, telemetry
 ///
-/// It knows no wall clock: a real-time thread drives it by absolute time, a simulation and a
-/// test as fast as they like. Whatever is wrong with the device, the force or the rest of the
-/// program becomes a latched fault and zero force, at once; after a lost heartbeat and a
-/// guard's fault the force fades out (`core::fades`). After a fault it goes on reading and
-/// writing zeros, so that everything stays recorded.
+/// It uses no wall clock. A real-time thread drives it by absolute time, a simulation or a test
+/// as fast as it likes. Any problem of the device, the force or the rest of the program becomes
+/// a latched fault and zero force at once. Only after a lost heartbeat and some guards' faults
+/// does the force fade out (`core::fades`). After a fault the loop continues to read and to
+/// write zeros, so that everything is recorded.
 class HapticLoop {
  public:
   struct Parameters {
-    /// With full force from the first tick, of a simulated device alone. Otherwise there is
-    /// none before `rearm`, and the fault is `kNotArmed` until then.
+    /// Starts with full force in the first tick; only for a simulated device. Otherwise there
+    /// is no force before `rearm`, and the fault is `kNotArmed` until then.
     bool starts_armed = false;
     double rate_hz = 1000.0;                ///< > 0.
-    double fade_speed_m_per_s = 0.005;      ///< See `distribute_drag`, > 0.
-    core::ForceLimiter::Parameters limits;  ///< The device's own limits apply besides.
+    double fade_speed_m_per_s = 0.005;      ///< As in `distribute_drag`, > 0.
+    core::ForceLimiter::Parameters limits;  ///< The device's own limits apply as well.
     core::PassivityController::Parameters passivity;
     core::PortEnergy::Parameters port_energy;
     core::ForceOscillation::Parameters oscillation;
@@ -60,26 +60,30 @@ class HapticLoop {
     double reattach_s = 0.200;     ///< Force back on a point that is held again, > 0.
     /// For how long the last measurement may stand in, >= 0; the device may ask for longer.
     double max_stale_s = 0.005;
-    /// Left by an attached point, there is no force until the loop is armed again inside.
+    /// If an attached point leaves it, there is no force until the loop is armed again inside
+    /// of it.
     core::Workspace workspace;
-    /// For media that need one; borrowed, nullptr: the thesis's C_D and no lift.
+    /// For media that need one; borrowed. nullptr means the thesis's C_D and no lift.
     const core::ForceMap* force_map = nullptr;
-    /// Who moves the device about while it is measured without a hand in it; borrowed, nullptr:
-    /// nobody, as in every session.
+    /// Moves the device while it is measured without a hand in it; borrowed. nullptr, as in
+    /// every session, means that nobody does.
     Guide* guide = nullptr;
-    /// Of a simulated device, whether energy, oscillation and velocity are watched where it
-    /// tells of its force; a real one always is. Who measures the loop itself does without.
+    /// For a simulated device that reports its force: whether energy, oscillation and velocity
+    /// are watched. A real device is always watched. A measurement of the loop itself switches
+    /// this off.
     bool watches_port = true;
-    /// Guards (`core::kGuards`) only count what they would have done: to see what they would do
-    /// to a study. Energy that a real device gives stays a fault. The port of a simulated
-    /// device is then watched as well where it does not tell its force, which acts at once.
+    /// Guards (`core::kGuards`) only count what they would have done, to see their effect on a
+    /// study. Only energy that a real device gives remains a fault. The guards then also watch
+    /// a simulated device that does not report its force, which is assumed to act at once.
     bool shadows_guards = false;
-    double max_jump_m = 0.005;       ///< Of a point between ticks beyond its top speed, > 0.
+    /// Largest displacement of a point between ticks beyond that of its top speed, > 0.
+    double max_jump_m = 0.005;
     double flight_recorder_s = 1.0;  ///< > 0.
-    std::int64_t first_tick = 0;  ///< Number of the first sample: a resumed recording goes on.
+    /// Number of the first sample, from which a resumed recording continues.
+    std::int64_t first_tick = 0;
   };
 
-  /// What leads out of the haptic thread. The caller keeps all of it alive.
+  /// The connections out of the haptic thread. The caller keeps all of them alive.
   struct Exchange {
     core::LatestValue<core::HapticCommand>& commands;
     core::LatestValue<core::Telemetry>& telemetry;
@@ -92,25 +96,25 @@ class HapticLoop {
     const core::Heartbeat* session = nullptr;
   };
 
-  /// Throws `core::Error` naming the field. The device is opened and closed by the caller. Not
-  /// real time.
+  /// Throws `core::Error` naming the field. The caller opens and closes the device. Not real
+  /// time.
   HapticLoop(const Parameters& parameters, HapticDevice& device, const Exchange& exchange);
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;
 
-  /// One whole tick. Real time.
+  /// Runs one whole tick. Real time.
   void tick() noexcept {
     render();
     report();
   }
 
-  /// The part of a tick up to the device's write, and the rest: for whoever measures lateness.
-  /// Always in this order. Real time.
+  /// The part of a tick up to the device's write, and the rest, for a caller that measures
+  /// lateness. Always call them in this order. Real time.
   void render() noexcept;
   void report() noexcept;
 
-  /// Does in vain what the next tick will do, so that its code and data are in the cache again
-  /// where others have pushed them out; changes nothing. Real time.
+  /// Computes in vain what the next tick will compute, so that its code and data return to the
+  /// cache if others have displaced them. It changes nothing. Real time.
   void warm() const noexcept;
 
   /// Asks for the force, faded in from zero, for the first time or after a fault. Takes effect
@@ -127,26 +131,27 @@ class HapticLoop {
     rearm_requested_.store(num_faults_seen + 1, std::memory_order_release);
   }
 
-  /// Of the next tick, by whoever drives the loop in real time: the monotonic clock now, and
-  /// how many ticks were due since the last one and never ran. Its number leaves those out, so
-  /// that a number is a time. In simulated time nobody says this. Real time.
+  /// Tells the loop before a tick, if it is driven in real time, the time by the monotonic
+  /// clock, and how many ticks were due since the last one and never ran. The tick's number
+  /// counts those as well, so a number is a time. Not used in simulated time. Real time.
   void due(std::int64_t monotonic_ns, std::int64_t num_missed) noexcept {
     monotonic_ns_ = monotonic_ns;
     num_missed_ += num_missed;
   }
 
-  /// No force from the next tick on, until `rearm`: nothing is wrong. Any thread. Real time.
+  /// Ends the force from the next tick on, until `rearm`. This is no fault. Any thread. Real
+  /// time.
   void disarm() noexcept { disarm_requested_.store(true, std::memory_order_release); }
 
-  /// The machine slept between two ticks: the next one latches a fault. May be called as
-  /// `stalled` is. Real time.
+  /// Tells that the machine slept between two ticks, so that the next tick latches a fault.
+  /// Call it like `stalled`. Real time.
   void suspended() noexcept {
     suspended_ = true;
     stall_is_told_ = false;
   }
 
-  /// Time was lost between two ticks, more than a hand should have been left to itself: the
-  /// next one latches a fault. By whoever calls `tick`. Real time.
+  /// Tells that more time was lost between two ticks than a hand should be left to itself, so
+  /// that the next tick latches a fault. For the thread that calls `tick`. Real time.
   void stalled() noexcept {
     stalled_ = true;
     stall_is_told_ = false;
@@ -156,17 +161,17 @@ class HapticLoop {
 
   /// Whether a tick is due when the device has measured, and not by our clock.
   [[nodiscard]] bool is_paced() const noexcept { return is_paced_; }
-  /// See `HapticDevice::wait_for_sample`. By whoever calls `tick`.
+  /// See `HapticDevice::wait_for_sample`. For the thread that calls `tick`.
   bool wait_for_sample(std::int64_t deadline_ns) noexcept {
     return device_.wait_for_sample(deadline_ns);
   }
 
-  /// Whether a heartbeat reaches it and this is where it tells its watchdog that it lives.
+  /// Whether the loop gets a heartbeat and beats for this watchdog.
   [[nodiscard]] bool is_watched_by(const core::WatchdogState& watched) const noexcept {
     return exchange_.heartbeat != nullptr && exchange_.watchdog == &watched;
   }
 
-  /// The last second before a fault; read it before `rearm`.
+  /// Returns the last second before a fault. Read it before `rearm`.
   [[nodiscard]] const core::FlightRecorder& flight_recorder() const noexcept {
     return flight_recorder_;
   }
@@ -206,10 +211,10 @@ class HapticLoop {
   double period_s_;
   bool is_paced_;
   bool has_joints_;
-  core::ChannelBits channels_;  ///< That the device has.
+  core::ChannelBits channels_;  ///< Channels that the device has.
   bool stalled_ = false;
   bool suspended_ = false;
-  bool stall_is_told_ = false;  ///< One of the two was latched, and none came since.
+  bool stall_is_told_ = false;  ///< One of the two was latched, and neither has occurred since.
   bool is_first_armed_tick_ = false;
   std::int64_t monotonic_ns_ = 0;
   std::int64_t num_missed_ = 0;  ///< Since the last tick.
@@ -219,11 +224,11 @@ class HapticLoop {
   core::UnseenForce unseen_force_;
   core::PassivityController passivity_;
   core::ForceLimiter limiter_;
-  core::ShareRatios shares_;  ///< Of the points that the device declares; 0: it has none there.
+  core::ShareRatios shares_;  ///< Shares of the points that the device has; 0 at the others.
   int num_points_;
-  bool has_hand_plane_;  ///< With all its points held.
+  bool has_hand_plane_;  ///< If all its points are attached.
   bool watches_port_;
-  bool acts_at_once_;  ///< What was sent last is taken for the force that acted.
+  bool acts_at_once_;  ///< The force that was sent last counts as the force that acted.
   bool may_be_armed_;
   bool tells_acted_;  ///< The device does.
   core::Guards guards_;
@@ -240,7 +245,8 @@ class HapticLoop {
   /// Of the force, the shortest of all faults since it was armed.
   double fading_s_ = std::numeric_limits<double>::infinity();
   double authority_ratio_ = 1.0;
-  std::array<double, core::kNumContactPoints> point_authority_ratio_;  ///< 0: not held.
+  /// 0 for a detached point.
+  std::array<double, core::kNumContactPoints> point_authority_ratio_;
   core::MediumRamp ramp_;
   bool command_is_finite_ = true;
   std::uint64_t stimulus_ = 0;     ///< That the last command began, or went on with.
@@ -256,7 +262,8 @@ class HapticLoop {
   core::Guards::Contact contact_;
   core::HandMotion motion_;
   core::PointVectors force_on_hand_n_ = core::zero_vectors();
-  core::PointVectors guide_n_ = core::zero_vectors();  ///< In that, as far as there is one.
+  /// Part of the force that comes from the guide, if there is one.
+  core::PointVectors guide_n_ = core::zero_vectors();
   int num_failed_writes_ = 0;
   bool limited_ = false;
   core::ClockComparison device_clock_;

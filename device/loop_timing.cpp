@@ -7,7 +7,7 @@
 namespace jnd::device {
 namespace {
 
-/// Only one thread writes, so that no locked instruction is needed.
+/// Only one thread writes, so no locked instruction is needed.
 void add_one(std::atomic<std::uint64_t>& counter) noexcept {
   counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
 }

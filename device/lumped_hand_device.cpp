@@ -25,7 +25,7 @@ LumpedHandDevice::LumpedHandDevice(const Parameters& parameters)
   require_positive(parameters.friction_speed_m_per_s, "friction_speed_m_per_s");
   require_positive(parameters.max_force_per_point_n, "max_force_per_point_n");
   require_positive(parameters.max_total_force_n, "max_total_force_n");
-  // Explicit damping is stable below 2 mass / period; half of it is left to the medium.
+  // Explicit damping is stable below 2 mass / period. Half of that is left to the medium.
   const double damping = parameters.mechanical_viscosity_n_s_per_m +
                          parameters.dry_friction_n / parameters.friction_speed_m_per_s +
                          parameters.arm.damping_n_s_per_m;

@@ -16,7 +16,8 @@ Eigen::Vector3d horizontal(const Eigen::Vector2d& vector, double z) noexcept {
   return {vector.x(), vector.y(), z};
 }
 
-/// The damping that a force against the motion amounts to at this velocity; 0 for a push.
+/// Returns the damping that is equivalent to a force against the motion at this velocity, and 0
+/// for a push.
 double damping_of(const Eigen::Vector3d& force_n,
                   const Eigen::Vector3d& velocity_m_per_s) noexcept {
   constexpr double kAtRestM2PerS2 = 1e-12;
@@ -41,7 +42,7 @@ MouseDevice::MouseDevice(const Parameters& parameters,
   require_positive(parameters.max_speed_m_per_s, "max_speed_m_per_s");
   require_positive(parameters.max_force_per_point_n, "max_force_per_point_n");
   require_positive(parameters.max_total_force_n, "max_total_force_n");
-  // Explicit spring and damper: stable with room to spare.
+  // The explicit spring and damper are then stable with a margin.
   const double period_s = hand_.period_s();
   require((parameters.damping_n_s_per_m + parameters.stiffness_n_per_m * period_s) * period_s <
               parameters.mass_kg,
@@ -52,7 +53,7 @@ DeviceCapabilities MouseDevice::capabilities() const noexcept {
   return {.rate_hz = parameters_.rate_hz,
           .max_force_per_point_n = parameters_.max_force_per_point_n,
           .max_total_force_n = parameters_.max_total_force_n,
-          // Its force is seen and not felt: a busy machine need not stop it.
+          // Its force is seen and not felt, so a busy machine need not stop it.
           .watchdog_timeout_s = 2.0,
           .heartbeat_timeout_s = 2.0,
           .simulated = true};

@@ -19,8 +19,7 @@ void OrderedArm::give(const Order& order) noexcept {
   orders_.publish(numbered);
 }
 
-// An order that the loop has not taken yet has no strokes to show: what is there belongs to the
-// order before.
+// Before the loop has taken an order, the progress is still that of the order before.
 std::int64_t OrderedArm::strokes_finished() const noexcept {
   const std::uint64_t progress = progress_.load(std::memory_order_relaxed);
   const bool in_force = progress >> 32 >= last_stroke_order_;

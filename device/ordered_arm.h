@@ -9,8 +9,8 @@
 
 namespace jnd::device {
 
-/// A `StrokingArm` inside a device and the place at which another thread gives it orders.
-/// What a `SimulatedHand` offers belongs to the one who orders, everything else to the loop's
+/// A `StrokingArm` inside of a device, with a place for orders from another thread. The
+/// functions of `SimulatedHand` are for the thread that gives orders, all others for the loop's
 /// thread.
 class OrderedArm final : public SimulatedHand {
  public:
@@ -25,16 +25,16 @@ class OrderedArm final : public SimulatedHand {
     puts_back_.store(true, std::memory_order_relaxed);
   }
 
-  /// Home again, orders forgotten. Not real time.
+  /// Puts the arm home and forgets the orders. Not real time.
   void reset();
-  /// Takes the newest order. Before whatever the tick needs of the arm. Real time.
+  /// Takes the newest order. Call it before the tick uses the arm. Real time.
   void follow_orders() noexcept;
-  /// Whether fingers are to be put back now; once for each time it was asked for. Real time.
+  /// Whether fingers are to be put back now. It returns true once for each request. Real time.
   [[nodiscard]] bool takes_putting_back() noexcept {
     return puts_back_.load(std::memory_order_relaxed) &&
            puts_back_.exchange(false, std::memory_order_relaxed);
   }
-  /// Moves on by one tick and tells how far it has come. Real time.
+  /// Advances by one tick and publishes the progress. Real time.
   void advance() noexcept;
   [[nodiscard]] const StrokingArm& arm() const noexcept { return arm_; }
 
@@ -54,7 +54,7 @@ class OrderedArm final : public SimulatedHand {
   std::atomic<bool> puts_back_{false};
   std::uint32_t last_order_ = 0;
   std::uint32_t last_stroke_order_ = 0;
-  /// Number of the order in force in the upper half, 2 * strokes + home in the lower.
+  /// Number of the order in force in the upper half, 2 * strokes + home in the lower half.
   std::atomic<std::uint64_t> progress_{1};
 };
 

@@ -9,7 +9,7 @@
 
 namespace jnd::device {
 
-/// What was done at a device so far. Trivially copyable.
+/// What has been done at a device so far. Trivially copyable.
 struct BenchState {
   bool has_hand = true;
   double load_kg = 0.0;
@@ -17,10 +17,10 @@ struct BenchState {
   std::uint32_t num_holds = 0;  ///< How often it was clamped or brought to a mark so far.
   bool is_clamped = false;
   bool is_touching = false;
-  std::array<double, 3> mark_m{};  ///< Where, workspace frame.
+  std::array<double, 3> mark_m{};  ///< The mark, in the workspace frame.
 };
 
-/// The bench of a simulated device: one thread does things, the loop's thread sees them.
+/// The bench of a simulated device. One thread acts, and the loop's thread reads the result.
 class OrderedBench final : public Bench {
  public:
   void take_hand_out() override {
@@ -56,20 +56,20 @@ class OrderedBench final : public Bench {
     told_.publish(done_);
   }
 
-  /// Of a device that is opened anew: a hand in it, nothing done but its homing. Not while
-  /// anything else is.
+  /// Call it when a device is opened again. The hand is in it, and of what was done only the
+  /// homing remains. Not while another function runs.
   void reset() {
     done_ = {.num_homings = done_.num_homings};
     told_.publish(done_);
   }
-  /// The loop's thread. Real time.
+  /// For the loop's thread. Real time.
   [[nodiscard]] const BenchState& newest() noexcept {
     (void)told_.fetch();
     return told_.value();
   }
 
  private:
-  BenchState done_;  ///< Of the thread that does things.
+  BenchState done_;  ///< For the thread that acts.
   core::LatestValue<BenchState> told_;
 };
 

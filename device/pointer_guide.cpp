@@ -9,7 +9,7 @@ namespace jnd::device {
 namespace {
 
 constexpr double kUsualIntervalS = 1.0 / 60.0;
-/// A pointer that was silent for longer has rested: the gap tells nothing of its rhythm.
+/// A pointer that was silent for longer has rested, so the gap tells nothing about its rhythm.
 constexpr double kLongestIntervalS = 0.050;
 
 }  // namespace
@@ -33,7 +33,7 @@ void PointerGuide::take(const core::PointerPosition& pointer) noexcept {
              std::clamp(pointer.y_m, -reach_m, reach_m)};
   const auto since_last = static_cast<double>(ticks_since_last_);
   if (since_last * period_s_ <= kLongestIntervalS) {
-    // Smoothed, for events come in bursts: a window reads them between two frames.
+    // The interval is smoothed, because a window reads events in bursts between two frames.
     interval_ticks_ += 0.25 * (since_last - interval_ticks_);
   }
   ticks_since_last_ = 0;
@@ -51,7 +51,7 @@ void PointerGuide::advance(const core::PointerPosition& pointer) noexcept {
   } else {
     line_m_ += (line_step_m_ / left_m) * way_m;
   }
-  // The filter's exact solution over one period in which the line stands still.
+  // This is the exact solution of the filter over one period in which the line stands still.
   const double bandwidth = parameters_.bandwidth_rad_per_s;
   const Eigen::Vector2d away_m = position_m_ - line_m_;
   const Eigen::Vector2d slope_m_per_s = velocity_m_per_s_ + bandwidth * away_m;

@@ -7,30 +7,32 @@
 
 namespace jnd::device {
 
-/// The way of a pointer that tells where it is some 30 to 120 times a second, made smooth for a
-/// loop at 1 kHz. Each position told is approached along a straight line over the usual time
-/// between two of them, no faster than `max_speed_m_per_s`; what goes along that line is
-/// followed by a critically damped second-order filter,
+/// Smooths the path of a pointer that reports its position some 30 to 120 times a second, for a
+/// loop at 1 kHz. It approaches each reported position along a straight line over the usual
+/// time between two of them, at most at `max_speed_m_per_s`. A critically damped second-order
+/// filter follows the point on that line,
 ///
-///     a = bandwidth^2 (line - position) - 2 bandwidth velocity.
+///   a = bandwidth^2 (line - position) - 2 bandwidth velocity.
 ///
-/// Such a filter never overshoots, and its speed stays within that of the line. So position and
-/// velocity never jump, whatever the pointer does; they come later by about the time between
-/// two positions and 2 / bandwidth: 30 ms at 60 Hz. Single-threaded; real time except the
+/// Such a filter never overshoots, and its speed never exceeds that of the line. So position
+/// and velocity never jump, whatever the pointer does. They are late by about the time between
+/// two positions plus 2 / bandwidth: 30 ms at 60 Hz. Single-threaded; real time except the
 /// constructor.
 class PointerGuide {
  public:
   struct Parameters {
     double bandwidth_rad_per_s = 150.0;  ///< > 0.
-    double max_speed_m_per_s = 2.5;  ///< > 0; half of what the haptic loop takes for broken.
-    double reach_m = 0.5;            ///< Farthest along x and along y, either way, > 0.
+    /// > 0; half of the speed that the haptic loop regards as a fault.
+    double max_speed_m_per_s = 2.5;
+    double reach_m = 0.5;  ///< Largest |x| and |y|, > 0.
   };
 
-  /// Throws `core::Error` naming the field; `period_s` > 0. At rest at (0, 0). Not real time.
+  /// Throws `core::Error` naming the field; `period_s` > 0. Starts at rest at (0, 0). Not real
+  /// time.
   PointerGuide(const Parameters& parameters, double period_s);
 
-  /// Moves on by one tick. A pointer whose sequence is that of the last tick has not moved; one
-  /// that is not finite counts for nothing; one out of reach is held at its edge.
+  /// Advances by one tick. A pointer with the sequence number of the last tick has not moved.
+  /// One that is not finite is ignored, and one out of reach is held at the edge.
   void advance(const core::PointerPosition& pointer) noexcept;
 
   [[nodiscard]] const Eigen::Vector2d& position_m() const noexcept { return position_m_; }
@@ -43,7 +45,7 @@ class PointerGuide {
 
   Parameters parameters_;
   double period_s_;
-  double decay_ratio_;  ///< Of the filter over one period.
+  double decay_ratio_;  ///< Decay of the filter over one period.
   double interval_ticks_;
   std::int64_t ticks_since_last_ = 0;
   std::uint64_t last_sequence_ = 0;

@@ -11,7 +11,7 @@
 namespace jnd::device {
 namespace {
 
-/// Whether orthonormal and no mirror; a NaN is not.
+/// Whether the matrix is orthonormal and no reflection; false for NaN.
 bool is_rotation(const Eigen::Matrix3d& matrix) {
   constexpr double kRounding = 1e-6;
   const Eigen::Matrix3d off = matrix * matrix.transpose() - Eigen::Matrix3d::Identity();
@@ -51,13 +51,14 @@ core::PlainVector turned(const Eigen::Matrix3d& rotation,
   return {result.x(), result.y(), result.z()};
 }
 
-/// How far a box around the robot's origin reaches from the workspace's along one axis.
+/// Returns how far a box around the robot's origin extends from the workspace's origin along
+/// one axis.
 double reach_m(const core::Workspace& robots, const Eigen::RowVector3d& row, double offset_m) {
   const std::array<double, 3> half_width_m = {robots.half_width_x_m, robots.half_width_y_m,
                                               robots.half_width_z_m};
   double sum_m = std::abs(offset_m);
   for (int axis = 0; axis < 3; ++axis) {
-    // An axis that has no part in it adds nothing, however wide the box is along it.
+    // An axis without a part in the sum adds nothing, however wide the box is along it.
     if (row[axis] != 0.0) sum_m += std::abs(row[axis]) * half_width_m[axis];
   }
   return sum_m;

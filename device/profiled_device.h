@@ -9,35 +9,37 @@
 
 namespace jnd::device {
 
-/// Any device, as it was measured: what it measures comes in the workspace frame, forces go to
-/// it in its own, and it is asked for no more than it was found to do. Gain and weight are not
-/// corrected for: what was sent is what the study says, and its analysis knows better.
+/// Any device with its measured profile. Its measurements are converted to the workspace frame,
+/// forces are converted to its own frame, and it never gets more than it was found to do. Gain
+/// and weight are not corrected: the sent force stays that of the study, and the analysis
+/// accounts for them.
 ///
-/// workspace position = rotation * robot position + offset; velocities, forces and torques are
-/// turned, and a force on the hand is turned back before it is written. A number that is none
-/// stays none. An end effector at exactly 0, 0, 0 is one that the device has not, and stays
-/// there, as do points that it does not have. A simulated hand takes its orders in the
-/// workspace frame. Real time where the device is; owns the device or borrows it.
+/// workspace position = rotation * robot position + offset. Velocities, forces and torques are
+/// rotated, and a force on the hand is rotated back before it is written. A NaN stays NaN. An
+/// end effector or point at exactly 0, 0, 0 is one that the device lacks, and stays there. A
+/// simulated hand takes its orders in the workspace frame. Real time if the device is. It owns
+/// the device or borrows it.
 class ProfiledDevice final : public HapticDevice {
  public:
   struct Parameters {
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< Orthonormal, determinant 1.
+    /// Orthonormal, with determinant 1.
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();
-    // What it is asked for at most, where it does not ask for less itself. > 0.
+    // Limits of what the device gets, unless its own are lower. > 0.
     double max_force_per_point_n = core::kInfinity;
     double max_total_force_n = core::kInfinity;
     double max_slew_n_per_s = core::kInfinity;
     double max_speed_m_per_s = core::kInfinity;
-    /// In the workspace frame. It takes the place of what the device says of its space, which
-    /// is in its own frame: that is kept to by no more than the box that holds it.
+    /// In the workspace frame. It replaces the space that the device itself reports. That space
+    /// is in the device's own frame, so only the box that holds it is respected.
     core::Workspace workspace{core::kInfinity, core::kInfinity, core::kInfinity};
-    // In the place of what it says of itself, where measured. >= 0.
+    // If measured, these replace what the device reports. >= 0.
     std::optional<double> own_mass_kg, own_damping_n_s_per_m, closed_loop_delay_s;
   };
 
-  /// Throw `core::Error` naming the field that is out of range. Not real time.
+  /// Throws `core::Error` naming the field that is out of range. Not real time.
   ProfiledDevice(std::unique_ptr<HapticDevice> inner, const Parameters& parameters);
-  /// `inner` has to outlive this.
+  /// Does the same with a borrowed device. `inner` must outlive this object.
   ProfiledDevice(HapticDevice& inner, const Parameters& parameters);
 
   [[nodiscard]] std::string_view name() const noexcept override { return inner_.name(); }
@@ -57,7 +59,7 @@ class ProfiledDevice final : public HapticDevice {
   [[nodiscard]] SimulatedHand* simulated_hand() noexcept override {
     return inner_.simulated_hand();
   }
-  /// Marks are in the workspace on either side.
+  /// Marks are in the workspace frame on both sides.
   [[nodiscard]] Bench* bench() noexcept override { return inner_.bench(); }
   [[nodiscard]] std::optional<LinkReport> link() const noexcept override {
     return inner_.link();
@@ -67,10 +69,10 @@ class ProfiledDevice final : public HapticDevice {
   }
 
  private:
-  std::unique_ptr<HapticDevice> owned_;  ///< nullptr: borrowed.
+  std::unique_ptr<HapticDevice> owned_;  ///< nullptr if the device is borrowed.
   HapticDevice& inner_;
   Parameters parameters_;
-  Eigen::Quaterniond turn_;  ///< The rotation.
+  Eigen::Quaterniond turn_;  ///< `rotation` as a quaternion.
 };
 
 }  // namespace jnd::device

@@ -46,8 +46,8 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// Calls `change(CPUs)` for every thread of this program but the calling one, and gives it what
-/// is left of them, if anything is.
+/// Calls `change(CPUs)` for every thread of this program but the calling one, and assigns the
+/// remaining CPUs to the thread, if there are any.
 template <typename Change>
 void change_cpus_of_other_threads(Change&& change) noexcept {
   DIR* tasks = ::opendir("/proc/self/task");
@@ -87,7 +87,8 @@ void obtain_scheduler(int priority, RealtimeReport& report) {
   sched_param given{};
   int policy = SCHED_OTHER;
   pthread_getschedparam(pthread_self(), &policy, &given);
-  // Where not even the system's timers are exact: a real-time thread has exact ones anyway.
+  // Timers of ordinary threads become as exact as possible. A real-time thread has exact timers
+  // anyway.
   if (policy != SCHED_FIFO && policy != SCHED_RR) prctl(PR_SET_TIMERSLACK, 1UL);
   report.priority = given.sched_priority;
   report.scheduler = words(policy, given.sched_priority);
@@ -161,8 +162,8 @@ void ClearedCpu::obtain(RealtimeReport& report) noexcept {
     if (CPU_ISSET(cpu, &allowed)) cpu_ = cpu;
   }
   change_cpus_of_other_threads([this](cpu_set_t& cpus) { CPU_CLR(cpu_, &cpus); });
-  // There now, and free to go: a real-time thread stays where it is as long as it may run
-  // there.
+  // The thread moves there now and is then free to move. A real-time thread stays where it is
+  // as long as it may run there.
   cpu_set_t there;
   CPU_ZERO(&there);
   CPU_SET(cpu_, &there);

@@ -6,45 +6,50 @@
 
 namespace jnd::device {
 
-/// What a thread was really given, as the system says, whatever was asked for.
+/// What the system really granted to a thread, whatever was requested.
 struct RealtimeReport {
-  bool realtime_scheduler = false;  ///< SCHED_FIFO at the priority asked for is in force.
-  std::string scheduler;            ///< In force: "SCHED_FIFO 80", "SCHED_OTHER", ...
-  int priority = 0;                 ///< In force, [1, 99]; 0 if not a real-time one.
-  bool memory_locked = false;       ///< All of the process, also what it will map.
-  bool pinned = false;              ///< To the CPU asked for; false if none was.
-  std::vector<int> cpus;            ///< Those the thread may run on, ascending.
-  bool cpus_kept_awake = false;     ///< Idle CPUs do not fall asleep deeply.
-  int cleared_cpu = -1;  ///< From which the program's other threads are kept; -1: none.
-  std::string lacks;     ///< What was asked for and not given, and how to get it; else empty.
+  bool realtime_scheduler = false;  ///< SCHED_FIFO at the requested priority is in force.
+  /// The scheduler in force: "SCHED_FIFO 80", "SCHED_OTHER", ...
+  std::string scheduler;
+  /// The priority in force, [1, 99]; 0 without a real-time scheduler.
+  int priority = 0;
+  bool memory_locked = false;  ///< All memory of the process, also what it will map later.
+  /// Pinned to the requested CPU; false if none was requested.
+  bool pinned = false;
+  std::vector<int> cpus;         ///< CPUs on which the thread may run, ascending.
+  bool cpus_kept_awake = false;  ///< Idle CPUs do not enter deep sleep.
+  int cleared_cpu = -1;  ///< CPU from which the program's other threads are kept; -1 for none.
+  /// What was requested and not granted, and how to get it; otherwise empty.
+  std::string lacks;
 };
 
-/// What a thread has used up. Real time.
+/// What a thread has used. Real time.
 struct ThreadUse {
-  std::int64_t num_page_faults = 0;  ///< With and without the disk.
+  std::int64_t num_page_faults = 0;  ///< With and without disk access.
   double cpu_time_s = 0.0;
 };
 
-/// Of the calling thread since it began; a system call. Real time.
+/// Returns the use of the calling thread since it began, by a system call. Real time.
 [[nodiscard]] ThreadUse thread_use() noexcept;
 
-// Each asks for one thing on behalf of the calling thread, and enters into `report` what came
-// of it. Not real time.
+// Each of these requests one thing for the calling thread and enters the result into `report`.
+// Not real time.
 
-/// SCHED_FIFO at `priority` in [1, 99]; 0 asks for nothing and reports what there is.
+/// Requests SCHED_FIFO at `priority` in [1, 99]; 0 requests nothing and reports the present
+/// state.
 void obtain_scheduler(int priority, RealtimeReport& report);
-/// The whole process's memory; `munlockall` undoes it.
+/// Locks the memory of the whole process; `munlockall` undoes it.
 void obtain_locked_memory(RealtimeReport& report);
-/// This CPU and no other; -1 asks for nothing and reports what there is.
+/// Pins the thread to this CPU; -1 requests nothing and reports the present state.
 void obtain_cpu(int cpu, RealtimeReport& report);
 /// Touches the stack that a loop may need, so that no page is missing later.
 void prefault_stack() noexcept;
-/// Numbers too small to be normal count as zero from now on, in this thread: what dies away in
-/// a filter of a hand at rest would cost a hundred times the time of any other.
+/// Makes this thread treat denormal numbers as zero from now on. Values that decay in a filter
+/// while the hand rests would otherwise cost a hundred times as much time.
 void flush_denormals() noexcept;
 
-/// Keeps every CPU out of the idle states that take long to wake up from, while it lives:
-/// latency 0 asked for at /dev/cpu_dma_latency. Costs electricity and no one's CPU time.
+/// Keeps every CPU out of idle states from which it wakes slowly, during the object's life, by
+/// requesting latency 0 at /dev/cpu_dma_latency. It costs electricity and no CPU time.
 class AwakeCpus {
  public:
   AwakeCpus() = default;
@@ -52,7 +57,8 @@ class AwakeCpus {
   AwakeCpus(const AwakeCpus&) = delete;
   AwakeCpus& operator=(const AwakeCpus&) = delete;
 
-  /// Not given where the device file is not writable, which is no lack. Not real time.
+  /// Does nothing if the device file is not writable, which does not count as lacking. Not real
+  /// time.
   void obtain(RealtimeReport& report) noexcept;
   void release() noexcept;
 
@@ -60,10 +66,10 @@ class AwakeCpus {
   int file_ = -1;
 };
 
-/// Keeps all other threads of this program, and what they start, off one CPU while it lives,
-/// and moves the calling thread there: drawing a window costs no cache that the loop's next
-/// tick needs. Not pinned: where another program's loop is on that CPU, the system still may
-/// move this one.
+/// During its life, it keeps all other threads of this program, and those that they start, off
+/// one CPU, and moves the calling thread there. So drawing a window does not displace what the
+/// loop's next tick needs from the cache. The thread is not pinned: if another program's loop
+/// uses that CPU, the system may still move it.
 class ClearedCpu {
  public:
   ClearedCpu() = default;
@@ -71,8 +77,9 @@ class ClearedCpu {
   ClearedCpu(const ClearedCpu&) = delete;
   ClearedCpu& operator=(const ClearedCpu&) = delete;
 
-  /// The last of the CPUs that the calling thread may run on; nothing where it is the only one,
-  /// or the thread has no real-time scheduler to get away from a busy one. Not real time.
+  /// Takes the last of the CPUs on which the calling thread may run. It takes none if that is
+  /// the only one, or if the thread has no real-time scheduler, without which it could not
+  /// leave a busy CPU. Not real time.
   void obtain(RealtimeReport& report) noexcept;
   void release() noexcept;
 

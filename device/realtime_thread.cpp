@@ -30,12 +30,12 @@ std::int64_t monotonic_ns() noexcept { return time_ns(CLOCK_MONOTONIC); }
 void sleep_until(std::int64_t until_ns) noexcept {
   const timespec until{.tv_sec = static_cast<time_t>(until_ns / kNsPerS),
                        .tv_nsec = static_cast<long>(until_ns % kNsPerS)};
-  // Woken early by a signal: sleep on.
+  // A signal woke it early, so it sleeps on.
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {
   }
 }
 
-/// Without the pause instruction: under a hypervisor too many of them give the CPU away.
+/// It uses no pause instruction, because under a hypervisor too many of them give the CPU away.
 std::int64_t spin_until(std::int64_t until_ns) noexcept {
   std::int64_t now_ns = monotonic_ns();
   while (now_ns < until_ns) now_ns = monotonic_ns();
@@ -87,19 +87,20 @@ void RealtimeThread::prepare() noexcept {
   if (parameters_.clear_cpu && parameters_.cpu < 0) cleared_cpu_.obtain(report_);
   if (parameters_.keep_cpus_awake) awake_cpus_.obtain(report_);
   prefault_stack();
-  // The page of the kernel's clock is missing until it is read: locking leaves it out.
+  // The page of the kernel's clock is missing until it is read, because locking leaves it out.
   (void)monotonic_ns();
   flush_denormals();
 }
 
-/// By our own clock. Returns the time when the tick begins.
+/// Waits by our own clock. Returns the time when the tick begins.
 std::int64_t RealtimeThread::wait_until_due(std::int64_t due_ns, AdaptiveSpin& spin) noexcept {
   const std::int64_t wake_up_ns = due_ns - spin.length_ns();
   if (wake_up_ns > monotonic_ns()) {
     sleep_until(wake_up_ns);
     spin.woke_up_late_by(monotonic_ns() - wake_up_ns);
   }
-  // At the last moment: what shares the cache with this CPU goes on pushing things out.
+  // The warming comes at the last moment, because other cores that share the cache keep
+  // displacing data.
   constexpr std::int64_t kWarmingNs = 5'000;  // Several times what it takes.
   if (monotonic_ns() < due_ns - kWarmingNs) {
     spin_until(due_ns - kWarmingNs);
@@ -108,9 +109,9 @@ std::int64_t RealtimeThread::wait_until_due(std::int64_t due_ns, AdaptiveSpin& s
   return spin_until(due_ns);
 }
 
-/// By the device's. The grid follows it slowly, so that a measurement may come half a period
-/// early or late, but a device that runs wild makes the loop faster by a sixteenth at most:
-/// what limits the force counts ticks.
+/// Waits by the device's clock. The grid follows it slowly, so a measurement may come half a
+/// period early or late. But a device whose clock runs wild makes the loop faster by a
+/// sixteenth at most, because the force limits count ticks.
 RealtimeThread::TickBegin RealtimeThread::wait_for_device(std::int64_t& due_ns,
                                                           std::int64_t period_ns) noexcept {
   constexpr std::int64_t kSlowness = 8;
@@ -142,7 +143,8 @@ void RealtimeThread::run() noexcept {
     const std::int64_t started_ns = begin.started_ns;
     if (sleep.has_slept()) loop_->suspended();
     if (started_ns - due_ns >= max_stall_ns) loop_->stalled();
-    // Woken up too late by whole periods: this is the tick of now, and those never ran.
+    // The thread woke up late by whole periods. This tick is that of the present time; the
+    // others never ran.
     const std::int64_t num_overslept =
         std::max<std::int64_t>(0, started_ns - due_ns) / period_ns;
     timing_.record_missed(num_overslept);
@@ -158,7 +160,7 @@ void RealtimeThread::run() noexcept {
     if (ended_ns >= due_ns + period_ns) {
       num_missed = (ended_ns - due_ns) / period_ns;
       timing_.record_missed(num_missed);
-      // Held up within the tick, in the device: what it wrote stood for as long.
+      // The tick was held up inside of the device, whose force persisted for as long.
       if (num_missed * period_ns >= max_stall_ns) loop_->stalled();
       due_ns += num_missed * period_ns;
     }
@@ -195,7 +197,7 @@ void start_haptics(HapticDevice& device, HapticLoop& loop, RealtimeThread& threa
   try {
     device.open();
   } catch (...) {
-    // It may have come half way.
+    // The device may have opened half way.
     device.close();
     throw;
   }

@@ -7,8 +7,8 @@
 
 namespace jnd::device {
 
-/// A simulated person's hand on a simulated device, told from outside what to do. Orders take
-/// effect in the device's next tick. Used by one thread, which need not be the loop's.
+/// A simulated person's hand on a simulated device, which takes orders from outside. Orders
+/// take effect in the device's next tick. One thread may use it, which need not be the loop's.
 class SimulatedHand {
  public:
   virtual ~SimulatedHand() = default;
@@ -16,11 +16,11 @@ class SimulatedHand {
   /// Throws `core::Error` for a plan out of range.
   virtual void begin_strokes(const StrokePlan& plan, const core::RandomStream& random) = 0;
   virtual void go_home() noexcept = 0;
-  /// Whole strokes since the last `begin_strokes`.
+  /// Returns the number of whole strokes since the last `begin_strokes`.
   [[nodiscard]] virtual std::int64_t strokes_finished() const noexcept = 0;
-  /// The arm has come to rest at home since the last order.
+  /// Whether the arm has come to rest at home since the last order.
   [[nodiscard]] virtual bool is_home() const noexcept = 0;
-  /// Puts back every finger of the device that came off, which takes its time. Nothing to do
+  /// Puts back every finger of the device that came off, which takes some time. It does nothing
   /// for a hand that cannot lose one.
   virtual void put_fingers_back() noexcept {}
 };

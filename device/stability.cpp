@@ -16,7 +16,7 @@ double norm_of(const core::PlainVector& vector) noexcept {
   return std::sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
 }
 
-/// What a run's last part is judged by, and what came before.
+/// Judges the last part of a run by the part before.
 class Judge {
  public:
   void watch(const core::Sample& sample) noexcept {
@@ -75,7 +75,7 @@ bool settles(HapticDevice& device, const core::HapticCommand& command, double ra
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;
   core::EmergencyStop stop;
-  // What watches over the port would end the run before its limit is found.
+  // Guards would end the run before its limit is found.
   HapticLoop loop({.starts_armed = true,
                    .rate_hz = rate_hz,
                    .watches_port = false,

@@ -19,7 +19,7 @@ struct Range {
   double lowest, highest;
   const char* words;
 
-  /// Not of NaN.
+  /// False for NaN.
   [[nodiscard]] bool contains(double number) const noexcept {
     return number >= lowest && number <= highest;
   }
@@ -43,7 +43,7 @@ bool is_possible(std::int64_t num_strokes) noexcept {
 }
 
 double clipped_normal(core::RandomStream& random) noexcept {
-  // With the largest spread allowed, 0.3, no factor 1 + sd z comes near zero.
+  // With the largest allowed spread, 0.3, no factor 1 + sd z comes close to zero.
   return std::clamp(random.normal(), -2.5, 2.5);
 }
 
@@ -82,7 +82,8 @@ void StrokingArm::begin_strokes(const StrokePlan& plan,
   random_ = random;
   strokes_finished_ = 0;
   draw_stroke();
-  // Rest to rest, a cubic's top speed is 1.5 distance / duration: about the stroke's own.
+  // From rest to rest, a cubic's top speed is 1.5 distance / duration, which is about that of
+  // the stroke.
   const double distance_m = (near_end_m_ - reference_m_).norm();
   start_curve(Phase::kApproaching, near_end_m_,
               std::max(0.1, 0.5 * std::numbers::pi * distance_m / speed_m_per_s_));
@@ -118,7 +119,7 @@ void StrokingArm::start_curve(Phase phase, const Eigen::Vector3d& to_m,
   curve_step_ratio_ = 1.0 / static_cast<double>(ticks_left_);
   curve_ratio_ = 0.0;
   half_end_m_ = to_m;
-  // Hermite's cubic.
+  // This is Hermite's cubic.
   const Eigen::Vector3d start_slope_m =
       (static_cast<double>(ticks_left_) * period_s_) * reference_velocity_m_per_s_;
   const Eigen::Vector3d way_m = to_m - reference_m_;
@@ -171,7 +172,7 @@ void StrokingArm::advance_half_stroke() noexcept {
   const Eigen::Vector3d way_m = half_end_m_ - half_start_m_;
   reference_m_ = half_start_m_ + (0.5 * (1.0 - cosine_)) * way_m;
   reference_velocity_m_per_s_ = (0.5 * sine_ * angular_speed_rad_per_s_) * way_m;
-  // The square starts and ends level, so that the turn is smooth in z, too.
+  // The squared sine starts and ends with slope 0, so that the turn is smooth in z, too.
   const double lift_m = phase_ == Phase::kForward ? -plan_.lift_m : plan_.lift_m;
   reference_m_.z() += lift_m * sine_ * sine_;
   reference_velocity_m_per_s_.z() += 2.0 * lift_m * sine_ * cosine_ * angular_speed_rad_per_s_;
@@ -179,7 +180,8 @@ void StrokingArm::advance_half_stroke() noexcept {
 }
 
 void StrokingArm::turn() noexcept {
-  // Rounding does not add up over strokes: every one starts exactly at its end.
+  // Every stroke starts exactly at its end point, so that rounding does not accumulate over
+  // strokes.
   reference_m_ = half_end_m_;
   reference_velocity_m_per_s_.setZero();
   switch (phase_) {

@@ -5,8 +5,8 @@
 
 namespace jnd::device {
 
-/// A simulated device that never starts: to rehearse, with the whole program, what a session
-/// says and keeps when cable or power is missing.
+/// A simulated device that never starts. It lets people rehearse, with the whole program, what
+/// a session reports and stores if cable or power is missing.
 class UnpluggedDevice final : public HapticDevice {
  public:
   explicit UnpluggedDevice(double rate_hz) : rate_hz_(rate_hz) {}
@@ -19,7 +19,7 @@ class UnpluggedDevice final : public HapticDevice {
             .simulated = true,
             .moves_by_itself = true};
   }
-  /// Throws, always.
+  /// Always throws.
   void open() override {
     throw core::Error(
         "unplugged: expected the device to answer, found nothing connected; check its cable, "

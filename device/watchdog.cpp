@@ -38,7 +38,8 @@ void Watchdog::look(std::int64_t now_ns) noexcept {
   }
   if (now_ns - silent_since_ns_ < timeout_ns_) return;
   silent_since_ns_ = now_ns;
-  // First the state: a loop that wakes up in between must not write over the halt.
+  // The state is set first, so that a loop that wakes up in between does not overwrite the
+  // halt.
   state_.bite();
   device_.halt();
 }
@@ -73,7 +74,7 @@ void WatchdogThread::run() noexcept {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     const std::int64_t now_ns = std::int64_t{now.tv_sec} * kNsPerS + now.tv_nsec;
-    // Held up with the whole machine: no looks are made up for.
+    // If the whole machine was held up, missed looks are not made up for.
     if (now_ns - next_ns > period_ns_) due = now;
     watchdog_.look(now_ns);
   }

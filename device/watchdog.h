@@ -11,23 +11,23 @@
 
 namespace jnd::device {
 
-/// Takes the force away from a device whose loop has stopped: stuck, starved or dead. It begins
-/// to watch with the loop's first beat. A loop that stays silent is bitten again after each
-/// timeout, so that no single halt has to arrive.
+/// Takes the force away from a device whose loop has stopped, because it is stuck, starved or
+/// dead. It begins to watch with the loop's first beat. A silent loop is bitten again after
+/// each timeout, so that the force ends even if a halt gets lost.
 ///
-/// It knows no wall clock: `look` is told the time, by a thread or a test.
+/// It uses no wall clock: a thread or a test passes the time to `look`.
 class Watchdog {
  public:
   struct Parameters {
-    double timeout_s = 0.020;  ///< Silence that is one too many, in (0, 10].
+    double timeout_s = 0.020;  ///< Longest allowed silence, in (0, 10].
   };
 
-  /// Throws `core::Error` naming the field. Device and state have to outlive this. Not real
+  /// Throws `core::Error` naming the field. Device and state must outlive this object. Not real
   /// time.
   Watchdog(const Parameters& parameters, HapticDevice& device, core::WatchdogState& state);
 
-  /// To be called several times within the timeout, by one thread, with a clock that never goes
-  /// back: a loop is bitten at the first look from one timeout on after the look that saw its
+  /// Call it several times within the timeout, from one thread, with a clock that never goes
+  /// back. It bites at the first look that comes a timeout or more after the look that saw the
   /// last beat. Real time.
   void look(std::int64_t now_ns) noexcept;
 
@@ -45,17 +45,19 @@ class WatchdogThread {
  public:
   struct Parameters {
     Watchdog::Parameters watchdog;
-    int priority = 81;  ///< Of SCHED_FIFO, [1, 99]; 0 does not ask for it.
+    int priority = 81;  ///< Of SCHED_FIFO, [1, 99]; 0 does not request it.
   };
 
-  /// Watches until this is destroyed. Throws `core::Error` naming the field. Not real time.
+  /// Watches until this object is destroyed. Throws `core::Error` naming the field. Not real
+  /// time.
   WatchdogThread(const Parameters& parameters, HapticDevice& device,
                  core::WatchdogState& state);
   ~WatchdogThread();
   WatchdogThread(const WatchdogThread&) = delete;
   WatchdogThread& operator=(const WatchdogThread&) = delete;
 
-  /// What its thread was given: without a real-time scheduler it keeps no timeout.
+  /// Returns what its thread was granted. Without a real-time scheduler it cannot keep the
+  /// timeout.
   [[nodiscard]] const RealtimeReport& report() const noexcept { return report_; }
 
  private:

@@ -35,7 +35,7 @@ void WatchedLoop::stop() noexcept {
   if (!watchdog_) return;
   thread_.stop();
   device_.halt();
-  // Until now it watched over a loop that may be stuck in the device and never end.
+  // Until here the watchdog watched a loop that may be stuck in the device and never end.
   watchdog_.reset();
   device_.close();
 }

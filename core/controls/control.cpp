@@ -8,7 +8,7 @@
 namespace jnd::core {
 namespace {
 
-/// Without the numbers of its maker and model.
+/// Returns the name without the numbers of maker and model.
 std::string_view plain_device(std::string_view device) {
   constexpr std::size_t kNumbers = 9;  // "0c45:7403"
   const bool has_numbers =
@@ -16,7 +16,7 @@ std::string_view plain_device(std::string_view device) {
   return has_numbers ? device.substr(kNumbers + 1) : device;
 }
 
-/// "B" of "KEY_B", "Left shift" of "KEY_LEFT_SHIFT", "Hat 0X-" of "ABS_HAT0X-".
+/// Returns "B" for "KEY_B", "Left shift" for "KEY_LEFT_SHIFT", "Hat 0X-" for "ABS_HAT0X-".
 std::string plain_control(std::string_view name) {
   if (name.starts_with("ABS_HAT")) return "Hat " + std::string(name.substr(7));
   for (const std::string_view prefix : {"KEY_", "BTN_"}) {

@@ -13,11 +13,12 @@
 namespace jnd::core {
 namespace {
 
-/// A device that is taken once nothing is held is asked again so often, and a box that is not
-/// there.
+/// Interval at which the thread retries to take a device that still has keys held, and to open
+/// a box that is missing.
 constexpr int kBetweenTries_ms = 200;
 
-/// Of the folder; none where it is not there, or the system watches no more.
+/// Returns a descriptor that watches the folder, or -1 if the folder is missing or the system
+/// allows no further watch.
 int watch_of(const std::filesystem::path& folder) {
   const int watch = ::inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
   if (watch >= 0) {
@@ -89,7 +90,7 @@ void ControlReader::run() noexcept {
       wait_for_something();
     }
   } catch (const std::exception&) {
-    // Out of memory: what was mapped is gone, and whoever looks sees no device.
+    // Memory ran out. The mapped controls are lost, and callers see no device.
     const std::lock_guard guard(mutex_);
     told_.clear();
   }
@@ -105,7 +106,7 @@ bool ControlReader::wants(const std::string& device) const {
   return listens_ == Listens::kToAll || (listens_ == Listens::kToMapped && map_.names(device));
 }
 
-/// Closes what is gone or nobody listens to, and opens what has come.
+/// Closes devices that are gone or that nobody listens to, and opens new ones.
 void ControlReader::look_for_devices() {
   const bool has_changed = std::exchange(has_folder_changed_, false);
   const bool listens = listens_ != Listens::kToNobody;
@@ -121,7 +122,8 @@ void ControlReader::look_for_devices() {
     }
     if (!is_there) return true;
     if (device.source) return !wants(device.name);
-    // To be looked at again: mapped meanwhile, perhaps another one, perhaps allowed by now.
+    // Such a device is looked at again: it may have been mapped, replaced or allowed in the
+    // meantime.
     return has_changed || (device.is_box && !device.problem.empty()) ||
            (!device.has_failed && !device.name.empty() && wants(device.name));
   });
@@ -153,7 +155,7 @@ void ControlReader::open(const std::filesystem::path& path, bool is_box,
   devices_.push_back(std::move(device));
 }
 
-/// Taken for ourselves where it is mapped, and given back where it is not.
+/// Takes the device exclusively if it is mapped, and gives it back if it is not.
 void ControlReader::settle(OpenDevice& device) {
   if (device.source == nullptr) return;
   const bool is_mapped = map_.names(device.name);
@@ -169,7 +171,9 @@ void ControlReader::settle(OpenDevice& device) {
 void ControlReader::tell_devices() {
   std::vector<DeviceState> told;
   for (const OpenDevice& device : devices_) {
-    if (device.source == nullptr && device.problem.empty()) continue;  // Nobody listens to it.
+    if (device.source == nullptr && device.problem.empty())
+      continue;  // Nobody listens to this
+                 // device.
     DeviceState state{.device = device.name.empty() ? device.path.string() : device.name,
                       .is_ours = device.is_ours,
                       .problem = device.problem};
@@ -212,7 +216,7 @@ void ControlReader::wait_for_something() {
     waits.push_back({.fd = device.source->descriptor(), .events = POLLIN, .revents = 0});
     sources.push_back(i);
   }
-  // Presses are passed on until somebody wishes something else or a device comes or goes.
+  // The loop passes presses on until the wishes change, or a device comes or goes.
   for (;;) {
     const int num = ::poll(waits.data(), waits.size(), tries_again ? kBetweenTries_ms : -1);
     bool goes_round = num <= 0 || waits[0].revents != 0 || waits[1].revents != 0;

@@ -15,9 +15,9 @@
 
 namespace jnd::core {
 
-/// Reads controls from a thread of its own: input devices that come and go, and serial boxes.
-/// A device is opened where somebody listens to it, and taken for ourselves where it is mapped,
-/// so that a pedal that is a keyboard does not type besides. Not real time.
+/// Reads controls in a thread of its own: input devices that come and go, and serial boxes. It
+/// opens a device when somebody listens to it. It takes a mapped device exclusively, so that a
+/// pedal that acts as a keyboard does not also type. Not real time.
 class ControlReader {
  public:
   struct SerialBoxPort {
@@ -25,32 +25,36 @@ class ControlReader {
     int baud = 9600;
   };
   struct Parameters {
-    std::filesystem::path folder = "/dev/input";  ///< Watched for what is plugged in.
+    /// The thread watches this folder for devices that are plugged in.
+    std::filesystem::path folder = "/dev/input";
     std::vector<SerialBoxPort> serial_boxes;
-    /// Opens an input device; of another kind in tests.
+    /// Opens an input device. Tests pass a function of their own.
     std::function<std::unique_ptr<ControlSource>(const std::filesystem::path&)> open =
         open_input_device;
-    /// Called by the thread, at once: something was pressed or let go.
+    /// The thread calls it at once when something is pressed or released.
     std::function<void(const ControlEvent&)> on_event;
-    /// Called by the thread: a mapped device that was open is gone.
+    /// The thread calls it when a mapped device that was open is gone.
     std::function<void(const std::string& device)> on_lost;
-    std::function<void()> on_change;  ///< Likewise: `devices` tells something else.
+    /// The thread calls it when the result of `devices` has changed.
+    std::function<void()> on_change;
   };
 
-  /// Who is listened to.
+  /// Which devices the thread listens to.
   enum class Listens {
     kToNobody,
     kToMapped,  ///< While a session runs.
-    kToAll,     ///< While somebody maps.
+    kToAll,     ///< While somebody assigns controls.
   };
 
-  /// A device as it stands.
+  /// The current state of a device.
   struct DeviceState {
-    std::string device;  ///< As in `Control`; the file's name where it could not be opened.
+    /// The name as in `Control`, or the file's name if it could not be opened.
+    std::string device;
     bool is_mapped = false;
-    bool is_ours = false;      ///< Taken for ourselves.
-    bool is_keyboard = false;  ///< It has the keys of a whole keyboard.
-    std::string problem;       ///< Why it cannot be used: a sentence; "" where it can.
+    bool is_ours = false;      ///< Taken exclusively.
+    bool is_keyboard = false;  ///< The device has the keys of a whole keyboard.
+    /// A sentence that says why the device cannot be used; "" if it can.
+    std::string problem;
 
     friend bool operator==(const DeviceState&, const DeviceState&) = default;
   };
@@ -60,21 +64,24 @@ class ControlReader {
   ControlReader(const ControlReader&) = delete;
   ControlReader& operator=(const ControlReader&) = delete;
 
-  /// From now on. Returns at once; the thread opens and closes.
+  /// Sets what the thread listens to from now on. Returns at once; the thread then opens and
+  /// closes devices.
   void listen(Listens listens, const ControlMap& map);
-  /// Of the devices that are open or should be, since the thread has looked last.
+  /// Returns the devices that are open or should be, as of the thread's last look.
   [[nodiscard]] std::vector<DeviceState> devices() const;
-  /// What was asked for by `listen` is done: for tests.
+  /// Whether the thread has done everything that `listen` asked for. For tests.
   [[nodiscard]] bool is_settled() const;
 
  private:
   struct OpenDevice {
     std::filesystem::path path;
     bool is_box = false;
-    std::string name;                       ///< As in `Control`; "": it is none, or not known.
-    std::unique_ptr<ControlSource> source;  ///< nullptr: not open.
+    /// The name as in `Control`; "" if the device has no controls or is not known.
+    std::string name;
+    std::unique_ptr<ControlSource> source;  ///< nullptr if the device is not open.
     bool is_ours = false;
-    bool has_failed = false;  ///< While it was open: it is gone, and its file goes, too.
+    /// It failed while it was open: the device is gone, and its file will disappear, too.
+    bool has_failed = false;
     std::string problem;
   };
 
@@ -97,7 +104,7 @@ class ControlReader {
   std::uint64_t num_wishes_ = 0, num_settled_ = 0;
   std::vector<DeviceState> told_;
   bool is_ending_ = false;
-  // The thread's own.
+  // Only the thread uses these.
   Listens listens_ = Listens::kToNobody;
   ControlMap map_;
   std::vector<OpenDevice> devices_;

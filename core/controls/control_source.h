@@ -9,43 +9,46 @@
 
 namespace jnd::core {
 
-/// A device that is open and can be pressed. Used by one thread. Not real time.
+/// An open device whose controls can be pressed. Only one thread may use it. Not real time.
 class ControlSource {
  public:
   virtual ~ControlSource() = default;
-  /// As in `Control`.
+  /// Returns the device's name as in `Control`.
   [[nodiscard]] virtual const std::string& device() const noexcept = 0;
-  /// Becomes readable where there is something to take.
+  /// Returns a descriptor that is readable when `take` has something to return.
   [[nodiscard]] virtual int descriptor() const noexcept = 0;
-  /// What was pressed since; waits for nothing. Throws `Error` where the device is gone.
+  /// Returns what was pressed since the last call, without waiting. Throws `Error` if the
+  /// device is gone.
   [[nodiscard]] virtual std::vector<ControlEvent> take() = 0;
-  /// Nobody else gets what is pressed; or others do again. Waits until nothing is held, so that
-  /// nobody is left with a key that never comes up: false then, to be tried again. Throws
-  /// `Error` where another program has the device for itself.
+  /// Takes the device exclusively, so that no other program gets its presses, or gives it back.
+  /// While something is held it does nothing and returns false, so that no program is left with
+  /// a key that never comes up; then try again. Throws `Error` if another program has the
+  /// device exclusively.
   [[nodiscard]] virtual bool take_for_ourselves(bool wanted) = 0;
-  /// It has the keys of a whole keyboard. So have many pedals.
+  /// Whether the device has the keys of a whole keyboard. Many pedals have.
   [[nodiscard]] virtual bool is_keyboard() const noexcept { return false; }
 };
 
-/// An input device of the kernel, as the folder of devices lists it.
+/// An input device of the kernel, as listed in the folder of devices.
 struct InputDevice {
   std::filesystem::path path;  ///< "/dev/input/event3"
-  std::string name;            ///< As the kernel has it; its file's name where it says nothing.
-  bool can_read = false;       ///< This user may.
+  /// The kernel's name for it, or the file's name if the kernel gives none.
+  std::string name;
+  bool can_read = false;  ///< Whether this user may read it.
 };
 
-/// Every input device, in the order of their numbers. Empty where the folder is not there.
+/// Returns every input device, ordered by number. Returns none if the folder is missing.
 [[nodiscard]] std::vector<InputDevice> input_devices(
     const std::filesystem::path& folder = "/dev/input");
 
-/// Opens one by evdev, with times of CLOCK_MONOTONIC; nullptr for what nobody answers by: mice,
-/// touch screens and pads, and devices without keys. Throws `Error` where it cannot be opened;
-/// it says which group may.
+/// Opens an input device by evdev, with times of CLOCK_MONOTONIC. Returns nullptr for devices
+/// that nobody answers with: mice, touch screens and pads, and devices without keys. Throws
+/// `Error` if it cannot be opened; the message names the group that may.
 [[nodiscard]] std::unique_ptr<ControlSource> open_input_device(
     const std::filesystem::path& path);
 
-/// A box that sends a byte when something is pressed, at this rate: each value of a byte is a
-/// control. Throws as `SerialPort`.
+/// Opens a box that sends a byte at this rate when something is pressed. Each value of a byte
+/// is a control. Throws like `SerialPort`.
 [[nodiscard]] std::unique_ptr<ControlSource> open_serial_box(const std::filesystem::path& path,
                                                              int baud);
 

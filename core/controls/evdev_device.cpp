@@ -29,7 +29,7 @@ bool has_key(const libevdev* device, unsigned code) {
   return ::libevdev_has_event_code(device, EV_KEY, code) != 0;
 }
 
-/// What is pointed with: who clicks would answer.
+/// Whether it is a pointing device. Its clicks would count as answers.
 bool points(const libevdev* device) {
   return ::libevdev_has_event_code(device, EV_REL, REL_X) != 0 || has_key(device, BTN_TOUCH) ||
          ::libevdev_has_property(device, INPUT_PROP_POINTER) != 0 ||
@@ -105,7 +105,7 @@ class EvdevDevice final : public ControlSource {
   InputEvents events_;
 };
 
-/// The number behind "event"; -1 for another file.
+/// Returns the number after "event", or -1 for another file.
 int number_of(const std::filesystem::path& path) {
   int number = -1;
   char rest = '\0';
@@ -122,7 +122,7 @@ std::vector<InputDevice> input_devices(const std::filesystem::path& folder) {
     if (number_of(entry.path()) < 0) continue;
     const std::string file = entry.path().filename().string();
     InputDevice device{.path = entry.path(), .name = file};
-    // Also for who may not open it.
+    // The name is read from here because every user may read this file.
     std::ifstream name("/sys/class/input/" + file + "/device/name");
     if (std::string line; std::getline(name, line) && !line.empty()) device.name = line;
     device.can_read = ::access(entry.path().c_str(), R_OK) == 0;

@@ -11,20 +11,20 @@
 
 namespace jnd::core {
 
-/// Makes presses of what the kernel's evdev writes, `struct input_event` by `input_event`
-/// (linux/input.h), wherever they are read from. Keys, buttons and hats count; axes that are
-/// analogue and repeats of a held key do not. Where the kernel says that it dropped events
-/// (SYN_DROPPED), what was down counts as let go, for nobody knows. Not real time.
+/// Turns what the kernel's evdev writes into presses, one `struct input_event` (linux/input.h)
+/// after another, whatever their source. Keys, buttons and hats count; analogue axes and
+/// repeats of a held key do not. If the kernel reports that it dropped events (SYN_DROPPED),
+/// everything that was down counts as released, because its state is unknown. Not real time.
 class InputEvents {
  public:
   explicit InputEvents(std::string device) : device_(std::move(device)) {}
 
-  /// The bytes that came; an event that has not come whole waits for the rest.
+  /// Takes the bytes that have arrived. An incomplete event waits for the rest of its bytes.
   [[nodiscard]] std::vector<ControlEvent> take(std::span<const std::byte> bytes);
-  /// Something is down: who takes the device for themselves now leaves others with a key that
-  /// never comes up.
+  /// Whether something is down. Taking the device exclusively now would leave other programs
+  /// with a key that never comes up.
   [[nodiscard]] bool any_down() const noexcept { return !down_.empty(); }
-  /// Down before anybody listened; it is told when it comes up.
+  /// Notes a key that was down before anybody listened. Its release is reported.
   void note_down(const std::string& name) { down_.insert(name); }
 
  private:

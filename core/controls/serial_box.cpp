@@ -40,7 +40,7 @@ class SerialBox final : public ControlSource {
     return events;
   }
 
-  /// It is ours since it was opened.
+  /// A serial box is exclusively ours from its opening on.
   [[nodiscard]] bool take_for_ourselves(bool) override { return true; }
 
  private:

@@ -8,14 +8,15 @@
 
 namespace jnd::core {
 
-/// The last ticks before a fault. The haptic thread records until it freezes the recorder, in
-/// the tick of the fault; from then on any thread may read it, until the loop is armed again.
+/// Keeps the last ticks before a fault. The haptic thread records until it freezes the recorder
+/// in the tick of the fault. From then on any thread may read it, until the loop is armed
+/// again.
 class FlightRecorder {
  public:
-  /// Room for `num_samples` >= 1. Not real time.
+  /// Makes room for `num_samples` >= 1 samples. Not real time.
   explicit FlightRecorder(std::size_t num_samples) : ring_(num_samples > 0 ? num_samples : 1) {}
 
-  /// Haptic thread; does nothing while frozen. Real time.
+  /// Records a sample, or does nothing while frozen. Haptic thread. Real time.
   void record(const Sample& sample) noexcept {
     if (frozen_.load(std::memory_order_relaxed)) return;
     ring_[next_] = sample;
@@ -25,9 +26,9 @@ class FlightRecorder {
     }
   }
 
-  /// Haptic thread. Real time.
+  /// Stops the recording. Haptic thread. Real time.
   void freeze() noexcept { frozen_.store(true, std::memory_order_release); }
-  /// Haptic thread. Starts afresh. Real time.
+  /// Empties the recorder and records again. Haptic thread. Real time.
   void thaw() noexcept {
     next_ = 0;
     full_ = false;
@@ -38,8 +39,8 @@ class FlightRecorder {
     return frozen_.load(std::memory_order_acquire);
   }
 
-  /// Oldest first. Only while frozen, or without a haptic thread; fetch it before arming the
-  /// loop again. Not real time.
+  /// Returns the samples, the oldest first. Call it only while the recorder is frozen or no
+  /// haptic thread runs, and before the loop is armed again. Not real time.
   [[nodiscard]] std::vector<Sample> contents() const {
     std::vector<Sample> samples;
     if (full_) samples.assign(ring_.begin() + static_cast<std::ptrdiff_t>(next_), ring_.end());

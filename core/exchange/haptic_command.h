@@ -8,10 +8,11 @@
 
 namespace jnd::core {
 
-/// What the experimenter's side may tell the haptic loop. Trivially copyable: it crosses to the
-/// haptic thread through a `LatestValue`.
+/// What the experimenter's side tells the haptic loop. Trivially copyable, because it crosses
+/// to the haptic thread through a `LatestValue`.
 struct HapticCommand {
-  /// Rises by one with every command; samples echo the one in force. 0 is "no command yet".
+  /// Increases by one with every command. Samples repeat the number of the command in force; 0
+  /// means "no command yet".
   std::uint64_t sequence = 0;
   MediumAmounts medium;   ///< Free space by default.
   Immersion immersion;    ///< Infinite surface by default.

@@ -7,9 +7,9 @@
 
 namespace jnd::core {
 
-/// A place for one writer and one reader thread, in which the newest value wins: a triple
-/// buffer. Both sides are wait-free: neither ever waits for the other or sees half a value.
-/// What the reader did not fetch in time is overwritten. Real time.
+/// Passes the newest value from one writer thread to one reader thread, by a triple buffer.
+/// Both sides are wait-free: neither waits for the other or sees half a value. A value that the
+/// reader did not fetch in time is overwritten. Real time.
 template <typename T>
 class LatestValue {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -19,27 +19,28 @@ class LatestValue {
   LatestValue(const LatestValue&) = delete;
   LatestValue& operator=(const LatestValue&) = delete;
 
-  /// Writer: makes `value` the newest.
+  /// Makes `value` the newest one. Writer.
   void publish(const T& value) noexcept {
     slots_[written_].value = value;
     written_ = exchanged_.exchange(written_ | kFresh, std::memory_order_acq_rel) & kIndex;
   }
 
-  /// Reader: moves on to the newest value; false if it has it already.
+  /// Moves on to the newest value. Returns false if the reader has it already. Reader.
   bool fetch() noexcept {
     if ((exchanged_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
     read_ = exchanged_.exchange(read_, std::memory_order_acq_rel) & kIndex;
     return true;
   }
 
-  /// Reader: the value last fetched, `T{}` before the first; stays as it is until `fetch`.
+  /// Returns the value that was fetched last, or `T{}` before the first fetch. It does not
+  /// change until the next `fetch`. Reader.
   [[nodiscard]] const T& value() const noexcept { return slots_[read_].value; }
 
  private:
   static constexpr std::uint32_t kIndex = 3;
   static constexpr std::uint32_t kFresh = 4;
 
-  // A cache line of its own for each side.
+  // Each side has cache lines of its own.
   struct alignas(64) Slot {
     T value{};
   };

@@ -9,21 +9,22 @@
 
 namespace jnd::core {
 
-/// A bounded queue from one writer thread to one reader thread, in order. A full queue drops
-/// the new value and counts it; it never waits. A simulation loses nothing because it drains
-/// whenever `num_free` is 0. Real time except the constructor.
+/// A bounded queue from one writer thread to one reader thread, in order. It never waits: if it
+/// is full, it drops the new value and counts it. A simulation loses nothing, because it drains
+/// the queue whenever `num_free` is 0. Real time except the constructor.
 template <typename T>
 class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  /// Room for at least `capacity` >= 1 values; rounded up to a power of two. Not real time.
+  /// Makes room for at least `capacity` >= 1 values, rounded up to a power of two. Not real
+  /// time.
   explicit SpscQueue(std::size_t capacity)
       : ring_(std::bit_ceil(capacity > 0 ? capacity : 1)), mask_(ring_.size() - 1) {}
   SpscQueue(const SpscQueue&) = delete;
   SpscQueue& operator=(const SpscQueue&) = delete;
 
-  /// Writer: false, and one more `num_dropped`, if the queue is full.
+  /// Returns false and increases `num_dropped` if the queue is full. Writer.
   bool try_push(const T& value) noexcept {
     const std::size_t tail = tail_.load(std::memory_order_relaxed);
     if (tail - seen_head_ == ring_.size()) {
@@ -39,7 +40,7 @@ class SpscQueue {
     return true;
   }
 
-  /// Reader: false if the queue is empty.
+  /// Returns false if the queue is empty. Reader.
   bool try_pop(T& value) noexcept {
     const std::size_t head = head_.load(std::memory_order_relaxed);
     if (head == tail_.load(std::memory_order_acquire)) return false;
@@ -48,8 +49,9 @@ class SpscQueue {
     return true;
   }
 
-  /// Reader: calls `visit(const T&)` for all that is there now, oldest first, in place; returns
-  /// how many. If `visit` throws, nothing counts as read.
+  /// Calls `visit(const T&)` in place for every value that is in the queue now, the oldest
+  /// first, and returns how many there were. If `visit` throws, no value counts as read.
+  /// Reader.
   template <typename Visit>
   std::size_t drain(Visit&& visit) {
     const std::size_t head = head_.load(std::memory_order_relaxed);
@@ -59,7 +61,7 @@ class SpscQueue {
     return tail - head;
   }
 
-  /// Either side; the other may have changed it since.
+  /// Either side may call it. The other side may have changed the number since.
   [[nodiscard]] std::size_t size() const noexcept {
     const std::size_t head = head_.load(std::memory_order_acquire);
     return tail_.load(std::memory_order_acquire) - head;
@@ -73,8 +75,8 @@ class SpscQueue {
  private:
   std::vector<T> ring_;
   std::size_t mask_;
-  // Counted up for ever, each on a cache line of its own; the writer keeps the head it saw
-  // last.
+  // Both counters only increase, and each has a cache line of its own. The writer remembers the
+  // head that it saw last.
   alignas(64) std::atomic<std::size_t> head_{0};
   alignas(64) std::atomic<std::size_t> tail_{0};
   std::size_t seen_head_ = 0;

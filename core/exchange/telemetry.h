@@ -15,25 +15,27 @@
 
 namespace jnd::core {
 
-/// What the haptic loop tells the rest of the program after each tick; workspace frame.
-/// Trivially copyable: it leaves the haptic thread through a `LatestValue`.
+/// What the haptic loop tells the rest of the program after each tick, in the workspace frame.
+/// Trivially copyable, because it leaves the haptic thread through a `LatestValue`.
 struct Telemetry {
-  std::int64_t num_ticks = 0;          ///< Ticks done by this loop; 0 is "none yet".
-  std::int64_t num_missed_ticks = 0;   ///< That were due and never ran, so far.
-  Sample sample;                       ///< The last one, as recorded.
+  std::int64_t num_ticks = 0;          ///< Ticks that this loop has done; 0 means "none yet".
+  std::int64_t num_missed_ticks = 0;   ///< Ticks so far that were due and never ran.
+  Sample sample;                       ///< The last sample, as it is recorded.
   std::uint64_t command_sequence = 0;  ///< Sequence number of the command in force.
   Fault fault = Fault::kNone;
   Arming arming = Arming::kDisarmed;
-  bool enabled = true;   ///< Of the device's own enabling switch: closed, or it has none.
+  bool enabled = true;   ///< The device's own enabling switch is closed, or it has none.
   bool limited = false;  ///< The limiter changed the force in this tick.
-  /// A guard is close to its fault, or takes a force away until the hand moves.
+  /// A guard that is close to its fault, or that takes a force away until the hand moves.
   Fault warning = Fault::kNone;
-  GuardCounts guards;             ///< So far.
-  bool ramp_finished = true;      ///< The medium in force is the commanded one.
-  double authority_ratio = 1;     ///< 1 normally; below while the force fades out or back in.
-  PlainVector hand_position_m{};  ///< Mean of the tips that the device declares.
+  GuardCounts guards;         ///< Counts since the loop began.
+  bool ramp_finished = true;  ///< The medium in force is the commanded one.
+  /// 1 normally, and less while the force fades out or in again.
+  double authority_ratio = 1;
+  PlainVector hand_position_m{};        ///< Mean of the tips that the device has.
   PlainVector hand_velocity_m_per_s{};  ///< Mean of the attached tips.
-  PlainVector total_force_n{};          ///< On the hand, sum of the points, after every limit.
+  /// Sum of the forces on the hand over all points, after every limit.
+  PlainVector total_force_n{};
   std::uint64_t num_dropped_samples = 0;
   /// So far, each kind once until it is armed again: who looks now and then misses none, and
   /// who arms says how many were seen.

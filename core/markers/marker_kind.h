@@ -7,8 +7,9 @@
 
 namespace jnd::core {
 
-/// Which pulse an event has; none for most. It follows from the event's kind alone, so that
-/// pulses unblind nobody. The end is no event: it is told before the last one is stored.
+/// Returns the pulse of an event; most events have none. It depends on the event's kind alone,
+/// so that pulses unblind nobody. The end of a session is no event: its pulse is sent before
+/// the last event is stored.
 [[nodiscard]] std::optional<MarkerKind> marker_kind_of(const EventRow& event);
 
 }  // namespace jnd::core

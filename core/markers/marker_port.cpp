@@ -24,7 +24,7 @@ class BytePort final : public MarkerPort {
   SerialPort port_;
 };
 
-/// Opening a serial port may raise its lines: they are low once it is open.
+/// Opening a serial port may raise its lines, so this class lowers them after opening.
 class LinePort final : public MarkerPort {
  public:
   explicit LinePort(const WantedMarkers& wanted)
@@ -40,7 +40,7 @@ class LinePort final : public MarkerPort {
   int line_;
 };
 
-/// The eight data lines of a parallel port, by the kernel's ppdev.
+/// Uses the eight data lines of a parallel port, by the kernel's ppdev.
 class ParallelPort final : public MarkerPort {
  public:
   explicit ParallelPort(const std::string& path)

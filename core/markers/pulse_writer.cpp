@@ -7,7 +7,7 @@
 namespace jnd::core {
 namespace {
 
-/// More than this waiting are no session's, as long as the port takes any.
+/// No session has more pulses waiting while the port accepts any.
 constexpr std::size_t kMostWaitingPulses = 256;
 
 double monotonic_now_s() {
@@ -113,7 +113,7 @@ void PulseWriter::write_all(MarkerPort& port) {
     if (width_s_ > 0.0) {
       const bool goes_on = rest(after_s + width_s_);
       port.clear();
-      // So that a recorder sees two pulses of one code as two.
+      // The pause lets a recorder see two pulses of the same code as two.
       if (!goes_on || !rest(monotonic_now_s() + width_s_)) return;
     }
     {

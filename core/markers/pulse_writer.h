@@ -16,28 +16,29 @@
 
 namespace jnd::core {
 
-/// Writes pulses from a thread of its own, one after the other, and keeps the time of each. A
-/// port that cannot be opened, or fails, is told once; what is sent afterwards is dropped and
-/// counted. Whoever sends waits for nobody. Not real time.
+/// Writes pulses in a thread of its own, one after another, and keeps the time of each. It
+/// reports once that a port cannot be opened or fails, and then drops and counts all later
+/// pulses. The sender never waits. Not real time.
 class PulseWriter {
  public:
-  /// `open` is called by the thread. `width_s`: as `WantedMarkers`.
+  /// The thread calls `open`. `width_s` is as in `WantedMarkers`.
   PulseWriter(std::function<std::unique_ptr<MarkerPort>()> open, double width_s);
-  /// Ends the pulse under way; what still waits is dropped.
+  /// Ends the pulse under way and drops those that still wait.
   ~PulseWriter();
   PulseWriter(const PulseWriter&) = delete;
   PulseWriter& operator=(const PulseWriter&) = delete;
 
   void send(std::int64_t event, int code);
 
-  /// What there is to tell since the last time.
+  /// What has happened since the last call of `take_news`.
   struct News {
-    bool is_opened = false;           ///< The port has been opened meanwhile.
-    std::string problem;              ///< It failed meanwhile: a sentence; "" otherwise.
-    std::vector<MarkerPulse> pulses;  ///< That were written meanwhile.
+    bool is_opened = false;  ///< The port was opened.
+    /// A sentence that says why the port failed; "" otherwise.
+    std::string problem;
+    std::vector<MarkerPulse> pulses;  ///< Pulses that were written.
   };
   [[nodiscard]] News take_news();
-  /// Waits until everything was written or dropped, for this long at most.
+  /// Waits until every pulse is written or dropped, but no longer than this.
   void wait_until_sent(double patience_s);
 
   [[nodiscard]] std::int64_t num_sent() const;
@@ -46,7 +47,7 @@ class PulseWriter {
  private:
   void run() noexcept;
   void write_all(MarkerPort& port);
-  /// False where the writer ends before.
+  /// Returns false if the writer ends first.
   bool rest(double until_s);
 
   const std::function<std::unique_ptr<MarkerPort>()> open_;

@@ -5,7 +5,7 @@
 
 namespace jnd::core {
 
-/// A file descriptor that is closed with it; -1: none.
+/// Owns a file descriptor and closes it; -1 means none.
 class OwnedDescriptor {
  public:
   explicit OwnedDescriptor(int descriptor = -1) noexcept : descriptor_(descriptor) {}
@@ -20,18 +20,18 @@ class OwnedDescriptor {
   int descriptor_;
 };
 
-/// A serial port for bytes as they are: 8 bits, no parity, one stop bit, no flow control, and
-/// nobody else may open it. Nothing waits for a modem. Not real time.
+/// A serial port for raw bytes: 8 bits, no parity, one stop bit, no flow control, opened
+/// exclusively. Nothing waits for a modem. Not real time.
 class SerialPort {
  public:
-  /// Throws `Error` where it cannot be opened, and for a rate that no port has.
+  /// Throws `Error` if the port cannot be opened, or for a rate that no port has.
   SerialPort(const std::filesystem::path& path, int baud);
 
   [[nodiscard]] int descriptor() const noexcept { return descriptor_.get(); }
-  /// Returns once the byte has left the kernel, as far as the driver knows. Throws `Error`
-  /// where the port is gone or takes nothing for 100 ms.
+  /// Returns once the byte has left the kernel, as far as the driver knows. Throws `Error` if
+  /// the port is gone or accepts nothing for 100 ms.
   void write(std::uint8_t byte) const;
-  /// `line`: TIOCM_RTS or TIOCM_DTR. Throws `Error` for a port without such lines.
+  /// Sets the line TIOCM_RTS or TIOCM_DTR. Throws `Error` for a port without such lines.
   void set_line(int line, bool is_high) const;
 
  private:
@@ -39,7 +39,8 @@ class SerialPort {
   OwnedDescriptor descriptor_;
 };
 
-/// Opens a file of a port and throws `Error` in a sentence where it cannot be: `group` may.
+/// Opens the file of a port. Throws `Error` if it cannot be opened; the message names `group`,
+/// whose members may.
 [[nodiscard]] OwnedDescriptor open_port(const std::filesystem::path& path, int flags,
                                         const char* group);
 

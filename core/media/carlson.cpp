@@ -7,7 +7,7 @@
 namespace jnd::core {
 namespace {
 
-// The truncated series err by about the sixth power of the spread.
+// The error of the truncated series is about the sixth power of the spread.
 constexpr double kMaxSpread = 1e-3;
 
 bool are_in_range(double x, double y, double z) noexcept {

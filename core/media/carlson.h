@@ -2,14 +2,14 @@
 
 namespace jnd::core {
 
-/// Carlson's symmetric elliptic integrals (Carlson 1979), by his duplication theorem, to full
-/// precision:
+/// Carlson's symmetric elliptic integrals (Carlson 1979), computed by his duplication theorem
+/// to full precision:
 ///
-///     R_F(x, y, z) = 1/2 int_0^inf dt / sqrt((t + x)(t + y)(t + z))
-///     R_D(x, y, z) = 3/2 int_0^inf dt / (sqrt((t + x)(t + y)(t + z)) (t + z))
+///   R_F(x, y, z) = 1/2 int_0^inf dt / sqrt((t + x)(t + y)(t + z))
+///   R_D(x, y, z) = 3/2 int_0^inf dt / (sqrt((t + x)(t + y)(t + z)) (t + z))
 ///
-/// Both symmetric in x and y; every argument > 0 and finite, which is the caller's to see to:
-/// anything else gives NaN. Not real time.
+/// Both are symmetric in x and y. The caller must pass finite arguments > 0; others give NaN.
+/// Not real time.
 [[nodiscard]] double carlson_rf(double x, double y, double z) noexcept;
 [[nodiscard]] double carlson_rd(double x, double y, double z) noexcept;
 

@@ -13,7 +13,8 @@ EllipsoidDrag::EllipsoidDrag(const Parameters& parameters) {
   std::array<double, 3> squared_m2{};
   for (std::size_t i = 0; i < 3; ++i) {
     const double axis_m = parameters.semi_axes_m[i];
-    // Squares of lengths that no hand has would leave the range of the integrals.
+    // The squares of lengths beyond these limits, which no hand has, would exceed the range of
+    // the integrals.
     require(axis_m > 1e-9 && axis_m < 1e9, "semi_axes_m", "three numbers > 1e-9 and < 1e9",
             axis_m);
     squared_m2[i] = axis_m * axis_m;
@@ -35,7 +36,8 @@ Eigen::Matrix3d hand_axes(const PointVectors& tip_position_m,
   const std::optional<ContactPoint> tip = tip_of_hand_plane(attached);
   const Eigen::Vector3d normal = hand_plane_normal(tip_position_m, attached);
   if (!tip || normal.squaredNorm() == 0.0) return axes;
-  // Both points lie in the plane, apart from each other, or it would not be one.
+  // Both points lie in the plane and apart from each other, because otherwise there is no
+  // plane.
   const Eigen::Vector3d fingers = (tip_position_m[static_cast<int>(*tip)] -
                                    tip_position_m[static_cast<int>(ContactPoint::kPalmInner)])
                                       .normalized();

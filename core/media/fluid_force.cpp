@@ -20,7 +20,7 @@ Eigen::Matrix3d ellipsoid_damping(const MediumAmounts& medium,
   return axes * along_axes.asDiagonal() * axes.transpose();
 }
 
-/// For an amount and a speed of the hand of 1.
+/// Returns the lift for an amount of 1 and a hand speed of 1.
 Eigen::Vector3d unit_lift(const ForceMap& map, const Eigen::Vector3d& normal,
                           double hand_speed_m_per_s, const Eigen::Vector3d& velocity_m_per_s,
                           double fade_speed_m_per_s) noexcept {
@@ -30,12 +30,12 @@ Eigen::Vector3d unit_lift(const ForceMap& map, const Eigen::Vector3d& normal,
   const double sine = std::clamp(ahead.dot(normal), -1.0, 1.0);
   const Eigen::Vector3d aside = normal - sine * ahead;
   const double cosine = aside.norm();
-  // Head on, where lift has no side to point to, the map has none.
+  // Head on, lift has no side to point to, and the map gives none.
   if (!(cosine > 1e-9)) return Eigen::Vector3d::Zero();
   const double coefficient = map.at(std::asin(std::abs(sine)), hand_speed_m_per_s).lift;
   const double faded = coefficient * std::min(1.0, speed / fade_speed_m_per_s);
   Eigen::Vector3d lift = (sine > 0.0 ? -faded : faded) / cosine * aside;
-  // What rounding left along the motion.
+  // This removes the component along the motion that rounding left.
   lift -= lift.dot(ahead) * ahead;
   return lift;
 }

@@ -13,10 +13,10 @@ namespace jnd::core {
 namespace {
 
 constexpr double kRightAngleRad = std::numbers::pi / 2.0;
-// So that an author may round pi/2 to 1.571 or 1.57.
+// This tolerance lets an author round pi/2 to 1.571 or 1.57.
 constexpr double kAngleToleranceRad = 1e-3;
 
-/// "line 7: drag_coefficient", or the field alone where there is no line.
+/// Returns "line 7: drag_coefficient", or the field alone if the row has no line.
 std::string field_of(const ForceMap::Row& row, const char* field) {
   return (row.line > 0 ? "line " + std::to_string(row.line) + ": " : std::string()) + field;
 }
@@ -38,13 +38,14 @@ void check_grid(const std::vector<ForceMap::Row>& rows, const std::vector<double
   require(angles.size() >= 2, "angle_of_attack_rad", "at least two different angles",
           static_cast<double>(angles.size()));
   for (std::size_t i = 1; i < angles.size(); ++i) {
-    // Closer ones are one angle that was rounded twice, and give slopes without an end.
+    // Angles that are closer are one angle that was rounded twice, and would give huge slopes.
     require(angles[i] - angles[i - 1] >= 1e-6, "angle_of_attack_rad",
             "angles that are 1e-6 rad apart or more", angles[i]);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ForceMap::Row& row = rows[i];
-    // Sorted by speed, then angle: the first row that is not the grid's next has a wrong one.
+    // The rows are sorted by speed and then angle, so the first row that is not the grid's next
+    // one is wrong.
     const std::size_t speed = i / angles.size();
     const bool is_next = speed < speeds.size() && row.speed_m_per_s == speeds[speed] &&
                          row.angle_of_attack_rad == angles[i % angles.size()];
@@ -64,7 +65,8 @@ std::vector<double> sorted_once(std::vector<double> values) {
   return values;
 }
 
-/// Harmonic mean of the slopes on both sides, weighted by their widths; 0 at a turning point.
+/// Returns the harmonic mean of the slopes on both sides, weighted by their widths, and 0 at a
+/// turning point.
 double inner_slope(double left_width, double left, double right_width, double right) noexcept {
   if (!(left * right > 0.0)) return 0.0;
   const double left_weight = 2.0 * right_width + left_width;
@@ -72,7 +74,8 @@ double inner_slope(double left_width, double left, double right_width, double ri
   return (left_weight + right_weight) / (left_weight / left + right_weight / right);
 }
 
-/// Slopes at the nodes of one curve. `flat_ends` are those about which the curve is even.
+/// Returns the slopes at the nodes of one curve. At a flat end the curve is even about its end,
+/// so its slope is 0 there.
 std::vector<double> slopes(const std::vector<double>& x, const std::vector<double>& y,
                            bool flat_first, bool flat_last) {
   const std::size_t last = x.size() - 1;
@@ -93,8 +96,8 @@ double hermite(double part, double width, double left, double left_slope, double
          part * part * ((1.0 + 2.0 * rest) * right - rest * width * right_slope);
 }
 
-/// Index of the interval that holds `value`, and which part of it lies before. 0 and 0 of a
-/// single value.
+/// Returns the index of the interval that holds `value`, and in `part` the position within it,
+/// 0 to 1. Both are 0 if there is a single value.
 std::size_t interval_of(const std::vector<double>& values, double value,
                         double& part) noexcept {
   part = 0.0;

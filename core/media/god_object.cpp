@@ -35,7 +35,7 @@ Eigen::Vector3d GodObject::force_n(const SolidAmounts& amounts, const Eigen::Vec
                                    double period_s) noexcept {
   const double inside_m = depth_m > 0.0 ? depth_m : 0.0;
   if (is_known_) {
-    // A point on its way out does not leave the surface sunk deeper than it is itself.
+    // While a point leaves the solid, its surface never lies deeper than the point itself.
     sunk_m_ = std::clamp(sunk_m_ - kRiseMPerS * period_s, 0.0, inside_m);
   } else {
     is_known_ = true;
@@ -49,7 +49,7 @@ Eigen::Vector3d GodObject::force_n(const SolidAmounts& amounts, const Eigen::Vec
   const double normal_n =
       amounts.stiffness_n_per_m * felt_depth_m -
       faded_damping_n_s_per_m(amounts, felt_depth_m) * velocity_m_per_s.dot(normal);
-  // Not std::max: a force that is not a number has to reach the limiter.
+  // std::max would hide a force that is not a number, which has to reach the limiter.
   Eigen::Vector3d force_n = (normal_n < 0.0 ? 0.0 : normal_n) * normal;
   if (amounts.friction_n_per_m != 0.0 && amounts.stiffness_n_per_m != 0.0) {
     force_n +=
@@ -62,7 +62,7 @@ Eigen::Vector3d GodObject::friction_n(const SolidAmounts& amounts,
                                       const Eigen::Vector3d& normal, double felt_depth_m,
                                       double normal_n, const Eigen::Vector3d& position_m,
                                       const Eigen::Vector3d& velocity_m_per_s) noexcept {
-  // The friction ratio of what is felt now, which a ramp may be changing.
+  // The ratio is that of the amounts in force now, which a ramp may be changing.
   const double ratio = amounts.friction_n_per_m / amounts.stiffness_n_per_m;
   const double reach_m = ratio * felt_depth_m;
   Eigen::Vector3d offset_m = along_surface(god_object_m_ - position_m, normal);

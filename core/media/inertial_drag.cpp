@@ -15,7 +15,7 @@ InertialDrag::InertialDrag(const Parameters& parameters)
           parameters.density_kg_per_m3);
   const double reynolds_at_1_m_per_s =
       parameters.density_kg_per_m3 * parameters.length_m / parameters.viscosity_pa_s;
-  // Without viscosity the product is 0 times infinity, its limit 0.
+  // Without viscosity the product would be 0 times infinity; its limit is 0.
   inertial_n_ = parameters.viscosity_pa_s == 0.0
                     ? 0.0
                     : damping_n_s_per_m_ * 0.15 * std::pow(reynolds_at_1_m_per_s, 0.687);

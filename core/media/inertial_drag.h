@@ -6,17 +6,17 @@
 
 namespace jnd::core {
 
-/// Drag of a viscous fluid on the hand where the fluid's inertia begins to count (Schiller and
-/// Naumann 1935, for a sphere):
+/// Drag of a viscous fluid on the hand at speeds where the fluid's inertia begins to count
+/// (Schiller and Naumann 1935, for a sphere):
 ///
-///     C_D = 24/Re (1 + 0.15 Re^0.687),  Re = density speed length / viscosity
+///   C_D = 24/Re (1 + 0.15 Re^0.687),  Re = density speed length / viscosity
 ///
-/// put into the drag equation as the thesis does with 24/Re, whose `ViscousDrag` is the first
-/// term. The second grows with speed^1.687 and has an amount of its own, the force at 1 m/s.
-/// The correction holds up to Re 800; beyond, true drag grows with the square of speed, as
-/// water's, and this one stays below it (`jnd force` says so).
-/// The hand of the thesis's group D has a Re of about 24 and feels this 2.3 times as thick as
-/// without it, so it is never what a study renders unless it says so.
+/// This C_D is put into the drag equation as the thesis does with 24/Re, so the first term is
+/// its `ViscousDrag`. The second term grows with speed^1.687. Its amount is the force at 1 m/s.
+/// The correction holds up to Re 800. Beyond that, true drag grows with the square of speed
+/// like water's, and this drag stays below it (`jnd force` says so). The hand of the thesis's
+/// group D has a Re of about 24 and would feel 2.3 times the drag, so a study renders this law
+/// only if it asks for it.
 class InertialDrag {
  public:
   struct Parameters {
@@ -31,14 +31,14 @@ class InertialDrag {
   /// Throws `Error` naming the field. Not real time.
   explicit InertialDrag(const Parameters& parameters);
 
-  /// Coefficient of the first term, the damping.
+  /// Coefficient of the first term, a damping.
   [[nodiscard]] double damping_n_s_per_m() const noexcept { return damping_n_s_per_m_; }
   /// Coefficient of the second term: its force at 1 m/s.
   [[nodiscard]] double inertial_n() const noexcept { return inertial_n_; }
-  /// Beyond this speed the correction does not hold; infinite where there is none.
+  /// The correction does not hold beyond this speed, which is infinite without inertia.
   [[nodiscard]] double max_speed_m_per_s() const noexcept { return max_speed_m_per_s_; }
 
-  /// Magnitude of the second term, against the motion. Real time.
+  /// Magnitude of the second term, which acts against the motion. Real time.
   [[nodiscard]] static double drag_n(double inertial_n, double speed_m_per_s) noexcept {
     return inertial_n * std::pow(speed_m_per_s, 1.687);
   }

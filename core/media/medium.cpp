@@ -88,7 +88,7 @@ void MediumRamp::start(const MediumAmounts& target, double ramp_s) noexcept {
 
 const MediumAmounts& MediumRamp::advance(double period_s) noexcept {
   if (arrived_) return current_;
-  // A ramp time that is not a number counts as finished, like one that is over.
+  // A remaining time that is not a number ends the ramp like one that is over.
   if (!(remaining_s_ > period_s)) {
     arrived_ = true;
     current_ = target_;

@@ -14,30 +14,33 @@
 
 namespace jnd::core {
 
-/// What is felt, as amounts of each force law. Every law is linear in its amount, so media
-/// combine by adding amounts, a ramp between two media is a straight line between their
-/// amounts, and all amounts zero is free space, a medium like any other. A law whose amount is
-/// zero costs nothing.
+/// What is felt, as amounts of the force laws. Every law is linear in its amount. So media
+/// combine by adding their amounts, a ramp between two media is a straight line between their
+/// amounts, and free space is the medium whose amounts are all zero. A law whose amount is zero
+/// costs no time.
 struct MediumAmounts {
-  double quadratic_kg_per_m = 0.0;       ///< Of water: 1/2 scale density area, see `WaterDrag`.
-  double damping_n_s_per_m = 0.0;        ///< Of a viscous fluid, see `ViscousDrag`.
-  double plane_stiffness_n_per_m = 0.0;  ///< Of a solid surface, see `GodObject`.
-  double plane_damping_n_s_per_m = 0.0;  ///< Of a solid surface while it is touched.
-  double plane_friction_n_per_m = 0.0;   ///< Of it: friction ratio times stiffness.
-  double mapped_drag_kg_per_m = 0.0;     ///< As of water, with the C_D of a `ForceMap`.
-  double lift_kg_per_m = 0.0;            ///< As of water, with the C_L of a `ForceMap`.
+  double quadratic_kg_per_m = 0.0;       ///< Water: 1/2 scale density area, see `WaterDrag`.
+  double damping_n_s_per_m = 0.0;        ///< Viscous fluid, see `ViscousDrag`.
+  double plane_stiffness_n_per_m = 0.0;  ///< Solid surface, see `GodObject`.
+  double plane_damping_n_s_per_m = 0.0;  ///< Solid surface, while it is touched.
+  double plane_friction_n_per_m = 0.0;   ///< Solid surface: friction ratio times stiffness.
+  double mapped_drag_kg_per_m = 0.0;     ///< Like water, with the C_D of a `ForceMap`.
+  double lift_kg_per_m = 0.0;            ///< Like water, with the C_L of a `ForceMap`.
   double inertial_n = 0.0;               ///< Drag at 1 m/s, see `InertialDrag`.
   double ellipsoid_fingers_n_s_per_m = 0.0;  ///< Along the fingers, see `EllipsoidDrag`.
   double ellipsoid_across_n_s_per_m = 0.0;   ///< Across them, in the hand plane.
   double ellipsoid_normal_n_s_per_m = 0.0;   ///< Along the hand plane's normal.
-  double buoyancy_n = 0.0;                   ///< Upward, of the whole hand deep below.
-  double container_stiffness_n_per_m = 0.0;  ///< Of its wall and bottom, see `SolidSurfaces`.
-  double container_damping_n_s_per_m = 0.0;  ///< While they are touched.
-  double container_friction_n_per_m = 0.0;   ///< Friction ratio times stiffness.
+  /// Upward force on the whole hand deep below the surface.
+  double buoyancy_n = 0.0;
+  /// Wall and bottom of the container, see `SolidSurfaces`.
+  double container_stiffness_n_per_m = 0.0;
+  double container_damping_n_s_per_m = 0.0;  ///< Wall and bottom, while they are touched.
+  /// Wall and bottom: friction ratio times stiffness.
+  double container_friction_n_per_m = 0.0;
 
-  /// Magnitude of the drag that is the same whichever way the hand is turned about its motion,
-  /// in newtons, >= 0, 0 at rest: without ellipsoid, lift, buoyancy and solid surfaces.
-  /// `map` nullptr: the thesis's C_D. Real time.
+  /// Returns the magnitude of the drag that depends on the hand's speed and angle of attack
+  /// only, in newtons, >= 0, and 0 at rest. Ellipsoid, lift, buoyancy and solid surfaces are
+  /// not in it. With `map` nullptr it uses the thesis's C_D. Real time.
   [[nodiscard]] double drag_n(const HandMotion& motion,
                               const ForceMap* map = nullptr) const noexcept {
     double drag_n =
@@ -69,9 +72,9 @@ struct MediumAmounts {
   [[nodiscard]] bool is_drag_of_motion() const noexcept;
   /// Whether the force is one damping times the velocity, whatever the speed and the pose.
   [[nodiscard]] bool is_plain_damping() const noexcept;
-  /// Neither infinite nor NaN in any amount. Real time.
+  /// Whether no amount is infinite or NaN. Real time.
   [[nodiscard]] bool is_finite() const noexcept;
-  /// Every amount that many times: the force is linear in them.
+  /// Multiplies every amount by the factor, and so the force, which is linear in them.
   [[nodiscard]] MediumAmounts times(double factor) const noexcept;
   MediumAmounts& operator+=(const MediumAmounts& other) noexcept;
   [[nodiscard]] friend MediumAmounts operator+(MediumAmounts left,
@@ -84,7 +87,7 @@ struct MediumAmounts {
 
 static_assert(std::is_trivially_copyable_v<MediumAmounts>);
 
-/// Every amount, for whatever is done to all of them alike.
+/// Lists every amount, for operations on all of them.
 inline constexpr std::array kAmounts = {&MediumAmounts::quadratic_kg_per_m,
                                         &MediumAmounts::damping_n_s_per_m,
                                         &MediumAmounts::plane_stiffness_n_per_m,
@@ -109,22 +112,24 @@ inline constexpr std::array kDragOfMotion = {&MediumAmounts::quadratic_kg_per_m,
                                              &MediumAmounts::inertial_n};
 
 [[nodiscard]] inline MediumAmounts free_space() noexcept { return {}; }
-/// Throw `Error` for parameters out of range. Not real time.
+/// These functions throw `Error` for parameters out of range. Not real time.
 [[nodiscard]] MediumAmounts water(const WaterDrag::Parameters& parameters);
-/// Water whose drag and lift a `ForceMap` tells.
+/// Water whose drag and lift come from a `ForceMap`.
 [[nodiscard]] MediumAmounts mapped_water(const WaterDrag::Parameters& parameters);
 [[nodiscard]] MediumAmounts viscous(const ViscousDrag::Parameters& parameters);
-/// A viscous fluid with the drag of its inertia on top.
+/// A viscous fluid with the additional drag of its inertia.
 [[nodiscard]] MediumAmounts viscous_inertial(const InertialDrag::Parameters& parameters);
 [[nodiscard]] MediumAmounts ellipsoid(const EllipsoidDrag::Parameters& parameters);
 [[nodiscard]] MediumAmounts solid(const SolidParameters& parameters);
-/// Wall and bottom where the `Immersion` of the command ends; what fills it is added.
+/// Wall and bottom at the limits of the command's `Immersion`. The medium that fills it is
+/// added.
 [[nodiscard]] MediumAmounts container(const SolidParameters& parameters);
-/// `buoyancy_n` finite, >= 0: the weight of the water that the hand displaces less its own.
+/// `buoyancy_n` is the weight of the displaced water minus the hand's own weight, finite, >= 0.
 [[nodiscard]] MediumAmounts buoyant(double buoyancy_n);
 
-/// The medium on its way from what was felt to what was commanded: a straight line in every
-/// amount over `ramp_s`, starting from wherever an unfinished ramp had come to. Real time.
+/// The transition from the medium that was felt to the commanded one. Every amount follows a
+/// straight line over `ramp_s`, starting from wherever an unfinished ramp has arrived. Real
+/// time.
 class MediumRamp {
  public:
   void start(const MediumAmounts& target, double ramp_s) noexcept;

@@ -84,7 +84,8 @@ Eigen::Vector3d SolidSurfaces::container_force_n(const SolidAmounts& amounts, in
                                                     position_m, velocity_m_per_s, period_s);
   const Eigen::Vector3d out_m = from_axis(immersion_, position_m);
   const double distance_m = out_m.norm();
-  // On the axis no side is nearest, and the wall is far.
+  // On the axis no side of the wall is nearest. The wall is far away there, so any direction
+  // serves.
   const Eigen::Vector3d inward =
       distance_m > 0.0 ? Eigen::Vector3d(-out_m / distance_m) : Eigen::Vector3d::UnitX();
   const double rim_ratio = std::min(1.0, below_rim_m / kRimM);
@@ -98,7 +99,7 @@ void SolidSurfaces::follow(const Immersion& immersion, const HapticState& state)
   if (!is_released_ && !is_same(immersion, immersion_)) {
     for (int i = 0; i < kNumContactPoints; ++i) {
       const Eigen::Vector3d& at_m = state.tip_position_m[i];
-      // Only what is deeper now than it was is news; a NaN was nowhere.
+      // Only an increase of depth is a rise of the surface. A NaN depth counts as outside.
       const auto rise_m = [](double now_m, double before_m) {
         return now_m - (before_m > 0.0 ? before_m : 0.0);
       };

@@ -40,7 +40,8 @@ double equal_surface_radius_m(double semi_major_axis_m, double semi_minor_axis_m
   const double a = semi_minor_axis_m;
   const double c = semi_major_axis_m;
   const double eccentricity = std::sqrt(1.0 - (a * a) / (c * c));
-  // Surface of a prolate spheroid: 2 pi a^2 + 2 pi a c asin(e) / e; of a sphere: 4 pi r^2.
+  // The surface of a prolate spheroid is 2 pi a^2 + 2 pi a c asin(e) / e, and that of a sphere
+  // 4 pi r^2.
   return std::sqrt(0.5 * (a * a + a * c * std::asin(eccentricity) / eccentricity));
 }
 

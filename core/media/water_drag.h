@@ -2,16 +2,16 @@
 
 namespace jnd::core {
 
-/// Drag of water on a hand held stiff, quadratic in speed (thesis, sec. 4.1 and B.4):
+/// Drag of water on a stiff hand, quadratic in speed (thesis, sec. 4.1 and B.4):
 ///
-///     force = 1/2 density speed^2 area C_D(alpha),  C_D = 0.5794 - 0.3105 cos(2 alpha)
+///   force = 1/2 density speed^2 area C_D(alpha),  C_D = 0.5794 - 0.3105 cos(2 alpha)
 ///
-/// alpha is the angle between the hand plane and the direction of motion. The fit of C_D is the
-/// thesis's, through published measurements (eq. B.5 prints a wrong sign; this is B.4's).
+/// alpha is the angle between the hand plane and the direction of motion. The thesis fitted C_D
+/// to published measurements. Its eq. B.5 prints a wrong sign; this is eq. B.4.
 class WaterDrag {
  public:
   struct Parameters {
-    double scale = 1.0;                 ///< Factor on the physical force, >= 0. 1 is water.
+    double scale = 1.0;                 ///< Factor on the physical force, >= 0; water has 1.
     double density_kg_per_m3 = 1000.0;  ///< > 0.
     double projected_area_m2 = 0.0148;  ///< Of the hand, > 0 (Sato and Hino 2003).
   };
@@ -24,10 +24,10 @@ class WaterDrag {
     return 0.5794 - 0.3105 * (1.0 - 2.0 * sin_angle_of_attack * sin_angle_of_attack);
   }
 
-  /// Force per C_D and squared speed: 1/2 scale density area.
+  /// Returns force / (C_D speed^2): 1/2 scale density area.
   [[nodiscard]] double quadratic_kg_per_m() const noexcept { return quadratic_kg_per_m_; }
 
-  /// Magnitude in newtons, against the motion. Real time.
+  /// Returns the magnitude of the force in newtons, which acts against the motion. Real time.
   [[nodiscard]] double drag_n(double speed_m_per_s, double sin_angle_of_attack) const noexcept {
     return quadratic_kg_per_m_ * drag_coefficient(sin_angle_of_attack) * speed_m_per_s *
            speed_m_per_s;

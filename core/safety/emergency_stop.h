@@ -20,8 +20,8 @@ class EmergencyStop {
     while (!state_.compare_exchange_weak(state, ((state | 1) + 2), std::memory_order_acq_rel)) {
     }
   }
-  /// Releases it unless somebody has pressed it since `num_presses` was read, so that a stop
-  /// never falls to a release that was meant for an earlier one. Returns whether it is
+  /// Releases the stop unless somebody has pressed it since `num_presses` was read, so that a
+  /// release meant for an earlier press never undoes a later one. Returns whether it is
   /// released.
   bool release(std::uint64_t num_presses) noexcept {
     std::uint64_t pressed = num_presses << 1 | 1;
@@ -32,7 +32,7 @@ class EmergencyStop {
   [[nodiscard]] bool is_pressed() const noexcept {
     return (state_.load(std::memory_order_acquire) & 1) != 0;
   }
-  /// How often it has been pressed.
+  /// Returns how often the stop has been pressed.
   [[nodiscard]] std::uint64_t num_presses() const noexcept {
     return state_.load(std::memory_order_acquire) >> 1;
   }

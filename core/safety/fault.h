@@ -23,7 +23,7 @@ enum class Fault : std::uint8_t {
   kWatchdog = 11,
   kLinkLost = 12,
   kSimulationInvalid = 13,
-  kNotArmed = 14,  ///< Nobody has asked for force yet: nothing is wrong.
+  kNotArmed = 14,  ///< Nobody has asked for force yet; nothing is wrong.
   kSuspended = 15,
   kHostTooSlow = 16,
   kEnergyGiven = 17,
@@ -35,27 +35,27 @@ enum class Fault : std::uint8_t {
 };
 inline constexpr Fault kLastFault = Fault::kPositionFrozen;
 
-/// Something went wrong, or somebody stopped it.
+/// Whether something went wrong or somebody stopped it.
 [[nodiscard]] constexpr bool is_failure(Fault fault) noexcept {
   return fault != Fault::kNone && fault != Fault::kNotArmed;
 }
 
-/// Whether there may be force. It comes only where a person asked for it, or, of a simulated
-/// device, the program.
+/// Whether there may be force. Force comes only after a person has asked for it, or, with a
+/// simulated device, the program.
 enum class Arming : std::uint8_t {
   kDisarmed = 0,  ///< Nobody has asked for force.
-  kArming = 1,    ///< It fades in.
+  kArming = 1,    ///< The force fades in.
   kArmed = 2,
-  kFaulted = 3,  ///< A fault is latched: none before it is armed again.
+  kFaulted = 3,  ///< A fault is latched; there is no force until the loop is armed again.
 };
 
-/// "disarmed", as events and JSON spell it. Real time.
+/// Returns "disarmed" and its like, as events and JSON spell them. Real time.
 [[nodiscard]] std::string_view name(Arming arming) noexcept;
 
-/// "emergency_stop", as events and JSON spell it. Real time.
+/// Returns "emergency_stop" and its like, as events and JSON spell them. Real time.
 [[nodiscard]] std::string_view name(Fault fault) noexcept;
 
-/// One sentence for the experimenter: what happened and what to do. Real time.
+/// Returns one sentence for the experimenter: what happened and what to do. Real time.
 [[nodiscard]] std::string_view words(Fault fault) noexcept;
 
 }  // namespace jnd::core

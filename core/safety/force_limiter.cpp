@@ -9,7 +9,7 @@
 namespace jnd::core {
 namespace {
 
-/// Also false for a vector so long that its square overflows: no hand was meant to feel it.
+/// Also false for a vector so long that its square overflows, which no hand should feel.
 bool is_finite(const Eigen::Vector3d& vector) noexcept {
   return vector.squaredNorm() <= std::numeric_limits<double>::max();
 }
@@ -78,8 +78,8 @@ bool ForceLimiter::limit(const std::array<bool, kNumContactPoints>& attached,
     changed = true;
   }
 
-  // One step ratio for all points: the bounds above are convex, so whatever lies on the line
-  // between two sets of forces that keep them keeps them, too.
+  // All points move by the same share of their step. The bounds above are convex, so any point
+  // on the line between two sets of forces that keep them keeps them, too.
   double max_squared_step = 0.0;
   for (int i = 0; i < kNumContactPoints; ++i) {
     max_squared_step =

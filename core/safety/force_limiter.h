@@ -7,29 +7,31 @@
 
 namespace jnd::core {
 
-/// The last word on every force. After `limit`, whatever came in:
-///   - a point that is not attached gets exactly zero, at once;
-///   - no point gets more than `per_point_n`;
-///   - the magnitudes of all points add up to at most `total_n`, and so does the resultant;
-///   - no point's force vector changes by more than `slew_n_per_s` times the period;
-///   - anything not finite, or a point that is too fast, latches a fault: zero force until
-///     `rearm`, whence the force starts from zero within the slew.
-/// A clamp keeps directions: one point is scaled as a vector, the total scales all points
-/// alike, and the slew moves all points along the straight line from what was sent last.
-/// Real time except the constructor.
+/// The last stage of every force. After `limit`, whatever came in:
+/// - a point that is not attached gets exactly zero, at once;
+/// - no point gets more than `per_point_n`;
+/// - the magnitudes of all points add up to at most `total_n`, and so does the resultant;
+/// - no point's force vector changes by more than `slew_n_per_s` times the period;
+/// - a number that is not finite, or a point that is too fast, latches a fault: the force is
+///   zero until `rearm`, and then starts from zero within the slew.
+///
+/// Clamps keep directions. A point's limit scales its vector, the total scales all points
+/// alike, and the slew moves all points along the straight line from the forces sent last. Real
+/// time except the constructor.
 class ForceLimiter {
  public:
   struct Parameters {
     double per_point_n = 10.0;       ///< > 0, finite.
     double total_n = 30.0;           ///< > 0, finite.
     double slew_n_per_s = 2000.0;    ///< > 0, finite.
-    double max_speed_m_per_s = 5.0;  ///< Of any attached point, > 0, finite.
+    double max_speed_m_per_s = 5.0;  ///< Speed of any attached point, > 0, finite.
   };
 
   /// Throws `Error` naming the field; `period_s` > 0. Not real time.
   ForceLimiter(const Parameters& parameters, double period_s);
 
-  /// Limits the forces on the hand in place; workspace frame. Returns whether it changed any.
+  /// Limits the forces on the hand in place, in the workspace frame. Returns whether it changed
+  /// any.
   bool limit(const std::array<bool, kNumContactPoints>& attached,
              const PointVectors& tip_velocity_m_per_s, PointVectors& force_on_hand_n) noexcept;
 

@@ -29,7 +29,7 @@ void ForceOscillation::observe(const Eigen::Vector3d& force_n) noexcept {
       axis.is_rising = !axis.is_rising;
       axis.extreme_n = value_n;
       const auto place = static_cast<std::size_t>(axis.next);
-      // The turn that came `max_turns` before this one.
+      // This is the turn that came `max_turns` before the present one.
       is_found_ |= tick_ - axis.turns[place] <= window_ticks_;
       const int most = axis.next + max_turns_ - 3 * max_turns_ / 4;
       const std::int64_t then_tick = axis.turns[static_cast<std::size_t>(most % max_turns_)];

@@ -7,11 +7,11 @@
 
 namespace jnd::core {
 
-/// Notices that the whole force swings to and fro faster than a hand can make it: a control
-/// loop that has become unstable and buzzes within its limits. A swing is a turn of one
-/// component of the force after a change of at least `swing_n`; `max_turns` of them within
-/// `window_s` are too many. Tremor stays below 12 Hz (Elble and Koller 1990), which is 6 turns
-/// in a quarter of a second. Real time except the constructor.
+/// Detects that the total force oscillates faster than a hand can make it, as it does when a
+/// control loop has become unstable and buzzes within its limits. A turn is a reversal of one
+/// component of the force after a change of at least `swing_n`. `max_turns` of them within
+/// `window_s` are too many. Tremor stays below 12 Hz (Elble and Koller 1990), which makes 6
+/// turns in a quarter of a second. Real time except the constructor.
 class ForceOscillation {
  public:
   static constexpr int kMostTurns = 32;
@@ -19,29 +19,31 @@ class ForceOscillation {
   struct Parameters {
     double swing_n = 2.0;    ///< Peak to peak, > 0, finite.
     double window_s = 0.25;  ///< > 0, finite.
-    int max_turns = 10;      ///< In [2, kMostTurns]: of 20 Hz, in the window.
+    /// In [2, kMostTurns]. The default is that of 20 Hz in the default window.
+    int max_turns = 10;
   };
 
   /// Throws `Error` naming the field; `period_s` > 0. Not real time.
   ForceOscillation(const Parameters& parameters, double period_s);
 
-  /// The whole force on the hand in the next tick; workspace frame.
+  /// Takes the total force on the hand of the next tick, in the workspace frame.
   void observe(const Eigen::Vector3d& force_n) noexcept;
 
   [[nodiscard]] bool is_found() const noexcept { return is_found_; }
-  /// Some axis turned more than three quarters as often within the last window: faster than
-  /// tremor.
+  /// Whether some axis turned more than three quarters of `max_turns` times within the last
+  /// window, which is faster than tremor.
   [[nodiscard]] bool is_near() const noexcept { return tick_ <= near_until_tick_; }
 
-  /// Forgets all: what comes next starts from zero force.
+  /// Forgets everything. What follows starts from zero force.
   void reset() noexcept;
 
  private:
   struct Axis {
-    double extreme_n = 0.0;  ///< As far as the force has come since its last turn.
+    double extreme_n = 0.0;  ///< The extreme that the force has reached since its last turn.
     bool is_rising = true;
-    int next = 0;                                  ///< The place of the oldest turn.
-    std::array<std::int64_t, kMostTurns> turns{};  ///< Their ticks; long ago at first.
+    int next = 0;  ///< Index of the oldest turn.
+    /// Ticks of the turns. At first they lie long ago.
+    std::array<std::int64_t, kMostTurns> turns{};
   };
 
   double swing_n_;

@@ -17,21 +17,21 @@ Guards::Guards(const Parameters& parameters, double period_s)
   require_positive(parameters.longest_s, "longest_s");
 }
 
-/// Of a real device what gives the hand energy is never only counted.
+/// The guard of energy may be only counted if nobody can be hurt, so never on a real device.
 bool Guards::is_shadowed(Fault guard) const noexcept {
   return parameters_.shadows && (guard != Fault::kEnergyGiven || parameters_.shadows_energy);
 }
 
-/// What a guard found, to be latched; none where that is only counted, once for as long as it
-/// lasts.
+/// Returns the fault to latch. In shadow mode it returns none and counts the fault, once for as
+/// long as it lasts.
 Fault Guards::judged(Fault guard) noexcept {
   if (!is_shadowed(guard)) return guard;
   shadowed_bits_ |= 1U << guard_place(guard);
   return Fault::kNone;
 }
 
-/// In measurements alone: of force and way of the same time, and of the velocity that the
-/// forces are made of.
+/// Uses measurements alone: force and displacement of the same time, and the velocity from
+/// which the forces are computed.
 Fault Guards::observe_port(const HapticState& state, const Contact& contact,
                            double elapsed_s) noexcept {
   if (!parameters_.watches_port) return Fault::kNone;
@@ -42,7 +42,7 @@ Fault Guards::observe_port(const HapticState& state, const Contact& contact,
     const Fault found = judged(Fault::kEnergyGiven);
     if (found != Fault::kNone) return found;
   }
-  // A clock that leaps says nothing of speed.
+  // If the device's clock leaps, no speed follows from it.
   if (elapsed_s > parameters_.longest_s) {
     velocity_check_.reset();
     return Fault::kNone;

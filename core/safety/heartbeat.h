@@ -5,7 +5,7 @@
 
 namespace jnd::core {
 
-/// The sign of life of the thread that a person talks to. Real time, any thread.
+/// The sign of life of the thread that a person interacts with. Real time, any thread.
 class Heartbeat {
  public:
   void beat() noexcept { count_.fetch_add(1, std::memory_order_relaxed); }
@@ -22,7 +22,7 @@ class Heartbeat {
 /// Real time.
 class HeartbeatMonitor {
  public:
-  /// `heartbeat` may be nullptr: a simulation, where silence means nothing.
+  /// `heartbeat` may be nullptr, for a simulation, in which silence means nothing.
   HeartbeatMonitor(const Heartbeat* heartbeat, std::int64_t timeout_ticks) noexcept
       : heartbeat_(heartbeat), timeout_ticks_(timeout_ticks) {}
 

@@ -26,8 +26,9 @@ bool PassivityController::control(const PointVectors& tip_position_m,
     }
     const double pushing_w = force_on_hand_n[i].dot(tip_velocity_m_per_s[i]);
     const double deficit_w = pushing_w - credit_j_[i] / period_s_;
-    // Only a push along the motion gives energy; NaN is not ours to mend. Slower than any hand
-    // can tell from rest nothing is given, and the square below would get lost.
+    // Only a push along the motion gives energy; NaN is left to the limiter. Below this speed,
+    // which no hand can tell from rest, a push gives nothing, and dividing by the square would
+    // be inexact.
     constexpr double kRestM2PerS2 = 1e-12;
     const double speed_squared = tip_velocity_m_per_s[i].squaredNorm();
     if (pushing_w > 0.0 && deficit_w > 0.0 && speed_squared > kRestM2PerS2) {

@@ -12,15 +12,15 @@ void Staleness::observe(const HapticState& state, const HapticState& last, doubl
   num_missed_ = time_stands || num_stuck_ > 0 ? num_missed_ + num_missed : 0;
 }
 
-/// Positions that stand still for more ticks than a measurement may stand in, while the
-/// velocity goes further than that of a filter that has not heard yet that the hand stopped,
-/// and than steps of encoders are.
+/// Returns true if the positions stand still for more ticks than a measurement may be reused,
+/// while the velocity implies a displacement that exceeds both an encoder step and what a
+/// velocity filter reports just after the hand stopped.
 bool Staleness::moves_without_getting_anywhere(const HapticState& state,
                                                const HapticState& last, double elapsed_s,
                                                std::int64_t num_missed) noexcept {
   constexpr double kMovingMPerS = 0.05;
   constexpr double kStuckWayM = 0.003;
-  // A measurement that stands in for one that is missing says nothing new.
+  // A reused measurement says nothing new.
   if (elapsed_s <= 0.0) {
     num_stuck_ += num_stuck_ > 0 ? 1 + num_missed : 0;
     return false;

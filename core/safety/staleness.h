@@ -13,24 +13,25 @@ namespace jnd::core {
 /// count: a measurement grows old while nobody looks at it. Real time.
 class Staleness {
  public:
-  /// At most so many ticks of `period_s` without anything new; `max_ticks` >= 0.
+  /// Allows `max_ticks` >= 0 ticks of `period_s` without anything new.
   Staleness(std::int64_t max_ticks, double period_s) noexcept
       : max_ticks_(max_ticks), period_s_(period_s) {}
 
-  /// One tick. `elapsed_s` by the device's clock since `last`; `num_missed` ticks of the loop's
-  /// own before this one.
+  /// Takes one tick. `elapsed_s` is the time since `last` by the device's clock, and
+  /// `num_missed` the number of ticks that the loop missed before this one.
   void observe(const HapticState& state, const HapticState& last, double elapsed_s,
                std::int64_t num_missed) noexcept;
 
   [[nodiscard]] bool is_stale() const noexcept { return is_stuck_ || num_still_ > max_ticks_; }
-  /// The loop missed ticks meanwhile: who cannot keep time cannot tell what the device keeps.
+  /// Whether the loop missed ticks in the meantime. Then it cannot tell whether the device kept
+  /// time.
   [[nodiscard]] bool may_be_the_loops() const noexcept { return num_missed_ > 0; }
-  /// For which a measurement may stand in.
+  /// Returns the longest time for which a measurement may be reused.
   [[nodiscard]] double longest_s() const noexcept {
     return static_cast<double>(max_ticks_ + 1) * period_s_;
   }
 
-  /// Forgets all but what the loop missed.
+  /// Forgets everything but the ticks that the loop missed.
   void reset() noexcept;
 
  private:

@@ -6,13 +6,14 @@
 
 namespace jnd::core {
 
-/// Sees a device that says it tells of its force and never does: the watch over energy would be
-/// blind. So is one that withholds what it is sent. Real time.
+/// Detects a device that claims to report its force but never does, or that withholds the force
+/// it is sent. The guard of energy would be blind to it. Real time.
 class UnseenForce {
  public:
-  /// `sent_n`: asked for last; `acted_n`: as the device tells; both on the hand, at the points,
-  /// over `duration_s`. True: 0.5 N and more were sent for half a second in all, and none acted
-  /// since. How late a force may act is far below that.
+  /// `sent_n` are the forces sent last, and `acted_n` those that the device reports, both on
+  /// the hand at the points, over `duration_s`. Returns true once 0.5 N or more were sent for
+  /// half a second in total and no force has acted since. A force may act late by far less than
+  /// that.
   [[nodiscard]] bool observe(const PointVectors& sent_n, const PointVectors& acted_n,
                              double duration_s) noexcept {
     double sent_sum_n = 0.0;

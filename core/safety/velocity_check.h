@@ -6,11 +6,11 @@
 
 namespace jnd::core {
 
-/// Compares the velocity that a device reports with its own positions: at each held point the
-/// way by velocity, v dt, less the way moved is added up, and forgotten with a time constant of
-/// `memory_s`. More than `max_error_m`, and more than `max_error_ratio` of the way that was
-/// moved in that time, is a contradiction: a wrong sign, unit or axis, a velocity that stands
-/// still, or one so late that a fluid made of it would push. Lengths are sums of the
+/// Compares the velocity that a device reports with its own positions. At each attached point
+/// it adds up the displacement by velocity, v dt, minus the measured one, and forgets the sum
+/// with a time constant of `memory_s`. A sum above `max_error_m` and above `max_error_ratio` of
+/// the path in that time is a contradiction: a wrong sign, unit or axis, a velocity that stands
+/// still, or one so late that a fluid computed from it would push. Lengths are sums of the
 /// components' magnitudes. Real time except the constructor.
 class VelocityCheck {
  public:
@@ -23,16 +23,16 @@ class VelocityCheck {
   /// Throws `Error` naming the field. Not real time.
   explicit VelocityCheck(const Parameters& parameters);
 
-  /// One measurement, `elapsed_s` > 0 after the one before by the device's clock; workspace
-  /// frame.
+  /// Takes one measurement, `elapsed_s` > 0 after the one before by the device's clock, in the
+  /// workspace frame.
   void observe(const PointVectors& tip_position_m, const PointVectors& tip_velocity_m_per_s,
                const std::array<bool, kNumContactPoints>& attached, double elapsed_s) noexcept;
 
   [[nodiscard]] bool is_contradicted() const noexcept { return is_contradicted_; }
-  /// Some point is now more than half way there.
+  /// Whether some point is now more than half way to a contradiction.
   [[nodiscard]] bool is_near() const noexcept { return is_near_; }
 
-  /// Forgets all, as before the first measurement.
+  /// Forgets everything, as before the first measurement.
   void reset() noexcept;
 
  private:

@@ -6,20 +6,21 @@
 namespace jnd::core {
 
 /// What a haptic loop and the watchdog beside it know of each other. The loop beats once a tick
-/// and looks whether it was bitten; the watchdog counts the beats and bites. Real time.
+/// and checks whether the watchdog has bitten. The watchdog counts the beats, and bites if they
+/// stop. Real time.
 class WatchdogState {
  public:
-  // The loop's.
+  // For the loop.
 
   void beat() noexcept { num_beats_.fetch_add(1, std::memory_order_relaxed); }
-  /// The watchdog has taken the force away since `forgive`.
+  /// Whether the watchdog has taken the force away since `forgive`.
   [[nodiscard]] bool has_bitten() const noexcept {
     return bitten_.load(std::memory_order_acquire);
   }
-  /// When the loop is armed again.
+  /// The loop calls it when it is armed again.
   void forgive() noexcept { bitten_.store(false, std::memory_order_release); }
 
-  // The watchdog's.
+  // For the watchdog.
 
   [[nodiscard]] std::uint64_t num_beats() const noexcept {
     return num_beats_.load(std::memory_order_relaxed);

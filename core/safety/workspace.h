@@ -7,10 +7,11 @@
 
 namespace jnd::core {
 
-/// The box in which force may be given, workspace frame. The default is wider than any arm
-/// reaches, and yet no point of a device whose sensors lost their zero can be anywhere.
+/// The box in which force is allowed, in the workspace frame. The default is wider than any arm
+/// can reach, but limits a device whose sensors lost their zero, because its points may then be
+/// anywhere.
 struct Workspace {
-  double half_width_x_m = 1.5;  ///< > 0, finite, as the other two.
+  double half_width_x_m = 1.5;  ///< > 0, finite, like the other two.
   double half_width_y_m = 1.5;
   double half_width_z_m = 1.5;
 
@@ -19,7 +20,7 @@ struct Workspace {
     return std::abs(point_m.x()) <= half_width_x_m && std::abs(point_m.y()) <= half_width_y_m &&
            std::abs(point_m.z()) <= half_width_z_m;
   }
-  /// Whether it is within the space and no nearer to its edge than this; NaN: no. Real time.
+  /// Whether the point is inside and at least this far from the edge; false for NaN. Real time.
   [[nodiscard]] bool contains_well(const Eigen::Vector3d& point_m,
                                    double margin_m) const noexcept {
     return std::abs(point_m.x()) <= half_width_x_m - margin_m &&

@@ -9,7 +9,7 @@
 namespace jnd::core {
 namespace {
 
-/// cos w and sin w / 2q of the cookbook.
+/// cos w and alpha = sin w / 2q of the cookbook.
 struct CookbookAngle {
   double cosine, alpha;
 };

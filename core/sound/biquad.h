@@ -3,8 +3,7 @@
 namespace jnd::core {
 
 /// A filter of second order, in the transposed direct form II:
-///     y[n] = b0 x[n] + b1 x[n-1] + b2 x[n-2] - a1 y[n-1] - a2 y[n-2]
-/// Real time.
+/// y[n] = b0 x[n] + b1 x[n-1] + b2 x[n-2] - a1 y[n-1] - a2 y[n-2]. Real time.
 struct Biquad {
   double b0 = 1.0, b1 = 0.0, b2 = 0.0, a1 = 0.0, a2 = 0.0;
 
@@ -15,16 +14,16 @@ struct Biquad {
     return y;
   }
 
-  /// What it makes of a sine of this frequency, as a ratio of amplitudes.
+  /// Returns the ratio of amplitudes for a sine of this frequency.
   [[nodiscard]] double gain_at(double frequency_hz, double rate_hz) const noexcept;
 
  private:
   double first_ = 0.0, second_ = 0.0;
 };
 
-// Low and high pass of quality q by the bilinear transform, bent so that the corner is where it
-// is asked for: Audio EQ Cookbook (Bristow-Johnson; W3C Note of 8 June 2021). With q =
-// 1/sqrt(2) a Butterworth filter of second order. `corner_hz` in (0, rate_hz / 2). Not real
+// Low and high pass of quality q by the bilinear transform, prewarped so that the corner is at
+// `corner_hz`: Audio EQ Cookbook (Bristow-Johnson; W3C Note of 8 June 2021). q = 1/sqrt(2)
+// gives a Butterworth filter of second order. `corner_hz` is in (0, rate_hz / 2). Not real
 // time.
 
 [[nodiscard]] Biquad low_pass(double corner_hz, double q, double rate_hz);

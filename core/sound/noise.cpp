@@ -9,20 +9,20 @@
 namespace jnd::core {
 namespace {
 
-/// Where the ladder of the pink filter ends: the highest pole, as a share of the rate, so that
-/// the slope holds as far up as it can.
+/// Highest pole of the pink filter, as a share of the rate. The slope then holds as far up as
+/// possible.
 constexpr double kHighestPole = 14336.0 / 48000.0;
-/// And where it begins.
+/// Lowest pole of the pink filter.
 constexpr double kLowestPole_hz = 5.0;
 constexpr double kLowestHeard_hz = 20.0;
 
-/// Of the two second-order parts of a Butterworth filter of fourth order: 1 / (2 cos(pi / 8))
-/// and 1 / (2 cos(3 pi / 8)).
+/// Qualities of the two second-order sections of a Butterworth filter of fourth order: 1 / (2
+/// cos(pi / 8)) and 1 / (2 cos(3 pi / 8)).
 const double kFourthOrder[] = {0.5 / std::cos(std::numbers::pi / 8.0),
                                0.5 / std::cos(3.0 * std::numbers::pi / 8.0)};
 
-/// A pole and the zero half an octave above it, each where the analogue one would be (matched
-/// z-transform), with gain 1 at 0 Hz.
+/// Returns a filter with a pole and a zero half an octave above it, each placed by the matched
+/// z-transform, with gain 1 at 0 Hz.
 Biquad half_step_down(double pole_hz, double rate_hz) {
   const auto place = [rate_hz](double frequency_hz) {
     return std::exp(-2.0 * std::numbers::pi * frequency_hz / rate_hz);
@@ -36,7 +36,7 @@ Biquad half_step_down(double pole_hz, double rate_hz) {
   return filter;
 }
 
-/// The highest pole, whose zero would lie too high.
+/// Returns the filter for the highest pole, whose zero would lie too high.
 Biquad last_step_down(double pole_hz, double rate_hz) {
   Biquad filter;
   filter.a1 = -std::exp(-2.0 * std::numbers::pi * pole_hz / rate_hz);
@@ -44,7 +44,7 @@ Biquad last_step_down(double pole_hz, double rate_hz) {
   return filter;
 }
 
-/// Of a filter that nothing has gone through yet.
+/// Returns the root of the sum of squares of the impulse response. The filter must be fresh.
 double impulse_norm(NoiseFilter filter, double rate_hz) {
   constexpr double kLongest_s = 2.0;
   double sum = 0.0;

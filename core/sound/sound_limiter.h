@@ -6,13 +6,13 @@
 
 namespace jnd::core {
 
-/// Last of all that is heard: no sample beyond the ceiling leaves it, and what is not a number
-/// leaves it as silence. It turns the whole sound down at once where a peak would be too high,
-/// and up again by a time constant of 50 ms, so that nothing is cut off and nothing clips. Real
-/// time.
+/// The last stage of all sound. No sample leaves it beyond the ceiling, and a sample that is
+/// not a number leaves it as silence. If a peak would be too high, it turns the whole sound
+/// down at once, and up again with a time constant of 50 ms, so that nothing is cut off and
+/// nothing clips. Real time.
 class SoundLimiter {
  public:
-  /// -1 dBFS, so that a converter that fills in between samples does not clip either.
+  /// -1 dBFS, so that a converter that interpolates between samples does not clip either.
   static constexpr double kCeiling = 0.891;
 
   explicit SoundLimiter(double rate_hz) noexcept
@@ -32,7 +32,7 @@ class SoundLimiter {
     return std::clamp(gain_ * x, -kCeiling, kCeiling);
   }
 
-  /// Samples that would have been too high.
+  /// Returns the number of samples that would have been too high.
   [[nodiscard]] std::int64_t num_limited() const noexcept { return num_limited_; }
 
  private:

@@ -65,7 +65,7 @@ void SoundMixer::turn_to(int noise, double ramp_s) noexcept {
   }
 }
 
-/// False where as many cues sound as can: this one waits.
+/// Returns false if the largest number of cues is sounding. The cue then has to wait.
 bool SoundMixer::begin_cue(const Request& request, std::int64_t heard_ns) noexcept {
   if (request.cue >= cues_.size()) return true;
   const auto free = std::find_if(sounding_.begin(), sounding_.end(),
@@ -73,7 +73,7 @@ bool SoundMixer::begin_cue(const Request& request, std::int64_t heard_ns) noexce
   if (free == sounding_.end()) return false;
   const std::int64_t until_ns =
       std::max<std::int64_t>(0, request.asked_ns + cue_delay_ns_ - heard_ns);
-  // Of an output whose clock is out of order nobody waits longer than twice the delay.
+  // If the output's clock is wrong, a cue still waits no longer than twice the delay.
   const auto wait = static_cast<std::size_t>(
       std::min(static_cast<double>(until_ns), 2.0 * static_cast<double>(cue_delay_ns_)) *
       rate_hz_ / static_cast<double>(kNsPerS));
@@ -86,7 +86,8 @@ bool SoundMixer::begin_cue(const Request& request, std::int64_t heard_ns) noexce
 
 void SoundMixer::take_requests(std::int64_t heard_ns) noexcept {
   Request request;
-  // A cue finds a free place within the longest cue, and what was asked for after it waits.
+  // A place becomes free within the duration of the longest cue. Later requests wait until
+  // then.
   while (std::any_of(sounding_.begin(), sounding_.end(),
                      [](const Sounding& one) { return one.samples == nullptr; }) &&
          requests_.try_pop(request)) {

@@ -15,24 +15,24 @@
 
 namespace jnd::core {
 
-/// A noise as it is to be heard.
+/// A noise with its level.
 struct LevelledNoise {
   NoiseShape shape;
   double level_dbfs = -60.0;  ///< At most `kLoudestNoise_dbfs`.
 };
 
-/// A cue that was heard, or that came too late or too many at once.
+/// A cue that was heard.
 struct HeardCue {
-  std::uint64_t id = 0;       ///< As it was asked for.
-  std::int64_t asked_ns = 0;  ///< Monotonic clock.
-  std::int64_t heard_ns = 0;  ///< When its first sample is heard, as the output says.
+  std::uint64_t id = 0;       ///< The id that was passed to `play_cue`.
+  std::int64_t asked_ns = 0;  ///< By the monotonic clock.
+  std::int64_t heard_ns = 0;  ///< Time when its first sample is heard, according to the output.
 };
 
-/// All that a session lets a participant hear, as one endless stream: noise that never stops
-/// but by its ramp, and cues over it. What can be heard is computed ahead or takes the same
-/// time for every sample; another thread asks for it through a queue without a lock. A noise
-/// comes and goes by a quarter of a sine, so that where one takes the place of another the
-/// power of both together stays the same. The limiter is last.
+/// All that a participant hears in a session, as one endless stream: noise, which stops only by
+/// a ramp, and cues over it. Sounds are computed in advance or take the same time for every
+/// sample. Another thread requests them through a lock-free queue. A noise comes and goes by a
+/// quarter of a sine, so that the total power stays the same when one noise replaces another.
+/// The limiter comes last.
 class SoundMixer final : public SoundSource {
  public:
   struct Parameters {
@@ -40,37 +40,37 @@ class SoundMixer final : public SoundSource {
     std::uint64_t seed = 0;
     std::vector<LevelledNoise> noises;  ///< At most `kMostNoises`.
     std::vector<Tone> cues;
-    /// From when a cue is asked for until it is heard, >= 0: as long as the output's buffer
-    /// takes at most, so that every cue takes as long.
+    /// Delay from the request of a cue until it is heard, >= 0. It is the longest time that the
+    /// output's buffer takes, so that every cue has the same delay.
     double cue_delay_s = 0.0;
   };
   static constexpr std::size_t kMostNoises = 64;
   static constexpr int kNoNoise = -1;
 
-  /// Silent. Throws `Error` for what is out of range. Not real time.
+  /// The mixer begins silent. Throws `Error` for what is out of range. Not real time.
   explicit SoundMixer(const Parameters& parameters);
 
-  // The thread that asks. Real time.
+  // For the thread that requests sounds. Real time.
 
-  /// This noise, or none, within `ramp_s` > 0; what was heard before goes in the same time.
-  /// False where the queue is full.
+  /// Changes to this noise, or to none, within `ramp_s`; the noise before fades out in the same
+  /// time. A ramp of 0 changes at once. Returns false if the queue is full.
   bool play_noise(int noise, double ramp_s) noexcept;
-  /// False where the queue is full.
+  /// Returns false if the queue is full.
   bool play_cue(std::size_t cue, std::uint64_t id, std::int64_t asked_ns) noexcept;
-  /// The next cue that was heard, in their order; false where there is none.
+  /// Takes the next cue that was heard, in order. Returns false if there is none.
   bool next_heard(HeardCue& heard) noexcept { return heard_.try_pop(heard); }
 
-  // Any thread. Real time.
+  // For any thread. Real time.
 
   [[nodiscard]] std::int64_t num_frames() const noexcept {
     return num_frames_.load(std::memory_order_relaxed);
   }
-  /// Samples that the limiter turned down.
+  /// Returns the number of samples that the limiter turned down.
   [[nodiscard]] std::int64_t num_limited() const noexcept {
     return num_limited_.load(std::memory_order_relaxed);
   }
 
-  // The output's thread. Real time.
+  // For the output's thread. Real time.
 
   void render(std::span<float> samples, std::int64_t heard_ns) noexcept override;
 
@@ -84,22 +84,22 @@ class SoundMixer final : public SoundSource {
     std::int64_t asked_ns = 0;
   };
 
-  /// A noise and how far up it is.
+  /// A noise and the state of its ramp.
   struct Voice {
     Voice(const LevelledNoise& levelled, double rate_hz, std::uint64_t seed);
     [[nodiscard]] double next() noexcept;
     [[nodiscard]] bool is_heard() const noexcept { return place > 0.0 || step > 0.0; }
 
     Noise noise;
-    double rms;          ///< When it is all there.
-    double place = 0.0;  ///< 0: silent, 1: all there.
-    double step = 0.0;   ///< Of the place, for every sample.
+    double rms;          ///< Root mean square at full level.
+    double place = 0.0;  ///< State of the ramp: 0 is silent, 1 is full level.
+    double step = 0.0;   ///< Change of `place` in every sample.
   };
 
-  /// A cue under way, or about to be.
+  /// A cue that sounds or is about to.
   struct Sounding {
-    const std::vector<float>* samples = nullptr;  ///< nullptr: none.
-    std::size_t next = 0, wait = 0;               ///< Samples.
+    const std::vector<float>* samples = nullptr;  ///< nullptr means none.
+    std::size_t next = 0, wait = 0;               ///< In samples.
   };
   static constexpr std::size_t kMostSounding = 8;
 

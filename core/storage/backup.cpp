@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr Durability kDurable = Durability::kEveryCommit;
 
-/// Nothing that is there already, but an earlier copy of the same study, is written to.
+/// Throws `Error` unless the target is new, empty or an earlier copy of the same study.
 void require_own_target(const fs::path& folder, const fs::path& target,
                         const std::string& study_id) {
   if (!fs::exists(target)) return;
@@ -41,7 +41,7 @@ void require_own_target(const fs::path& folder, const fs::path& target,
     throw Error(place + "of this study, found another study; choose another folder");
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(target)) {
-    // What a backup that was interrupted before its first page leaves.
+    // A backup that was interrupted before its first page leaves these files.
     const fs::path name = entry.path().filename();
     if (name != "recordings" && name != "writer.lock" && !is_backup_mark(name)) {
       throw Error(place + "of the study, found other files in it; choose another folder");
@@ -154,8 +154,8 @@ void note(Database& study, const fs::path& target, std::int64_t time_ns, bool fo
       .run();
 }
 
-/// The study learns where the copy was exported to, which the copy is about to forget. What it
-/// knows of a place that was written to later stays its last word.
+/// Before the copy forgets where it was exported to, the study takes these notes over. If the
+/// study knows of a later export to the same place, its own note stays the last one.
 void take_over_notes(const fs::path& folder, const fs::path& target) {
   const std::vector<ExportNote> known = noted_exports(folder);
   for (const ExportNote& one : noted_exports(target)) {
@@ -166,7 +166,7 @@ void take_over_notes(const fs::path& folder, const fs::path& target) {
   }
 }
 
-/// The study learns of this copy, and of those that were made from the copy. One on a read-only
+/// Notes this copy in the study, and the copies that were made from it. A study on a read-only
 /// disk can be copied all the same.
 void note_in_study(const fs::path& folder, const fs::path& target, std::int64_t time_ns,
                    BackupReport& report) try {
@@ -260,7 +260,7 @@ void copy_recording(const fs::path& source, const fs::path& target, BackupReport
   report.num_chunks += static_cast<std::int64_t>(chunk_keys(to).size());
 }
 
-/// Sessions of the snapshot whose samples are kept.
+/// Returns the sessions of the snapshot whose samples are kept.
 std::vector<std::int64_t> sessions_in(Database& snapshot) {
   Statement rows(snapshot, "SELECT session FROM session ORDER BY session");
   std::vector<std::int64_t> sessions;
@@ -268,7 +268,8 @@ std::vector<std::int64_t> sessions_in(Database& snapshot) {
   return sessions;
 }
 
-/// In one transaction of SQLite's: the earlier copy, or the new one.
+/// Writes in one transaction of SQLite, so that the target holds either the earlier copy or the
+/// new one.
 void write_study(const Database& snapshot, const fs::path& target) {
   const fs::path file = target / "study.sqlite";
   Database to(file, fs::exists(file) ? Database::Mode::kReadWrite : Database::Mode::kCreate,
@@ -277,7 +278,7 @@ void write_study(const Database& snapshot, const fs::path& target) {
   to.checkpoint();
 }
 
-/// Recordings first, then what speaks of them.
+/// Copies the recordings first and then the database that refers to them.
 void copy_study(const StudyStore& study, Database& snapshot, const fs::path& target,
                 const std::function<void(double)>& on_progress, BackupReport& report) {
   const std::vector<std::int64_t> sessions = sessions_in(snapshot);
@@ -361,7 +362,7 @@ BackupReport restore(const fs::path& backup, const fs::path& target, std::int64_
   }
   bring_up_to_date(snapshot);
   note(snapshot, as_noted(backup), time_ns, /*forgotten=*/false);
-  // Where the lost study had a backup once, there is the study now.
+  // The lost study may have had a backup at this place, where the study itself is now.
   note(snapshot, as_noted(target), time_ns, /*forgotten=*/true);
   BackupReport report;
   copy_study(study, snapshot, target, on_progress, report);

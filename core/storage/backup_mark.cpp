@@ -33,7 +33,7 @@ bool is_marked(const fs::path& folder) {
 
 constexpr const char* kUnfinishedEnding = ".unfinished";
 
-/// There as a whole or not at all, and on disk when this returns.
+/// Writes the file as a whole or not at all. It is on disk when the function returns.
 void write_mark(const fs::path& file, const std::string& words) {
   const fs::path unfinished = file.string() + kUnfinishedEnding;
   make_private_file(unfinished);
@@ -56,7 +56,7 @@ std::string words_of_backup(const std::string& date) {
          "of the backup:\n\n    jnd restore THIS_FOLDER --to NEW_FOLDER\n";
 }
 
-/// The study that was copied noted this very folder as one of its backups.
+/// Whether the study lists this folder as one of its own backups.
 bool lists_itself(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder / "study.sqlite", error)) return false;

@@ -10,8 +10,8 @@
 namespace jnd::core {
 namespace {
 
-/// Nobody can write here, and no write-ahead log is left behind: a finished study on a
-/// read-only disk or in another's folder.
+/// Whether nobody can write here and no write-ahead log is left: a finished study on a
+/// read-only disk, or in another user's folder.
 bool is_archived(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (::access(folder.c_str(), W_OK) == 0) return false;
@@ -20,8 +20,8 @@ bool is_archived(const std::filesystem::path& file) {
   return error || log_bytes == 0;
 }
 
-/// A program that was killed while it made this database left a journal to be rolled back,
-/// which a reader may not do.
+/// Rolls back the journal of a program that was killed while it made this database. A reader
+/// may not do so.
 void roll_back(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file.string() + "-journal", error)) return;
@@ -29,7 +29,8 @@ void roll_back(const std::filesystem::path& file) {
   (void)is_empty(database);
 }
 
-/// SQLite needs a writable folder for its shared memory unless told that nothing will change.
+/// Returns an address that tells SQLite that nothing will change. Otherwise it needs a writable
+/// folder for its shared memory.
 std::string immutable_uri(const std::filesystem::path& file) {
   std::string uri = "file:";
   for (const char letter : file.string()) {
@@ -58,7 +59,8 @@ void require_file(const std::filesystem::path& file) {
 Database::Database(const std::filesystem::path& file, Mode mode, Durability durability)
     : file_(file) {
   if (mode == Mode::kCreate) {
-    // SQLite would create it with the umask's rights; answers are for their owner only.
+    // SQLite would create the file with the umask's rights, but answers are for their owner
+    // only.
     make_private_file(file);
   } else {
     require_file(file);
@@ -82,7 +84,7 @@ Database::Database(const std::filesystem::path& file, Mode mode, Durability dura
     execute("PRAGMA foreign_keys = ON");
     if (mode != Mode::kReadOnly) {
       execute("PRAGMA journal_mode = WAL");
-      // FULL syncs the log at every commit; NORMAL only when it is folded into the database.
+      // FULL syncs the log at every commit, NORMAL only when it is folded into the database.
       execute(durability == Durability::kEveryCommit ? "PRAGMA synchronous = FULL"
                                                      : "PRAGMA synchronous = NORMAL");
     }
@@ -150,7 +152,7 @@ void Database::require_in_place() const {
 
 void Database::checkpoint() {
   Statement pragma(*this, "PRAGMA wal_checkpoint(TRUNCATE)");
-  // That it was held up is a row, not an error.
+  // If another connection held it up, the statement returns a row and no error.
   if (pragma.step() && pragma.integer(0) == 0) return;
   throw Error(
       file_.string() +
@@ -161,7 +163,8 @@ void Database::checkpoint() {
 void Database::copy_to(Database& target) const {
   sqlite3_backup* copy = sqlite3_backup_init(target.handle_, "main", handle_, "main");
   if (copy == nullptr) target.fail("copy a database");
-  // All pages in one step: one state of the database, whatever is written meanwhile.
+  // One step copies all pages, so the copy has one state of the database, whatever is written
+  // meanwhile.
   constexpr int kMostTries = 500;
   int result = SQLITE_BUSY;
   for (int tries = 0; tries < kMostTries; ++tries) {
@@ -282,7 +285,8 @@ Transaction::Transaction(Database& database) : database_(database) {
 
 Transaction::~Transaction() {
   if (!open_) return;
-  // Nothing more can be done about a failing rollback here; SQLite rolls back on reopening.
+  // Nothing more can be done here about a failing rollback; SQLite rolls back when the database
+  // is opened again.
   sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 

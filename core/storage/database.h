@@ -22,25 +22,26 @@ class Database {
   enum class Mode { kReadOnly, kReadWrite, kCreate };
 
   Database(const std::filesystem::path& file, Mode mode, Durability durability);
-  /// An empty one in memory.
+  /// Makes an empty database in memory.
   Database();
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
   void execute(const std::string& sql);
-  /// Folds the write-ahead log into the file and empties it, so that the file alone is all
-  /// there is. Throws `Error` while another program reads.
+  /// Folds the write-ahead log into the file and empties it, so that the file alone holds
+  /// everything. Throws `Error` while another program reads.
   void checkpoint();
-  /// Replaces the content of `target` by this one's, as it is at one moment, whoever
-  /// writes to it meanwhile.
+  /// Replaces the content of `target` by this database's content as it is at one moment,
+  /// whoever writes to it meanwhile.
   void copy_to(Database& target) const;
-  /// Throws `Error` if the file is no longer where it was opened: whatever is written from then
-  /// on may be seen by nobody.
+  /// Throws `Error` if the file is no longer where it was opened, because whatever is written
+  /// from then on may never be seen.
   void require_in_place() const;
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
   [[nodiscard]] sqlite3* handle() const noexcept { return handle_; }
-  /// Throws what SQLite found wrong, in words for a person where it is the disk or the file.
+  /// Throws what SQLite found wrong. The message is in words for a person if the disk or the
+  /// file is the cause.
   [[noreturn]] void fail(const std::string& doing) const;
 
  private:
@@ -48,8 +49,8 @@ class Database {
   sqlite3* handle_ = nullptr;
 };
 
-/// A prepared statement. `bind` takes the parameters in order; `step` returns whether there is
-/// a row; `reset` makes it ready for the next use.
+/// A prepared statement. `bind` sets the next parameter, `step` returns whether there is a row,
+/// and `reset` makes the statement ready for its next use.
 class Statement {
  public:
   Statement(Database& database, const std::string& sql);
@@ -60,7 +61,7 @@ class Statement {
   Statement& bind(std::int64_t value);
   Statement& bind(double value);
   Statement& bind(const std::string& value);
-  Statement& bind_bytes(std::string_view bytes);  ///< Must live until `reset`.
+  Statement& bind_bytes(std::string_view bytes);  ///< The bytes must live until `reset`.
   template <typename T>
   Statement& bind(const std::optional<T>& value) {
     return value.has_value() ? bind(*value) : bind_null();
@@ -68,7 +69,7 @@ class Statement {
   Statement& bind_null();
 
   [[nodiscard]] bool step();
-  /// For statements without rows: step, then reset.
+  /// Steps and resets a statement that returns no rows.
   void run();
   void reset();
 
@@ -85,10 +86,11 @@ class Statement {
   int next_parameter_ = 1;
 };
 
-/// Whether there is no table in it yet: just made, by a program that may have died since.
+/// Whether the database has no table yet, because a program made it just now or died meanwhile.
 [[nodiscard]] bool is_empty(Database& database);
 
-/// The scope is the transaction: `commit` is explicit, anything else rolls back.
+/// A transaction for the scope of the object. `commit` ends it; otherwise the destructor rolls
+/// back.
 class Transaction {
  public:
   explicit Transaction(Database& database);

@@ -37,7 +37,8 @@ bool holds_any(const ExportNote& note, const std::vector<std::int64_t>& sessions
   });
 }
 
-/// NAME.unfinished-XXXXXX beside the place: an export that was killed.
+/// Returns the files NAME.unfinished-XXXXXX beside the place, which exports that were killed
+/// left.
 std::vector<fs::path> left_beside(const fs::path& place) {
   const std::string start = place.filename().string() + ".unfinished-";
   std::vector<fs::path> left;
@@ -101,7 +102,7 @@ std::vector<ExportNote> exports_still_there(const std::vector<ExportNote>& notes
   std::vector<ExportNote> there;
   for (const auto& [place, note] : last_holding) {
     if (holds_any(last.at(place), sessions) && !is_free_place(place)) there.push_back(note);
-    // Which of the exports to the place left it, nobody knows.
+    // It is unknown which of the exports to this place left it.
     for (fs::path& left : left_beside(place)) {
       there.push_back(note);
       there.back().place = std::move(left);

@@ -31,7 +31,7 @@ fs::path above(const fs::path& path) {
 void sync(const fs::path& path, int flags) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
   if (descriptor < 0) cannot(path, "open this");
-  // Some file systems have no sync of a folder, and say so by EINVAL.
+  // Some file systems cannot sync a folder and say so by EINVAL.
   const bool failed = ::fsync(descriptor) != 0 && errno != EINVAL;
   const int reason = errno;
   ::close(descriptor);

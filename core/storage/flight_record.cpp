@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMark = ".fault-";
 
-/// The shortest text that is this number, whatever the locale.
+/// Returns the shortest text that gives this number again, in any locale.
 std::string text_of(double value) {
   std::array<char, 32> text;
   char* const end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
@@ -63,7 +63,7 @@ fs::path write_flight_record(const fs::path& recording_file,
   try {
     make_private_file(unfinished);
     std::ofstream(unfinished, std::ios::binary | std::ios::trunc) << table;
-    // A full disk shows here: the stream has been closed.
+    // A full disk shows here, because the stream has been closed.
     if (fs::file_size(unfinished) != table.size()) {
       throw Error(file.string() + ": expected room for " + std::to_string(table.size()) +
                   " bytes, found " + std::to_string(fs::file_size(unfinished)) + " written");

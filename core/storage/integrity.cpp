@@ -20,7 +20,7 @@ std::string span(std::int64_t first, std::int64_t last) {
   return std::to_string(first) + " to " + std::to_string(last);
 }
 
-/// Of a chunk whose numbers may be damaged too.
+/// Returns words for the ticks of a chunk, whose numbers may be damaged, too.
 std::string ticks_of(const RecordingChunk& chunk) {
   constexpr std::int64_t kBeyond = std::int64_t{1} << 53;
   const auto plausible = [](std::int64_t number) { return number >= 0 && number < kBeyond; };
@@ -128,7 +128,8 @@ class SessionCheck {
         integrity_.num_samples += chunk.num_samples;
       }
     } catch (const Error& error) {
-      // A session that was added, or died before its first stimulus, may have none yet.
+      // A session that was just added, or died before its first stimulus, may have no recording
+      // yet.
       if (speaks_of_ticks(events)) problem(error.what());
       return;
     }
@@ -169,7 +170,7 @@ class SessionCheck {
     }
   }
 
-  /// `accounted`: the ticks of intact chunks and `missed`, those that never ran.
+  /// `accounted` are the ticks of intact chunks and `missed`, the ticks that never ran.
   void check_claims(const std::vector<TickRange>& accounted,
                     const std::vector<TickRange>& missed, const std::vector<EventRow>& events) {
     for (const TickClaim& claim : tick_claims(events)) {
@@ -195,7 +196,7 @@ class SessionCheck {
   Integrity& integrity_;
 };
 
-/// Recordings that neither a session nor a tombstone speaks of.
+/// Returns the recordings that belong to neither a session nor a tombstone.
 std::vector<std::filesystem::path> recordings_without_session(const StudyStore& store) {
   std::set<std::filesystem::path> known;
   for (const SessionRow& session : store.sessions()) {
@@ -220,7 +221,7 @@ std::vector<std::filesystem::path> recordings_without_session(const StudyStore& 
 
 Integrity verify(const StudyStore& store, const Progress& progress) {
   Integrity integrity;
-  // What cannot be read is what is asked about here, so it is found, not thrown.
+  // Data that cannot be read is what this function looks for, so it is reported and not thrown.
   const auto check = [&](std::int64_t session, const std::function<void()>& part) {
     try {
       part();
@@ -268,7 +269,8 @@ Integrity verify(const StudyStore& store, const Progress& progress) {
          "whole, repeat `jnd backup`"});
   }
   check(0, [&] {
-    if (is_backup_begun) return;  // Of sessions that this copy does not know yet.
+    // These may be recordings of sessions that this copy does not know yet.
+    if (is_backup_begun) return;
     for (const std::filesystem::path& orphan : recordings_without_session(store)) {
       integrity.problems.push_back(
           {0, orphan.string() + ": expected a session of this recording, found none; was "

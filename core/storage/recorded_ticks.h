@@ -9,28 +9,29 @@
 
 namespace jnd::core {
 
-/// Ticks from the first to the last, both among them.
+/// The ticks from the first to the last, both included.
 struct TickRange {
   std::int64_t first_tick = 0, last_tick = 0;
   friend bool operator==(const TickRange&, const TickRange&) = default;
 };
 
-/// Ticks that an event speaks of: their samples were on disk before it was written, so a
-/// recording that lacks them has lost something.
+/// Ticks to which an event refers. Their samples were on disk before the event was written, so
+/// a recording that lacks them has lost something.
 struct TickClaim {
   TickRange ticks;
-  std::string kind;  ///< Of the event.
+  std::string kind;  ///< Kind of the event.
   std::optional<std::int64_t> trial;
 };
 
-/// Those of explored media and ended presentations, in the order of the events, also of events
-/// that a later one took back.
+/// Returns the ticks of explored media and ended presentations, in the order of the events.
+/// Events that a later one took back count as well.
 [[nodiscard]] std::vector<TickClaim> tick_claims(const std::vector<EventRow>& events);
 
-/// The same ticks as ascending ranges that do not touch.
+/// Returns the same ticks as ascending ranges that do not touch.
 [[nodiscard]] std::vector<TickRange> merged(std::vector<TickRange> ranges);
 
-/// The parts of `ticks` that are in none of the ranges, which are as `merged` makes them.
+/// Returns the parts of `ticks` that are in none of the ranges, which must be as `merged`
+/// returns them.
 [[nodiscard]] std::vector<TickRange> missing_in(const std::vector<TickRange>& ranges,
                                                 TickRange ticks);
 

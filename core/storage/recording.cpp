@@ -11,11 +11,12 @@
 namespace jnd::core {
 namespace {
 
-// About four seconds at 1 kHz: large enough to compress well, small enough to lose little.
+// About four seconds at 1 kHz, which is long enough to compress well and short enough to lose
+// little.
 constexpr std::size_t kSamplesPerChunk = 4096;
-// 2: chunks may hold joints. 3: they may hold times, and a table the ticks that never ran. 4:
-// they may hold what else a device measures. A recording becomes one of format 3 or 4 with the
-// first of these, so that others are as they were.
+// In format 2 chunks may hold joints. In format 3 they may hold times, and a table holds the
+// ticks that never ran. In format 4 they may hold what else a device measures. A recording
+// takes format 3 or 4 with the first of these, so that all others stay as they were.
 constexpr std::int64_t kFormat = 4, kFormatWithChannels = 4, kFormatWithTimes = 3,
                        kFormatWithoutTimes = 2;
 
@@ -127,7 +128,7 @@ struct RecordingWriter::Implementation {
   std::int64_t segment = 1;
   bool keeps_channels = false;
   std::optional<Statement> insert;
-  std::optional<Statement> insert_missed;  ///< Of a recording with times.
+  std::optional<Statement> insert_missed;  ///< Used in a recording with times.
   std::vector<Sample> pending;
 };
 
@@ -139,7 +140,7 @@ RecordingWriter::~RecordingWriter() {
   try {
     flush();
   } catch (const std::exception&) {
-    // `flush` was the place to hear of it; a destructor must not throw.
+    // `flush` reports failures. A destructor must not throw.
   }
 }
 
@@ -195,7 +196,7 @@ ChannelBits RecordingReader::channels() const {
   Statement format(implementation_->database, "SELECT version FROM recording_format");
   if (!format.step() || format.integer(0) < kFormatWithChannels) return 0;
   ChannelBits bits = 0;
-  // Another robot may have gone on with the session: a sample of each segment.
+  // Another robot may have continued the session, so one sample of each segment is read.
   Statement firsts(implementation_->database,
                    "SELECT MIN(first_tick) FROM chunk GROUP BY segment");
   while (firsts.step()) {
@@ -206,7 +207,8 @@ ChannelBits RecordingReader::channels() const {
   return bits;
 }
 
-/// The row's own numbers are not in the hash, but the bytes know them.
+/// Whether the bytes decode to the numbers of the row. The hash does not cover the row's
+/// numbers, but the bytes contain them.
 static bool decodes(const RecordingChunk& chunk, std::string_view bytes) {
   if (chunk.num_samples < 1) return false;
   try {
@@ -222,7 +224,7 @@ bool RecordingReader::has_times() const {
   Statement format(implementation_->database, "SELECT version FROM recording_format");
   if (!format.step() || format.integer(0) <= kFormatWithoutTimes) return false;
   if (format.integer(0) == kFormatWithTimes) return true;
-  // Of simulated time, with times that are all zero, or not.
+  // The first sample tells. Simulated time has times that are all zero, or none.
   Statement first(implementation_->database, "SELECT MIN(first_tick) FROM chunk");
   bool found = false;
   if (!first.step()) return found;
@@ -256,11 +258,11 @@ std::int64_t RecordingReader::last_tick() const {
   return rows.step() ? rows.optional_integer(0).value_or(-1) : -1;
 }
 
-/// Of rows of a first tick and a number of ticks.
+/// Returns the ranges of rows that have a first tick and a number of ticks.
 static std::vector<TickRange> ranges_of(Statement& rows) {
   std::vector<TickRange> ranges;
   while (rows.step()) {
-    // Damaged numbers have no samples; `read` finds that.
+    // Damaged numbers stand for no samples; `read` reports them.
     constexpr std::int64_t kBeyond = std::int64_t{1} << 53;
     const std::int64_t first = rows.integer(0), count = rows.integer(1);
     if (first < 0 || first >= kBeyond || count < 1 || count >= kBeyond) continue;

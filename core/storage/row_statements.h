@@ -13,9 +13,10 @@
 
 namespace jnd::core {
 
-// The rows of study.sqlite as SQL, as their columns say: in one order for writing and reading.
+// Statements for the rows of study.sqlite, made from the tables of their columns, so that
+// writing and reading use the same order.
 
-/// "session, sequence, ...".
+/// Returns "session, sequence, ...".
 template <typename Row>
 [[nodiscard]] const std::string& column_names() {
   static const std::string kNames = [] {
@@ -28,7 +29,7 @@ template <typename Row>
   return kNames;
 }
 
-/// "INSERT INTO table (columns) VALUES (?, ...)".
+/// Returns "INSERT INTO table (columns) VALUES (?, ...)".
 template <typename Row>
 [[nodiscard]] std::string insert_into(const std::string& table) {
   std::string marks;
@@ -36,7 +37,7 @@ template <typename Row>
   return "INSERT INTO " + table + " (" + column_names<Row>() + ") VALUES (" + marks + ")";
 }
 
-/// "SELECT columns FROM table", which anything may follow.
+/// Returns "SELECT columns FROM table". More of a statement may follow.
 template <typename Row>
 [[nodiscard]] std::string select_from(const std::string& table) {
   return "SELECT " + column_names<Row>() + " FROM " + table;
@@ -53,8 +54,7 @@ void bind_value(const Value& value, Statement& statement) {
   }
 }
 
-// What a column of the row holds that the statement stands on. Nothing counts as 0 where a
-// field cannot be without a value.
+// Reads a column of the statement's current row. NULL gives 0 if the field cannot be empty.
 inline void read_value(const Statement& rows, int column, std::int64_t& value) {
   value = rows.integer(column);
 }
@@ -81,7 +81,7 @@ inline void read_value(const Statement& rows, int column, std::optional<double>&
   value = rows.optional_number(column);
 }
 
-/// Carries out an insert of `insert_into`.
+/// Runs a statement of `insert_into` with this row.
 template <typename Row>
 void insert(const Row& row, Statement& statement) {
   for_each_column<Row>(
@@ -89,7 +89,7 @@ void insert(const Row& row, Statement& statement) {
   statement.run();
 }
 
-/// The row of `select_from` that the statement stands on.
+/// Returns the current row of a statement of `select_from`.
 template <typename Row>
 [[nodiscard]] Row read_row(const Statement& rows) {
   Row row;
@@ -99,7 +99,7 @@ template <typename Row>
   return row;
 }
 
-/// All that are left.
+/// Returns all rows that are left.
 template <typename Row>
 [[nodiscard]] std::vector<Row> read_rows(Statement& rows) {
   std::vector<Row> all;

@@ -15,23 +15,23 @@
 namespace jnd::core {
 namespace {
 
-constexpr int kVectorsPerPoint = 3;  // position, velocity, force
+constexpr int kVectorsPerPoint = 3;  // Position, velocity, force.
 constexpr int kVectorChannels = kNumContactPoints * kVectorsPerPoint * 3;
 constexpr int kEndEffector = kVectorChannels;
-constexpr int kFlags = kEndEffector + 3;  // command, attached, immersed, limited, fault
+constexpr int kFlags = kEndEffector + 3;  // Command, attached, immersed, limited, fault.
 constexpr int kNumChannels = kFlags + 5;
-constexpr int kNumJointChannels = 2 * kNumJoints;  // position, torque
-constexpr int kNumTimeChannels = 2;                // monotonic, the device's
-// Force at each point, orientation, torque, gripper, buttons: as many as there are at most.
+constexpr int kNumJointChannels = 2 * kNumJoints;  // Position, torque.
+constexpr int kNumTimeChannels = 2;                // Monotonic time, device's time.
+// The largest number of channels: force at each point, orientation, torque, gripper, buttons.
 constexpr int kMostChannels = 3 * kNumContactPoints + 4 + 3 + 1 + 1;
 constexpr std::int64_t kNsPerUs = 1000;
 
-// Arithmetic modulo 2^32: differences wrap and come back exactly.
+// Arithmetic is modulo 2^32, so differences wrap and come back exactly.
 using Word = std::uint32_t;
 using Row = std::array<Word, kNumChannels>;
 using JointRow = std::array<Word, kNumJointChannels>;
 
-// Times are kept modulo 2^64, in microseconds.
+// Times are stored modulo 2^64, in microseconds.
 using LongWord = std::uint64_t;
 using TimeRow = std::array<LongWord, kNumTimeChannels>;
 
@@ -43,8 +43,8 @@ Word fixed_point(double value, double units) noexcept {
     if (std::isnan(scaled)) return kNotANumber;
     return scaled > 0 ? 0x7fffffffU : static_cast<Word>(-0x7fffffff);
   }
-  // Adding 1.5 * 2^52 rounds to the nearest integer in the low bits; several times faster than
-  // a call to lrint.
+  // Adding 1.5 * 2^52 rounds to the nearest integer in the low bits. This is several times
+  // faster than a call of lrint.
   const double shifted = scaled + 6755399441055744.0;
   std::uint64_t bits = 0;
   std::memcpy(&bits, &shifted, sizeof bits);
@@ -63,7 +63,7 @@ Row row_of(const Sample& sample) noexcept {
     for (int axis = 0; axis < 3; ++axis) {
       const Word position = fixed_point(sample.tip_position_m[point][axis], 1e7);
       const Word velocity = fixed_point(sample.tip_velocity_m_per_s[point][axis], 1e4);
-      // Relative to the first tip, a rigid hand's other tips do not change at all.
+      // Relative to the first tip, the other tips of a rigid hand do not change at all.
       row[channel] = point == 0 ? position : position - row[axis];
       row[channel + 3] = point == 0 ? velocity : velocity - row[axis + 3];
       row[channel + 6] = fixed_point(sample.tip_force_n[point][axis], 1e3);
@@ -129,7 +129,7 @@ void take_joints(const JointRow& row, Sample& sample) noexcept {
   }
 }
 
-/// Rounded down, also before the clock's zero.
+/// Rounds down, also before the clock's zero.
 LongWord microseconds(std::int64_t time_ns) noexcept {
   const std::int64_t below = time_ns % kNsPerUs < 0 ? 1 : 0;
   return static_cast<LongWord>(time_ns / kNsPerUs - below);
@@ -143,8 +143,7 @@ TimeRow time_row_of(const Sample& sample) noexcept {
   return {microseconds(sample.monotonic_ns), microseconds(sample.device_time_ns)};
 }
 
-/// Calls `visit(value, units)` for each number of those channels that `bits` tells, in their
-/// order.
+/// Calls `visit(value, units)` for each number of the channels in `bits`, in their order.
 template <typename Channels, typename Visit>
 void for_each_channel(ChannelBits bits, Channels& channels, const Visit& visit) {
   const auto all = [&visit](auto& numbers, double units) {
@@ -158,7 +157,7 @@ void for_each_channel(ChannelBits bits, Channels& channels, const Visit& visit) 
   if ((bits & kGripper) != 0) visit(channels.gripper_m, 1e7);
 }
 
-/// The words of a sample; of the buttons the bits as they are.
+/// Returns the words of a sample. The buttons' bits are taken as they are.
 std::vector<Word> channel_row_of(ChannelBits bits, const DeviceChannels& channels) {
   std::vector<Word> row;
   row.reserve(kMostChannels);
@@ -181,7 +180,7 @@ void take_channels(ChannelBits bits, const std::vector<Word>& row, DeviceChannel
 template <typename SomeWord>
 constexpr int kBitsOf = 8 * static_cast<int>(sizeof(SomeWord));
 
-/// Small magnitudes of either sign become small numbers.
+/// Maps small magnitudes of either sign to small numbers.
 template <typename SomeWord>
 SomeWord zigzag(SomeWord difference) noexcept {
   return (difference << 1) ^ (SomeWord{0} - (difference >> (kBitsOf<SomeWord> - 1)));
@@ -198,8 +197,8 @@ void put_word(std::string& bytes, SomeWord word) {
   }
 }
 
-/// Each channel: its first two values, the width of its differences in bytes, and their planes,
-/// lowest byte first.
+/// Writes each channel as its first two values, the width of its differences in bytes, and
+/// their byte planes, the lowest byte first.
 template <typename SomeRow>
 void put_planes(const std::vector<SomeRow>& rows, std::string& bytes) {
   using SomeWord = typename SomeRow::value_type;
@@ -225,7 +224,7 @@ void put_planes(const std::vector<SomeRow>& rows, std::string& bytes) {
   }
 }
 
-/// Reads what `put_planes` wrote; every length is checked, for the bytes may be damaged.
+/// Reads what `put_planes` wrote. It checks every length, because the bytes may be damaged.
 class PlaneReader {
  public:
   PlaneReader(std::string_view bytes, const std::string& place)
@@ -264,12 +263,12 @@ class PlaneReader {
   const std::string& place_;
 };
 
-/// Channel after channel, the words of all samples: decoding goes along a channel, which is
-/// much faster where its words lie side by side.
+/// The words of all samples, channel after channel. Decoding runs along a channel, which is
+/// much faster if its words are adjacent.
 template <typename SomeRow>
 class Columns {
  public:
-  /// `like`: a row with as many channels.
+  /// `like` is a row with the right number of channels.
   Columns(PlaneReader& reader, std::size_t count, SomeRow like = SomeRow())
       : count_(count), like_(std::move(like)), words_(like_.size() * count) {
     for (std::size_t channel = 0; channel < like_.size(); ++channel) {
@@ -324,7 +323,7 @@ std::string compressed(const std::string& raw) {
   return bytes;
 }
 
-/// The content of a frame of zstd, which holds no more than that.
+/// Returns the content of a zstd frame. The frame must not hold more than `largest` bytes.
 std::string decompressed(std::string_view frame, unsigned long long largest,
                          const PlaneReader& damaged) {
   const unsigned long long size = ZSTD_getFrameContentSize(frame.data(), frame.size());
@@ -379,7 +378,8 @@ std::vector<Sample> decode_samples(std::string_view bytes, std::int64_t first_ti
                                    std::int64_t num_samples, const std::string& place) {
   if (num_samples <= 0) return {};
   PlaneReader damaged({}, place);
-  // Far above any chunk that was ever written; a damaged row must not ask for all memory.
+  // This is far above any chunk that was ever written, so that a damaged row cannot ask for all
+  // memory.
   constexpr std::int64_t kMostSamples = 1 << 20;
   if (num_samples > kMostSamples || first_tick < 0 ||
       first_tick > std::numeric_limits<std::int64_t>::max() - num_samples) {

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kFirstThatKnowsSchedules = 13;
 
-/// A study that is written to by nobody else.
+/// A study that is opened to write to its schedule, with its lock.
 class WrittenSchedule {
  public:
   explicit WrittenSchedule(const fs::path& folder)

@@ -60,7 +60,7 @@ void StorageThread::take_samples() {
   } catch (...) {
     loss = "recording: expected to keep a sample, found that it cannot be";
   }
-  // What else waits is given up with it: the disk has had its time.
+  // The waiting samples are given up as well, because the disk has had its time.
   samples_.drain([](const Sample&) {});
   const std::lock_guard guard(mutex_);
   if (loss_.empty()) loss_ = loss + "; samples were lost: leave the session, then resume it";

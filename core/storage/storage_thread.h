@@ -17,33 +17,32 @@
 
 namespace jnd::core {
 
-/// The disk did not keep what it was asked to: that has not happened.
+/// The disk did not keep what it was asked to keep. The act counts as not done.
 class StorageError : public Error {
  public:
   using Error::Error;
 };
 
-/// Where the samples of a loop go: to the recording, and to whoever watches them.
+/// Where the samples of a loop go: to the recording, and to a function that watches them.
 struct SampleConsumer {
-  RecordingWriter* recording = nullptr;      ///< nullptr: nothing is kept.
+  RecordingWriter* recording = nullptr;      ///< nullptr if nothing is recorded.
   std::function<void(const Sample&)> visit;  ///< Called for every sample; may be empty.
 
   void take(const Sample& sample) const {
     if (visit) visit(sample);
     if (recording != nullptr) recording->append(sample);
   }
-  /// The recording up to here synced, then the commit, synced.
+  /// Syncs the recording up to here, then writes and syncs the commit.
   void commit(StudyStore& store, const Commit& commit) const {
     if (recording != nullptr && commit.event.last_tick) recording->flush();
     store.append(commit);
   }
 };
 
-/// The one thread that writes a session: it takes the loop's samples from their queue, hands
-/// them to the recording, and carries out what is asked of it in between, so that the recording
-/// is on disk before the event that speaks of it. A sample that could not be written leaves a
-/// hole, and no event may speak of what is not there: from then on every call throws, also when
-/// the disk has recovered.
+/// The one thread that writes a session. It takes the loop's samples from their queue, passes
+/// them to the recording, and does other work in between. So the recording is on disk before
+/// the event that refers to it. A sample that could not be written leaves a hole, and no event
+/// may refer to missing samples. So every later call throws, even if the disk has recovered.
 class StorageThread {
  public:
   /// `samples` and the consumer's recording must outlive the thread.
@@ -54,15 +53,15 @@ class StorageThread {
   StorageThread& operator=(const StorageThread&) = delete;
 
   /// Runs `work` on the storage thread once every sample up to `tick` has been taken (-1: at
-  /// once) and returns when it is done. Throws what `work` threw, and `StorageError`, with
-  /// `work` left undone, once a sample was lost. A tick that never comes, because its sample
-  /// was dropped or the loop stands still, counts as taken after a fifth of a second without
-  /// samples. Not real time.
-  /// `while_waiting`, if any, is called every 20 ms in the calling thread.
+  /// once), and returns when it is done. Throws what `work` threw. Once a sample was lost, it
+  /// throws `StorageError` and does not call `work`. A tick that never comes, because its
+  /// sample was dropped or the loop stands still, counts as taken after a fifth of a second
+  /// without samples. `while_waiting`, if any, is called every 20 ms in the calling thread. Not
+  /// real time.
   void after(std::int64_t tick, const std::function<void()>& work,
              const std::function<void()>& while_waiting = {});
 
-  /// The recording up to `commit`'s last tick, synced, then the commit, synced.
+  /// Syncs the recording up to `commit`'s last tick, then writes and syncs the commit.
   void commit(StudyStore& store, const Commit& commit,
               const std::function<void()>& while_waiting = {});
 
@@ -79,7 +78,7 @@ class StorageThread {
   std::int64_t work_tick_ = -1;
   std::exception_ptr work_failure_;
   bool work_was_done_ = false;
-  std::string loss_;  ///< Why samples were lost; "" while none were.
+  std::string loss_;  ///< Why samples were lost; "" if none were.
   bool ending_ = false;
   std::int64_t last_taken_tick_ = -1;
   std::thread thread_;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kStreamFormat = 1;
 constexpr std::size_t kMostSamplesOfBlock = 4096;
 constexpr std::size_t kMostBytesOfBlock = std::size_t{1} << 20;
-/// What a damaged length could make us ask for.
+/// Limits how much memory a damaged length can ask for.
 constexpr unsigned long long kLargestBlock = 1ULL << 28;
 constexpr int kZstdLevel = 3;
 constexpr const char* kStreamMark = ".stream-";
@@ -57,7 +57,8 @@ void put_bytes(std::string& bytes, const void* value, std::size_t size) {
   bytes.append(static_cast<const char*>(value), size);
 }
 
-/// Times, then values, channel after channel; before each text its length in four bytes.
+/// Writes times, then values, channel after channel. Before each text stands its length in four
+/// bytes.
 std::string encoded(const std::vector<StreamSample>& samples) {
   std::string plain;
   for (const StreamSample& sample : samples) {
@@ -133,7 +134,7 @@ class BlockReader {
 
 }  // namespace
 
-/// The hash of everything in the file, as text after text.
+/// Hashes everything in the file, one text after another.
 class SealedText {
  public:
   explicit SealedText(const StreamFileInfo& info) {
@@ -237,7 +238,7 @@ StreamFileWriter::~StreamFileWriter() {
   try {
     if (!implementation_->is_sealed) flush();
   } catch (const std::exception&) {
-    // `flush` was the place to hear of it; a destructor must not throw.
+    // `flush` reports failures. A destructor must not throw.
   }
 }
 

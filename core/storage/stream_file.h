@@ -13,21 +13,23 @@
 
 namespace jnd::core {
 
-/// What another recorder sent beside a session, as it came, in a file of its own beside the
-/// recording: recordings/0001.stream-01.sqlite is the first of session 1. Samples are in blocks
-/// of zstd, each with a hash; the comparisons of its clock with ours are rows. A file is
-/// written once, from its opening to its seal, and never again. Not real time.
+/// A stream of another recorder, as it was received during a session, in a file of its own
+/// beside the recording: recordings/0001.stream-01.sqlite is the first one of session 1.
+/// Samples are in blocks of zstd, each with a hash. The comparisons of the sender's clock with
+/// ours are rows. A file is written once, from its opening to its seal, and never again. Not
+/// real time.
 
-/// What the stream said of itself.
+/// What the stream said about itself.
 struct StreamFileInfo {
   std::string name, type;
   ChannelFormat format = ChannelFormat::kFloat32;
   int channel_count = 1;
-  double nominal_rate_hz = 0.0;  ///< 0: without one.
-  std::string xml;               ///< All of it.
+  double nominal_rate_hz = 0.0;  ///< 0 for a stream without a rate.
+  std::string xml;               ///< The whole description.
 };
 
-/// What stands at the end, and in the log of the session: the hash is over everything before.
+/// The end of the file, which the log of the session repeats. The hash covers everything before
+/// it.
 struct StreamFileSeal {
   std::int64_t num_samples = 0, num_offsets = 0;
   std::string sha256;
@@ -38,7 +40,7 @@ struct StreamFileSeal {
 /// Not thread-safe. Throws `Error` naming the file.
 class StreamFileWriter {
  public:
-  /// Makes the file, which must not be there.
+  /// Makes the file, which must not exist.
   StreamFileWriter(const std::filesystem::path& file, const StreamFileInfo& info);
   ~StreamFileWriter();
   StreamFileWriter(const StreamFileWriter&) = delete;
@@ -46,9 +48,9 @@ class StreamFileWriter {
 
   void append(const StreamSample& sample);
   void append(const ClockOffset& offset);
-  /// Everything appended so far is on disk when this returns.
+  /// Returns once everything appended so far is on disk.
   void flush();
-  /// Flushes and seals: nothing more is appended.
+  /// Flushes and seals the file. Nothing may be appended afterwards.
   StreamFileSeal seal();
 
  private:
@@ -65,12 +67,12 @@ class StreamFileReader {
   StreamFileReader& operator=(const StreamFileReader&) = delete;
 
   [[nodiscard]] const StreamFileInfo& info() const noexcept;
-  /// In the order in which they came. Throws `Error` at a block that is damaged.
+  /// Reads samples in the order in which they came. Throws `Error` at a damaged block.
   void read(const std::function<void(const StreamSample&)>& visit) const;
   [[nodiscard]] std::vector<ClockOffset> offsets() const;
-  /// None where the program ended before it.
+  /// Returns none if the program ended before the seal.
   [[nodiscard]] std::optional<StreamFileSeal> seal() const;
-  /// What is damaged, a sentence each; reads everything.
+  /// Reads everything and returns a sentence for each part that is damaged.
   [[nodiscard]] std::vector<std::string> problems() const;
 
  private:
@@ -78,16 +80,16 @@ class StreamFileReader {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// All of a session, in the order of their numbers.
+/// Returns all stream files of a session, in the order of their numbers.
 [[nodiscard]] std::vector<std::filesystem::path> stream_files(
     const std::filesystem::path& recording_file);
-/// The first that is not there yet.
+/// Returns the first stream file that does not exist yet.
 [[nodiscard]] std::filesystem::path next_stream_file(
     const std::filesystem::path& recording_file);
-/// The recording beside which a stream lies; "" for a file that is none.
+/// Returns the recording to which a stream file belongs, or "" for another file.
 [[nodiscard]] std::filesystem::path recording_beside(const std::filesystem::path& stream_file);
 
-/// Replaces what `target` has of it, as a whole. `target` has its folder.
+/// Replaces the file at `target` as a whole. The target's folder must exist.
 void copy_stream_file(const std::filesystem::path& source, const std::filesystem::path& target);
 
 }  // namespace jnd::core

@@ -10,7 +10,7 @@
 namespace jnd::core {
 namespace {
 
-constexpr std::int64_t kApplicationId = 0x6a6e6431;  // "jnd1", and so for every layout.
+constexpr std::int64_t kApplicationId = 0x6a6e6431;  // "jnd1", the same for every layout.
 
 }  // namespace
 

@@ -7,25 +7,25 @@
 
 namespace jnd::core {
 
-/// The layout of study.sqlite, which every version of the program brings up to its own: step n
-/// of data/database/ leads from layout n - 1 to n, in one transaction.
+/// The layout of study.sqlite. Every version of the program brings older layouts up to its own:
+/// step n of data/database/ leads from layout n - 1 to n, in one transaction.
 
 /// The layout that this program writes and reads.
 [[nodiscard]] std::int64_t current_study_format() noexcept;
 
-/// The layout of the database, 0 for an empty one. Throws `Error` for a database that is none
-/// of a study, or of a newer program.
+/// Returns the layout of the database, or 0 for an empty one. Throws `Error` for a database
+/// that belongs to no study or to a newer program.
 [[nodiscard]] std::int64_t study_format_of(Database& database);
 
-/// Throws `Error` unless the folder holds a study of this layout or an older one; changes
-/// nothing, as opening a foreign database to write already would.
+/// Throws `Error` unless the folder holds a study of this layout or an older one. It changes
+/// nothing, whereas opening a foreign database for writing already would.
 void require_study(const std::filesystem::path& folder);
 
-/// Carries out the steps that are missing.
+/// Carries out the missing steps.
 void bring_up_to_date(Database& database);
 
-/// The same for the study in a folder, which is written to only where a step is missing. Throws
-/// `Error`, also where another program writes to it.
+/// Does the same for the study in a folder, and writes to it only if a step is missing. Throws
+/// `Error`, also if another program writes to the study.
 void bring_study_up_to_date(const std::filesystem::path& folder);
 
 }  // namespace jnd::core

@@ -9,13 +9,14 @@
 
 namespace jnd::core {
 
-// The rows of study.sqlite, and their columns. A new column is a field and a line of the table
-// below its struct, and a step of data/database; what measures it gives it its value.
+// The rows of study.sqlite and their columns. A new column needs a field, a line in the table
+// below its struct, and a step of data/database. The code that measures its value sets the
+// field.
 
-/// One act in a session, as it is stored. `data` is JSON that storage never looks into.
+/// One act in a session, as it is stored. Storage never reads inside of `data`, which is JSON.
 struct EventRow {
   std::int64_t session = 0;
-  std::int64_t sequence = 0;  ///< Within the session, without gaps.
+  std::int64_t sequence = 0;  ///< Number within the session, without gaps.
   std::string kind;
   int version = 1;
   std::int64_t time_ns = 0;
@@ -55,15 +56,16 @@ struct DesignRow {
   std::string procedure;
   std::string medium;
   std::string quantity;
-  std::int64_t repetition = 0;  ///< From 1.
-  std::int64_t position = 0;    ///< Within the repetition, from 1.
+  std::int64_t repetition = 0;  ///< Counted from 1.
+  std::int64_t position = 0;    ///< Position within the repetition, from 1.
   std::optional<double> intensity, reference_intensity, starting_intensity, target_percent;
-  std::optional<std::int64_t> sequence;       ///< Sequence number of the event that drew it.
+  /// Sequence number of the event that drew the trial.
+  std::optional<std::int64_t> sequence;
   std::optional<std::int64_t> series;         ///< Staircase or series of the block, from 1.
-  std::optional<std::int64_t> test_interval;  ///< 1 or 2, where the order is drawn.
-  bool is_catch = false;                      ///< Nothing is there to be found.
-  std::string intervals;  ///< What three intervals hold, as in "rtr"; else "".
-  std::optional<std::int64_t> right_interval;  ///< Of three, the right answer, from 1.
+  std::optional<std::int64_t> test_interval;  ///< 1 or 2, if the order is drawn.
+  bool is_catch = false;                      ///< A catch trial: there is nothing to find.
+  std::string intervals;  ///< What three intervals hold, as in "rtr"; otherwise "".
+  std::optional<std::int64_t> right_interval;  ///< The right answer of three intervals, from 1.
 };
 template <>
 inline constexpr auto kColumns<DesignRow> =
@@ -91,7 +93,8 @@ inline constexpr auto kColumns<DesignRow> =
 struct PresentationMeasures {
   std::int64_t num_strokes = 0;
   std::optional<double> stroke_width_m, max_speed_m_per_s, mean_height_m;
-  /// Slope of delivered force against motion on speed; what the stimulus came out as.
+  /// The stimulus as delivered: regression slope of the delivered force against the motion on
+  /// speed.
   std::optional<double> delivered_damping_n_s_per_m;
   std::optional<double> commanded_damping_n_s_per_m;
   std::int64_t limited_ticks = 0;
@@ -153,13 +156,15 @@ inline constexpr auto kColumns<PresentationRow> = std::tuple{
                  "Last sample in the recording"},
     StoredPart{&PresentationRow::measures}};
 
-/// What is measured of an answer to a trial.
+/// What is measured when a trial is answered.
 struct AnswerMeasures {
   std::optional<double> response_time_s;
   std::optional<std::int64_t> chosen_interval{};
-  std::string answered_by{};  ///< "participant" or "experimenter"; "" of a simulated person.
-  std::string control{};      ///< By which: "0c45:7403 FootSwitch/KEY_B"; "": in the window.
-  std::optional<double> control_monotonic_s{};  ///< When it was pressed.
+  std::string answered_by{};  ///< "participant" or "experimenter"; "" for a simulated person.
+  /// The control that was used, such as "0c45:7403 FootSwitch/KEY_B"; "" for the window's own
+  /// keys.
+  std::string control{};
+  std::optional<double> control_monotonic_s{};  ///< When the control was pressed.
 };
 template <>
 inline constexpr auto kColumns<AnswerMeasures> = std::tuple{
@@ -312,12 +317,13 @@ struct SessionRow {
   bool pilot = false;
   bool simulated = false;
   std::string device;
-  std::string device_profile_sha256;  ///< Of what was measured of it; "": nothing.
-  std::string laboratory;             ///< Whole text of the laboratory file; "" with a person.
+  /// Hash of the device's measured profile; "" without one.
+  std::string device_profile_sha256;
+  std::string laboratory;  ///< Whole text of the laboratory file; "" with a person.
   std::string program_version;
-  std::string realtime;  ///< "simulated", or policy and memory lock.
+  std::string realtime;  ///< "simulated", or scheduling policy and memory lock.
   double rate_hz = 0.0;
-  bool recorded = true;  ///< Samples are kept; else only summaries of strokes.
+  bool recorded = true;  ///< Whether samples are kept; otherwise only summaries of strokes are.
   std::int64_t started_time_ns = 0;
 };
 template <>

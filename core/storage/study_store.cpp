@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Makes the folders if asked to; returns the database file. One that is of something else is
-/// found before anything is written.
+/// Makes the folders if asked to, and returns the database file. A file that belongs to
+/// something else is detected before anything is written.
 fs::path prepared_file(const fs::path& folder, StudyStore::Mode mode) {
   fs::path file = folder / "study.sqlite";
   std::error_code error;
@@ -31,13 +31,14 @@ fs::path prepared_file(const fs::path& folder, StudyStore::Mode mode) {
   throw Error(file.string() + ": expected a study of jnd, found an empty database");
 }
 
-/// The database, of this program's layout. An older one that is only to be read stays as it is:
-/// a copy in memory is brought up to date instead.
+/// Returns the database in this program's layout. An older database that is only read stays as
+/// it is; a copy in memory is brought up to date instead.
 std::unique_ptr<Database> opened(const fs::path& file, StudyStore::Mode mode,
                                  Durability durability) {
   if (mode == StudyStore::Mode::kReadOnly) {
     auto database = std::make_unique<Database>(file, Database::Mode::kReadOnly, durability);
-    // From the first read on: answers that come meanwhile fit no row that was read before.
+    // The transaction begins with the first read, so that answers which come meanwhile cannot
+    // contradict rows that were read before.
     database->execute("BEGIN");
     const std::int64_t format = study_format_of(*database);
     if (format == 0) refuse_empty(file);
@@ -199,12 +200,12 @@ std::int64_t StudyStore::add_session(SessionRow row) {
   Database& database = implementation_->database;
   Transaction transaction(database);
   if (row.session == 0) {
-    // The number of a session that was withdrawn is never given again.
+    // The number of a withdrawn session is never given again.
     Statement next(database,
                    "SELECT COALESCE(MAX(session), 0) + 1 FROM"
                    " (SELECT session FROM session UNION SELECT session FROM withdrawal)");
     if (next.step()) row.session = next.integer(0);
-    // Nor that of a recording whose session an older study.sqlite does not know.
+    // Nor is the number of a recording whose session an older study.sqlite does not know.
     std::error_code error;
     while (fs::exists(recording_file(row.session), error)) ++row.session;
   }
@@ -341,8 +342,8 @@ std::vector<PresentationRow> StudyStore::presentations(std::int64_t session,
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
                  select_from<PresentationRow>("presentation") +
-                     // As in presentation_in_force, but with a table of the trials that is made
-                     // once: the view looks through all of them for each presentation.
+                     // This is like presentation_in_force, but lists the trials once. The view
+                     // would search all of them for each presentation.
                      " WHERE session = ?1 AND (trial, attempt) IN"
                      " (SELECT trial, attempt FROM trial_in_force WHERE session = ?1" +
                      (include_excluded ? "" : " AND NOT excluded") +
@@ -364,7 +365,7 @@ std::vector<QuestionAnswerRow> StudyStore::question_answers(std::int64_t session
   const std::lock_guard guard(implementation_->mutex);
   Statement rows(implementation_->database,
                  select_from<QuestionAnswerRow>("question_answer") +
-                     // As in question_answer_in_force, the trials listed once.
+                     // This is like question_answer_in_force, but lists the trials once.
                      " WHERE session = ?1 AND (trial, attempt) IN"
                      " (SELECT trial, attempt FROM trial_in_force WHERE session = ?1" +
                      (include_excluded ? "" : " AND NOT excluded") + ") ORDER BY sequence");

@@ -26,7 +26,7 @@ std::vector<std::int64_t> sessions_in(Database& database, const std::string& tab
   return sessions;
 }
 
-/// The triggers that keep rows from being deleted, by name and text.
+/// Returns names and texts of the triggers that keep rows from being deleted.
 std::vector<std::pair<std::string, std::string>> guards(Database& database) {
   Statement rows(database,
                  "SELECT name, sql FROM sqlite_master WHERE type = 'trigger' AND name LIKE "
@@ -36,10 +36,11 @@ std::vector<std::pair<std::string, std::string>> guards(Database& database) {
   return all;
 }
 
-// How far a withdrawal has come, as it is stored.
-constexpr const char* kBegun = "begun";        ///< The rows are gone, their bytes may be there.
-constexpr const char* kErased = "erased";      ///< Nothing is left in this folder,
-constexpr const char* kFinished = "finished";  ///< nor in any backup that is known.
+// The states of a withdrawal, as they are stored.
+/// The rows are gone, but their bytes may still be in the file.
+constexpr const char* kBegun = "begun";
+constexpr const char* kErased = "erased";      ///< Nothing is left in this folder.
+constexpr const char* kFinished = "finished";  ///< Nothing is left in any known backup either.
 
 std::string state_of(Database& database, const std::string& participant) {
   Statement row(database,
@@ -70,15 +71,15 @@ void leave_tombstone(Database& database, std::int64_t session, std::int64_t time
       .run();
 }
 
-/// A person who has an appointment and never came is withdrawn as well.
+/// A person who has an appointment and never came can withdraw as well.
 bool is_scheduled(Database& database, const std::string& participant) {
   return Statement(database, "SELECT 1 FROM appointment WHERE participant = ?")
       .bind(participant)
       .step();
 }
 
-/// All rows of the sessions in one transaction, or none of them; with them goes the note that
-/// what they were may still be read in the file.
+/// Deletes all rows of the sessions in one transaction, or none. The transaction also notes
+/// that the deleted bytes may still be readable in the file.
 void delete_rows(Database& database, const std::string& participant,
                  const std::vector<std::int64_t>& sessions, std::int64_t time_ns) {
   Transaction transaction(database);
@@ -99,8 +100,8 @@ void delete_rows(Database& database, const std::string& participant,
   transaction.commit();
 }
 
-/// Recordings of these sessions that the folder has no session of: an interrupted backup leaves
-/// them.
+/// Removes recordings of these sessions for which the folder has no session. An interrupted
+/// backup leaves such recordings.
 void remove_unknown_recordings(const StudyStore& store,
                                const std::vector<std::int64_t>& sessions) {
   std::vector<std::int64_t> known;
@@ -118,8 +119,8 @@ struct Erased {
   std::vector<std::int64_t> sessions;
 };
 
-/// Deletes what one folder holds of the participant. `sessions`: those that the study had,
-/// where the folder is a copy of it.
+/// Deletes what one folder holds of the participant. `sessions` are those that the study had,
+/// if the folder is a copy of it.
 Erased erase_in(const fs::path& folder, const std::string& participant, std::int64_t time_ns,
                 const std::vector<std::int64_t>& sessions = {}) {
   require_study(folder);
@@ -127,7 +128,7 @@ Erased erase_in(const fs::path& folder, const std::string& participant, std::int
   Database database(folder / "study.sqlite", Database::Mode::kReadWrite,
                     Durability::kEveryCommit);
   bring_up_to_date(database);
-  // Freed pages are overwritten with zeros; VACUUM and the emptied log leave no old ones.
+  // Freed pages are overwritten with zeros. VACUUM and the emptied log leave no old ones.
   database.execute("PRAGMA secure_delete = ON");
   const std::vector<std::int64_t> there = sessions_in(database, "session", participant);
   if (!there.empty() || is_scheduled(database, participant)) {
@@ -139,7 +140,7 @@ Erased erase_in(const fs::path& folder, const std::string& participant, std::int
     for (const std::int64_t session : gone) remove_recording(store.recording_file(session));
     remove_unknown_recordings(store, sessions);
   }
-  // Withdrawals of older layouts have no step.
+  // Withdrawals in older layouts have no state.
   const Erased erased{.anything = !gone.empty() || !state_of(database, participant).empty(),
                       .sessions = gone};
   if (!erased.anything) return erased;
@@ -158,7 +159,7 @@ void finish_in(const fs::path& folder, const std::string& participant, std::int6
   note_state(database, participant, kFinished, time_ns);
 }
 
-/// What the backup knows and the study does not, in its place among what the study knows.
+/// Adds notes that the backup has and the study lacks, in their place among the study's notes.
 void add_notes(std::vector<ExportNote>& notes, const std::vector<ExportNote>& further) {
   for (const ExportNote& note : further) {
     const bool known = std::ranges::any_of(notes, [&](const ExportNote& one) {
@@ -188,7 +189,7 @@ WithdrawalReport withdraw(const fs::path& folder, const std::string& participant
   }
   const std::string study_id = id_of(folder);
   std::vector<ExportNote> notes = noted_exports(folder);
-  // A backup may have been backed up itself, and know of copies that the study does not.
+  // A backup may have been backed up itself, and know of copies that the study does not know.
   std::vector<fs::path> folders = known_backups(folder);
   for (std::size_t next = 0; next < folders.size(); ++next) {
     const fs::path backup = folders[next];

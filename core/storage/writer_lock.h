@@ -4,8 +4,9 @@
 
 namespace jnd::core {
 
-/// Held by the one process that may write to a study folder; freed by the system when it dies.
-/// Throws `Error` naming the folder if another one holds it or the folder cannot be written.
+/// A lock that only the one process holds that may write to a study folder. The system frees it
+/// if the process dies. Throws `Error` naming the folder if another process holds it or the
+/// folder cannot be written to.
 class WriterLock {
  public:
   explicit WriterLock(const std::filesystem::path& folder);

@@ -10,7 +10,7 @@
 namespace jnd::core {
 namespace {
 
-/// Thrown and caught in this file: the rest is still to come.
+/// Thrown and caught in this file: more bytes have to come.
 struct StillToCome {};
 
 class ArchiveReader {
@@ -61,9 +61,9 @@ std::optional<ArchivedHeader> take_archived_header(std::string_view bytes) try {
   if (static_cast<unsigned char>(reader.take(1)[0]) != kMark) {
     throw Error("stream: expected a feed of protocol 1.00, found another beginning");
   }
-  (void)reader.number();  // Of the layout.
+  (void)reader.number();  // The version of the layout.
   ArchivedHeader header{.xml = reader.text(kMostXmlBytes)};
-  // Before the first sample stands of which layout samples are, twice.
+  // Before the first sample, the version of the samples' layout comes twice.
   (void)reader.number();
   (void)reader.number();
   header.num_bytes = reader.num_read();

@@ -8,19 +8,20 @@
 
 namespace jnd::core {
 
-/// Samples of texts by protocol 1.00, which older outlets fall back to where their machine has
-/// texts of another size in memory than ours: numbers are a length and as many bytes, the
-/// smallest first, and nothing for 0. Numbers as samples never come so. Not real time.
+/// Text samples of protocol 1.00. Older outlets fall back to it if their machine's texts have
+/// another size in memory than ours. A number is a length and as many bytes, the smallest
+/// first; 0 has no bytes. Numeric samples never use this protocol. Not real time.
 
-/// What begins such a feed: the outlet's description.
+/// The beginning of such a feed: the outlet's description.
 struct ArchivedHeader {
   std::string xml;
   std::size_t num_bytes = 0;
 };
-/// None where the rest is still to come. Throws `Error` for what is no such beginning.
+/// Returns none if more bytes have to come. Throws `Error` for bytes that are no such
+/// beginning.
 [[nodiscard]] std::optional<ArchivedHeader> take_archived_header(std::string_view bytes);
 
-/// As `take_sample`.
+/// Like `take_sample`.
 [[nodiscard]] std::optional<TakenSample> take_archived_sample(std::string_view bytes,
                                                               int channel_count);
 

@@ -19,7 +19,8 @@ std::string ClockProbe::due_question(double now_s) {
     if (has_begun_ && now_s < wave_begins_s_ + parameters_.every_s) return "";
     has_begun_ = true;
     is_under_way_ = true;
-    // One that comes late, after a machine slept, does not make up for what it missed.
+    // A wave that is late, for example because the machine slept, does not make up for those it
+    // missed.
     wave_begins_s_ = now_s;
     next_question_s_ = now_s;
     wave_ = wave_ == std::numeric_limits<int>::max() ? 1 : wave_ + 1;
@@ -48,7 +49,8 @@ void ClockProbe::take_answer(std::string_view datagram, double now_s) {
   ++num_answers_;
   if (num_answers_ > 1 && round_trip_s >= best_.round_trip_s) return;
   const double ahead_s =
-      0.5 * ((answer->t1_s - asked->t0_s) + (answer->t2_s - now_s));  // The other's clock.
+      0.5 * ((answer->t1_s - asked->t0_s) + (answer->t2_s - now_s));  // Difference of the other
+                                                                      // clock from ours.
   best_ = {.time_s = 0.5 * (answer->t1_s + answer->t2_s),
            .offset_s = -ahead_s,
            .round_trip_s = round_trip_s};

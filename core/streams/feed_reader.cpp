@@ -9,7 +9,7 @@ namespace jnd::core {
 namespace {
 
 constexpr std::size_t kMostSampleBytes = std::size_t{1} << 24;
-/// Read bytes are let go once they are so many.
+/// Bytes that were read are discarded once they are this many.
 constexpr std::size_t kKeptBytes = std::size_t{1} << 16;
 
 }  // namespace

@@ -9,20 +9,21 @@
 
 namespace jnd::core {
 
-/// The other side says that the stream is not there any more.
+/// Thrown when the other side says that the stream no longer exists.
 struct StreamGone {};
 
-/// What an outlet sends, from its answer to the last sample, as it comes in from a connection:
-/// bytes in, samples out. Not real time.
+/// Reads what an outlet sends, from its answer to the last sample: bytes of a connection go in,
+/// samples come out. Not real time.
 class FeedReader {
  public:
   explicit FeedReader(StreamInfo info) : info_(std::move(info)) {}
 
   void take(std::string_view bytes) { bytes_.append(bytes); }
-  /// The next sample with its time, worked out where it was not told; none where the rest is
-  /// still to come. Throws `Error` for what cannot be a feed of this stream, and `StreamGone`.
+  /// Returns the next sample with its time, which is computed if it was not sent. Returns none
+  /// if more bytes have to come. Throws `Error` for bytes that cannot be a feed of this stream,
+  /// and `StreamGone`.
   [[nodiscard]] std::optional<StreamSample> next();
-  /// The answer and both test samples were read and are as they should be.
+  /// Whether the answer and both test samples were read and are correct.
   [[nodiscard]] bool is_open() const noexcept { return num_tests_ == 2; }
 
  private:
@@ -33,10 +34,10 @@ class FeedReader {
 
   StreamInfo info_;
   std::string bytes_;
-  std::size_t at_ = 0;  ///< Of `bytes_`, what was read.
+  std::size_t at_ = 0;  ///< How much of `bytes_` was read.
   bool has_answer_ = false;
-  bool is_archived_ = false;  ///< Texts by protocol 1.00.
-  bool has_header_ = false;   ///< Of such a feed.
+  bool is_archived_ = false;  ///< The feed is of texts, by protocol 1.00.
+  bool has_header_ = false;   ///< The header of such a feed was read.
   bool big_endian_ = false;
   int num_tests_ = 0;
   double last_time_s_ = 0.0;

@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 
-// What of the library's C interface is used, as its documentation describes it.
+// The part of the library's C interface that is used, as its documentation describes it.
 struct lsl_streaminfo_struct_;
 struct lsl_outlet_struct_;
 struct lsl_inlet_struct_;
@@ -47,11 +47,11 @@ struct LslLibrary::Functions {
   double (*pull_sample_v)(Inlet, void*, int, double, int*) = nullptr;
   double (*pull_sample_buf)(Inlet, char**, unsigned*, int, double, int*) = nullptr;
   double (*time_correction)(Inlet, double, int*) = nullptr;
-  // Not of every version.
+  // Not every version has these functions.
   double (*time_correction_ex)(Inlet, double*, double*, double, int*) = nullptr;
   void (*destroy_string)(char*) = nullptr;
 
-  /// As text of ours, and the library's let go.
+  /// Returns the text as our own string and lets the library free its copy.
   [[nodiscard]] std::string taken(char* text) const {
     if (text == nullptr) return "";
     std::string copy = text;
@@ -84,7 +84,7 @@ InfoHandle held(const Lsl& lsl, lsl_streaminfo_struct_* info, const char* what) 
   return {info, {&lsl}};
 }
 
-/// The library counts formats from 1.
+/// The library numbers formats from 1.
 int library_format(ChannelFormat format) { return static_cast<int>(format) + 1; }
 
 InfoHandle library_info(const Lsl& lsl, const StreamInfo& info) {
@@ -147,7 +147,8 @@ class LibraryOutlet final : public StreamOutlet {
   }
   const StreamInfo& info() const noexcept override { return info_; }
   int num_consumers() const override { return lsl_.have_consumers(outlet_) != 0 ? 1 : 0; }
-  std::int64_t num_dropped() const override { return 0; }  // It does not say.
+  // The library does not tell this number.
+  std::int64_t num_dropped() const override { return 0; }
 
  private:
   std::shared_ptr<const LslLibrary> library_;
@@ -161,7 +162,8 @@ class LibraryInlet final : public StreamInlet {
   LibraryInlet(std::shared_ptr<const LslLibrary> library, const StreamInfo& info,
                double timeout_s)
       : library_(std::move(library)), lsl_(library_->functions()), info_(info) {
-    // A description made of XML would not know the stream's address: it is looked for again.
+    // A description made from XML would lack the stream's address, so the stream is looked for
+    // again.
     const std::string query = "uid='" + info.uid + "'";
     lsl_streaminfo_struct_* found = nullptr;
     if (lsl_.resolve_bypred(&found, 1, query.c_str(), 1, timeout_s) < 1) {
@@ -336,7 +338,7 @@ LslLibrary::LslLibrary(const std::string& file) : functions_(std::make_unique<Fu
   if (std::abs(ahead_s) > kSameClock_s) clock_ahead_s_ = ahead_s;
 }
 
-/// It stays loaded: threads of it may outlive what they served.
+/// The library stays loaded, because its threads may outlive the objects that they served.
 LslLibrary::~LslLibrary() = default;
 
 std::unique_ptr<StreamOutlet> open_library_outlet(std::shared_ptr<const LslLibrary> library,
@@ -358,7 +360,7 @@ std::vector<StreamInfo> find_library_streams(const LslLibrary& library,
     try {
       found.push_back(stream_info_from(lsl.taken(lsl.get_xml(handle.get())), "liblsl"));
     } catch (const Error&) {
-      // One that describes itself as none of ours could; the others are there.
+      // That stream's description cannot be read; the other streams are returned.
     }
   }
   return found;

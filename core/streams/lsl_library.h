@@ -9,9 +9,9 @@
 
 namespace jnd::core {
 
-/// The library of the Lab Streaming Layer, where the user has installed one and names it: it is
-/// loaded when the program runs, and nothing of it is in the tree. What it does is its own
-/// affair; its settings come from its own files (lsl_api.cfg). Not real time.
+/// The library of the Lab Streaming Layer, if the user has installed and named one. It is
+/// loaded when the program runs, and nothing of it is in the source tree. Its settings come
+/// from its own files (lsl_api.cfg). Not real time.
 class LslLibrary {
  public:
   /// Throws `Error` for a file that cannot be loaded or lacks a function.
@@ -25,7 +25,8 @@ class LslLibrary {
 
   struct Functions;
   [[nodiscard]] const Functions& functions() const noexcept { return *functions_; }
-  /// Its clock less ours: 0 wherever it reads the same clock.
+  /// Returns the difference of the library's clock from ours, which is 0 if it reads the same
+  /// clock.
   [[nodiscard]] double clock_ahead_s() const noexcept { return clock_ahead_s_; }
 
  private:
@@ -35,7 +36,8 @@ class LslLibrary {
   double clock_ahead_s_ = 0.0;
 };
 
-/// As those of our own; see `open_own_outlet`, `find_streams` and `open_own_inlet`.
+/// These work like the functions of our own implementation; see `open_own_outlet`,
+/// `find_streams` and `open_own_inlet`.
 [[nodiscard]] std::unique_ptr<StreamOutlet> open_library_outlet(
     std::shared_ptr<const LslLibrary> library, const StreamInfo& info,
     double seconds_kept = 60.0);

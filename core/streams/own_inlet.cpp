@@ -23,10 +23,10 @@ constexpr double kPatienceToConnect_s = 3.0;
 constexpr double kBetweenAttempts_s = 0.5;
 constexpr double kSearchAgain_s = 1.0;
 constexpr double kLongestGlance_s = 0.1;
-/// Kept until somebody takes them.
+/// The largest number of samples that are kept until somebody takes them.
 constexpr std::size_t kMostTaken = std::size_t{1} << 20;
 constexpr std::size_t kMostTakenBytes = std::size_t{1} << 27;
-/// Asked of the outlet: it keeps what it can.
+/// The buffer that is requested from the outlet, which keeps as much as it can.
 constexpr int kMaxBuffered = 1 << 20;
 
 StreamAddress data_address(const StreamInfo& info) {
@@ -43,7 +43,7 @@ int milliseconds(double duration_s) {
   return static_cast<int>(std::ceil(1000.0 * std::clamp(duration_s, 0.0, kLongestGlance_s)));
 }
 
-/// Waits for the connection or throws `Error`.
+/// Waits for the connection, or throws `Error`.
 StreamSocket connected(const StreamInfo& info, double timeout_s,
                        const std::atomic<bool>& is_ending) {
   StreamSocket socket = connecting_socket(data_address(info));
@@ -59,12 +59,12 @@ StreamSocket connected(const StreamInfo& info, double timeout_s,
 }
 
 void send_whole(const StreamSocket& socket, const std::string& request) {
-  // A request fits into any socket's buffer.
+  // The request fits into the buffer of any socket.
   if (send_bytes(socket, request) == request.size()) return;
   throw Error("stream: expected to ask for the stream, found the connection gone");
 }
 
-/// All that the other side sends before it ends the connection.
+/// Returns everything that the other side sends before it ends the connection.
 std::string full_xml_of(const StreamInfo& info, double timeout_s) {
   const std::atomic<bool> is_ending{false};
   const double give_up_s = stream_clock_s() + timeout_s;
@@ -157,7 +157,7 @@ class OwnInlet final : public StreamInlet {
     }
   }
 
-  /// Until the connection ends.
+  /// Receives until the connection ends.
   void receive() {
     const StreamSocket socket = connected(place_, kPatienceToConnect_s, is_ending_);
     send_whole(socket, feed_request_message(place_, kMaxBuffered));
@@ -212,7 +212,7 @@ class OwnInlet final : public StreamInlet {
     if (!question.empty()) (void)send_datagram(time_socket_, question, *to);
   }
 
-  /// Where a stream went, it may be elsewhere under another identity.
+  /// Looks for a stream that went away. It may be elsewhere, under another identity.
   void recover() {
     wait(kBetweenAttempts_s);
     if (is_ending_ || info_.source_id.empty()) return;
@@ -241,7 +241,7 @@ class OwnInlet final : public StreamInlet {
   }
 
   const StreamInfo info_;
-  StreamInfo place_;  ///< Where it is now; the thread's alone.
+  StreamInfo place_;  ///< Where the stream is now. Only the thread uses it.
   StreamNetwork network_;
   std::string full_xml_;
   StreamSocket time_socket_;

@@ -21,25 +21,26 @@ namespace {
 
 constexpr std::size_t kMostConsumers = 64;
 constexpr std::size_t kBytesAtOnce = 65536;
-/// Whoever connects and says nothing is sent away.
+/// A consumer that connects and says nothing for this time is disconnected.
 constexpr double kPatienceWithRequest_s = 10.0;
 constexpr double kPatienceAtEnd_s = 1.0;
 constexpr double kSamplesPerSecondOfEvents = 100.0;
-/// Kept for one consumer, whatever it asks for.
+/// The largest number of samples kept for one consumer, whatever it asks for.
 constexpr std::size_t kMostKeptSamples = std::size_t{1} << 20;
 
 using SharedBytes = std::shared_ptr<const std::string>;
 
-/// Somebody connected to us. What is not marked otherwise is the serving thread's alone.
+/// A consumer that connected to us. Only the serving thread uses the members that are not
+/// marked otherwise.
 struct Consumer {
   StreamSocket socket;
   double since_s = 0.0;
   std::string request;
-  std::string sending;  ///< Behind `num_sent` what the socket has not taken yet.
+  std::string sending;  ///< Bytes after `num_sent` are those that the socket has not taken yet.
   std::size_t num_sent = 0;
   bool ends_when_sent = false;
   bool is_gone = false;
-  // Guarded by the outlet's mutex.
+  // The outlet's mutex guards these.
   bool is_fed = false;
   std::size_t most_queued = 0;
   std::deque<SharedBytes> queue;
@@ -58,7 +59,7 @@ class OwnOutlet final : public StreamOutlet {
     try {
       search_ = search_socket(network);
     } catch (const Error&) {
-      // Whoever knows this machine finds the stream by the service port.
+      // Programs that know this machine find the stream by its service port.
     }
     info_.uid = new_stream_uid();
     info_.created_at_s = network_.clock_s();
@@ -134,11 +135,11 @@ class OwnOutlet final : public StreamOutlet {
         serve_once();
       }
     } catch (const std::exception&) {
-      // Without memory there is no stream; the session goes on without it.
+      // Without memory there is no stream, and the session continues without it.
     }
   }
 
-  /// Whether anything is left to be sent.
+  /// Returns whether anything is left to send.
   bool fill_all() {
     bool any = false;
     for (Consumer& consumer : consumers_) {
@@ -151,7 +152,8 @@ class OwnOutlet final : public StreamOutlet {
   void serve_once() {
     std::vector<pollfd> waits = {{wake_.descriptor(), POLLIN, 0},
                                  {service_.descriptor(), POLLIN, 0},
-                                 {search_.descriptor(), POLLIN, 0},  // -1 is passed over.
+                                 // `poll` ignores the descriptor -1.
+                                 {search_.descriptor(), POLLIN, 0},
                                  {listener_.descriptor(), POLLIN, 0}};
     const std::size_t num_own = waits.size();
     for (Consumer& consumer : consumers_) {
@@ -181,7 +183,8 @@ class OwnOutlet final : public StreamOutlet {
   }
 
   void answer_datagrams(const StreamSocket& socket, bool tells_time) {
-    constexpr int kMostAtOnce = 64;  // Whoever floods us does not keep us from the others.
+    // This limit keeps a flood of datagrams from delaying the others.
+    constexpr int kMostAtOnce = 64;
     for (int i = 0; i < kMostAtOnce; ++i) {
       const auto came = receive_datagram(socket);
       if (!came) return;
@@ -206,14 +209,14 @@ class OwnOutlet final : public StreamOutlet {
       StreamSocket socket = accepted_socket(listener_);
       if (!socket.is_open()) return;
       const std::lock_guard guard(mutex_);
-      if (consumers_.size() >= kMostConsumers) continue;  // It is closed at once.
+      if (consumers_.size() >= kMostConsumers) continue;  // The socket is closed at once.
       Consumer& consumer = consumers_.emplace_back();
       consumer.socket = std::move(socket);
       consumer.since_s = stream_clock_s();
     }
   }
 
-  /// A request, or after it nothing: whoever is fed says no more.
+  /// Hears a request. After the request a consumer that gets the feed sends nothing more.
   void hear(Consumer& consumer) {
     const auto bytes = receive_bytes(consumer.socket);
     if (!bytes) {
@@ -262,7 +265,7 @@ class OwnOutlet final : public StreamOutlet {
     consumer.is_fed = true;
   }
 
-  /// Takes from the queue what goes next.
+  /// Takes the bytes that are sent next from the queue.
   void fill(Consumer& consumer) {
     if (consumer.has_to_send() || !consumer.is_fed) return;
     consumer.sending.clear();
@@ -292,7 +295,8 @@ class OwnOutlet final : public StreamOutlet {
   StreamWake wake_;
   XmlElement short_info_;
   std::string short_text_, full_text_;
-  mutable std::mutex mutex_;  ///< Of the list, and of what its consumers say is guarded.
+  /// Guards the list, and the members of its consumers that are marked so.
+  mutable std::mutex mutex_;
   std::list<Consumer> consumers_;
   std::atomic<std::int64_t> num_dropped_{0};
   std::atomic<bool> is_ending_{false};

@@ -20,14 +20,14 @@ constexpr std::string_view kUsual[kNumUsual] = {
     "hand_force_x_n",          "hand_force_y_n",
     "hand_force_z_n",          "command"};
 
-/// All that any device has: a channel that this one lacks is 0.
+/// All columns that any device has. Channels that this device lacks are 0.
 constexpr SampleColumns kAllColumns{
     .times = false, .joints = true, .channels = static_cast<ChannelBits>(~ChannelBits{0})};
 
 struct UnitOfName {
   std::string_view ending, unit, type;
 };
-/// Longer endings first.
+/// Longer endings come first.
 constexpr UnitOfName kUnits[] = {
     {"_m_per_s", "m/s", "Velocity"}, {"torque_n_m", "N m", "Torque"},
     {"_x_n_m", "N m", "Torque"},     {"_y_n_m", "N m", "Torque"},

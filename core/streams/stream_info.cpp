@@ -11,7 +11,7 @@
 namespace jnd::core {
 namespace {
 
-/// What a text from elsewhere may say in a sentence of ours.
+/// Returns the part of a foreign text that may appear in a message of ours.
 std::string shown_of_stream(const std::string& text) {
   std::string shown;
   for (const char letter : text.substr(0, 40)) {
@@ -40,7 +40,7 @@ class InfoFields {
     return value;
   }
 
-  /// Left out: 0, for an outlet that has no such port.
+  /// Returns 0 if it is left out, because an outlet may lack such a port.
   [[nodiscard]] std::uint16_t port(const char* field) const {
     return xml_.child_text(field).empty() ? std::uint16_t{0}
                                           : static_cast<std::uint16_t>(number(field, 0, 65535));

@@ -12,36 +12,36 @@
 
 namespace jnd::core {
 
-/// A stream of somebody else that we listen to. Safe to call from several threads. Not real
-/// time.
+/// A stream of another program that we receive. Several threads may call it. Not real time.
 class StreamInlet {
  public:
   enum class State {
-    kConnecting,  ///< Nothing has come yet.
+    kConnecting,  ///< Nothing has arrived yet.
     kReceiving,
-    kLost,  ///< The stream went away, and may come back.
+    kLost,  ///< The stream went away and may come back.
   };
 
   virtual ~StreamInlet() = default;
 
-  /// What has come since the last call, in order, with the times of the sender's clock.
+  /// Returns the samples that have arrived since the last call, in order, with times of the
+  /// sender's clock.
   [[nodiscard]] virtual std::vector<StreamSample> take_samples() = 0;
-  /// How the sender's clock compared with ours, since the last call.
+  /// Returns the comparisons of the sender's clock with ours since the last call.
   [[nodiscard]] virtual std::vector<ClockOffset> take_offsets() = 0;
   [[nodiscard]] virtual const StreamInfo& info() const noexcept = 0;
-  /// All that the stream says of itself, as XML.
+  /// Returns all that the stream says about itself, as XML.
   [[nodiscard]] virtual const std::string& full_xml() const noexcept = 0;
   [[nodiscard]] virtual State state() const = 0;
-  /// Why it is lost, a sentence; "" while it is not.
+  /// Returns a sentence that says why the stream is lost, or "" if it is not.
   [[nodiscard]] virtual std::string problem() const = 0;
-  /// Samples that came and were not taken in time.
+  /// Returns the number of samples that arrived and were not taken in time.
   [[nodiscard]] virtual std::int64_t num_dropped() const = 0;
 };
 
-/// One of our own, of a stream that was found: by protocol 1.10, on a thread of its own. A
-/// connection that breaks is made anew; a stream with a `source_id` is looked for again where
-/// it went, for it may come back elsewhere. Asks for the description first and throws `Error`
-/// where that does not come in `timeout_s`.
+/// Opens an inlet of our own implementation to a stream that was found, by protocol 1.10, with
+/// a thread of its own. It reconnects a broken connection. It looks for a lost stream with a
+/// `source_id` again, because it may come back elsewhere. It asks for the description first,
+/// and throws `Error` if that does not arrive within `timeout_s`.
 [[nodiscard]] std::unique_ptr<StreamInlet> open_own_inlet(const StreamInfo& info,
                                                           const StreamNetwork& network,
                                                           double timeout_s = 5.0);

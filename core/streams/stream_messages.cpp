@@ -24,7 +24,8 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-/// Takes a line without its end, which is `\n` with or without `\r`; none where none is whole.
+/// Takes a line without its end, which is `\n` with or without `\r` before it. Returns none if
+/// no line is complete.
 std::optional<std::string_view> take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos) return std::nullopt;
@@ -49,7 +50,7 @@ std::optional<Number> number_in(std::string_view text) {
   return value;
 }
 
-/// A time that is one.
+/// Takes a time. Returns none for what is no valid time.
 std::optional<double> take_time(std::string_view& text) {
   const auto value = number_in<double>(take_token(text));
   constexpr double kLatest_s = 1e12;
@@ -63,7 +64,7 @@ std::string time_text(double time_s) {
   return text.data();
 }
 
-/// A line "Key: value; remark", lower-case before the colon.
+/// A line "Key: value; remark". The part before the colon is in lower case.
 struct HeaderLine {
   std::string key;
   std::string_view value;
@@ -168,7 +169,7 @@ StreamRequest request_of(std::string_view bytes) {
   return AsksNonsense{};
 }
 
-/// Older outlets want to hear of texts how large they are in memory, of all things.
+/// Older outlets want to know how large texts are in memory.
 std::string feed_request_message(const StreamInfo& info, int max_buffered) {
   const auto line = [](std::string_view key, const std::string& value) {
     return std::string(key) + ": " + value + std::string(kEndOfLine);
@@ -229,7 +230,7 @@ std::optional<FeedAnswer> feed_answer_of(std::string_view bytes) {
     const auto number = number_in<int>(header->value);
     if (header->key == "uid") answer.uid = header->value;
     if (header->key == "byte-order") {
-      // 0 is what some outlets say where nothing is to be turned round.
+      // Some outlets send 0 if no byte order has to be changed.
       if (!number || (*number != 1234 && *number != 4321 && *number != 0)) {
         throw Error("stream: expected a byte order of 1234 or 4321, found another");
       }

@@ -168,7 +168,7 @@ StreamSocket search_socket(const StreamNetwork& network) {
       ip_mreq membership{};
       membership.imr_multiaddr.s_addr = htonl(address->host);
       membership.imr_interface.s_addr = htonl(own.host);
-      // An interface that has no groups hears broadcasts.
+      // An interface without multicast groups still receives broadcasts.
       (void)::setsockopt(socket.descriptor(), IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership,
                          sizeof membership);
     }
@@ -177,7 +177,7 @@ StreamSocket search_socket(const StreamNetwork& network) {
 }
 
 StreamSocket listening_socket(const StreamNetwork& network) {
-  // A port may be bound by two sockets that do not listen yet: whoever listens first has it.
+  // Two sockets may bind one port as long as neither listens. The first to listen has it.
   for (int i = 0; i <= network.num_ports; ++i) {
     StreamSocket socket = new_socket(SOCK_STREAM);
     const int port = i < network.num_ports ? network.first_port + i : 0;
@@ -263,7 +263,8 @@ std::optional<ReceivedDatagram> receive_datagram(const StreamSocket& socket) {
           .bytes = buffer.substr(0, static_cast<std::size_t>(count)),
           .from = {.host = ntohl(system.sin_addr.s_addr), .port = ntohs(system.sin_port)}};
     }
-    // That nobody was at the place of an earlier one is no word about what has come.
+    // This error is about an earlier datagram of ours that reached nobody. It does not concern
+    // what has arrived.
     if (errno != ECONNREFUSED && errno != EINTR) return std::nullopt;
   }
 }

@@ -10,46 +10,48 @@
 
 namespace jnd::core {
 
-/// The clock that streams tell their times by: CLOCK_MONOTONIC, in seconds, which recordings
-/// have as well.
+/// Returns the time by the clock of streams: CLOCK_MONOTONIC, in seconds, which recordings use
+/// as well.
 [[nodiscard]] double stream_clock_s() noexcept;
 
-/// Where streams are looked for and offered. The numbers are those of every other program that
-/// speaks the protocol.
+/// Where streams are looked for and offered. The numbers are those of all programs that speak
+/// the protocol.
 struct StreamNetwork {
-  std::uint16_t search_port = 16571;  ///< Where outlets hear who looks for streams.
-  std::uint16_t first_port = 16572;   ///< Of an outlet's own; the next `num_ports` are tried.
+  /// Outlets listen here for programs that look for streams.
+  std::uint16_t search_port = 16571;
+  /// First port that an outlet tries for itself; it tries the next `num_ports` as well.
+  std::uint16_t first_port = 16572;
   int num_ports = 32;
-  /// Where questions go that are for all.
+  /// Addresses to which questions for all outlets go.
   std::vector<std::string> groups = {"127.0.0.1", "255.255.255.255", "224.0.0.1", "224.0.0.183",
                                      "239.255.172.215"};
-  /// Machines that are asked by themselves, where groups do not reach them.
+  /// Machines that are asked individually, if groups do not reach them.
   std::vector<std::string> peers;
-  int num_hops = 24;                                 ///< That a question may take.
-  std::string session_id = "default";                ///< Only streams of this one are found.
-  std::function<double()> clock_s = stream_clock_s;  ///< Ours.
+  int num_hops = 24;                                 ///< Network hops that a question may take.
+  std::string session_id = "default";                ///< Only streams with this id are found.
+  std::function<double()> clock_s = stream_clock_s;  ///< Our clock.
 };
 
-/// A place in a network of version 4, as numbers in our order.
+/// An address in an IPv4 network, as numbers in the machine's byte order.
 struct StreamAddress {
   std::uint32_t host = 0;
   std::uint16_t port = 0;
 
   friend bool operator==(const StreamAddress&, const StreamAddress&) = default;
 };
-/// "192.168.1.2"
+/// Returns a text such as "192.168.1.2".
 [[nodiscard]] std::string host_text(const StreamAddress& address);
-/// Of such a text; none for another one.
+/// Reads such a text. Returns none for another text.
 [[nodiscard]] std::optional<StreamAddress> numeric_address(const std::string& host,
                                                            std::uint16_t port);
-/// Asks the system for the name; none where it does not know it.
+/// Asks the system for the name's address. Returns none if it does not know the name.
 [[nodiscard]] std::optional<StreamAddress> named_address(const std::string& host,
                                                          std::uint16_t port);
-/// Of this machine, by its interfaces that are up.
+/// Returns the addresses of this machine's active interfaces.
 [[nodiscard]] std::vector<StreamAddress> own_addresses();
 [[nodiscard]] std::string own_hostname();
 
-/// A socket that never waits, closed with the object. Not real time.
+/// A socket that never blocks and is closed with the object. Not real time.
 class StreamSocket {
  public:
   StreamSocket() = default;
@@ -61,45 +63,46 @@ class StreamSocket {
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
   [[nodiscard]] bool is_open() const noexcept { return descriptor_ >= 0; }
   void close() noexcept;
-  [[nodiscard]] std::uint16_t port() const noexcept;  ///< 0 where it has none.
+  [[nodiscard]] std::uint16_t port() const noexcept;  ///< Returns 0 if it has none.
 
  private:
   int descriptor_ = -1;
 };
 
-// All throw `Error` in one sentence where the system has none to give.
+// All of these throw `Error` in one sentence if the system cannot give a socket.
 
-/// Datagrams from a port that nobody chose.
+/// For datagrams, at a port that the system chooses.
 [[nodiscard]] StreamSocket datagram_socket();
-/// Datagrams at the first free port of the network's, else at any.
+/// For datagrams, at the first free port of the network's, or otherwise at any port.
 [[nodiscard]] StreamSocket service_socket(const StreamNetwork& network);
-/// Questions for all, at the port that every outlet of this machine shares.
+/// For questions to all outlets, at the port that every outlet of this machine shares.
 [[nodiscard]] StreamSocket search_socket(const StreamNetwork& network);
-/// Connections at the first free port of the network's, else at any.
+/// For connections, at the first free port of the network's, or otherwise at any port.
 [[nodiscard]] StreamSocket listening_socket(const StreamNetwork& network);
-/// A connection that is still being made; `is_connected` says when.
+/// Begins a connection. `is_connected` tells when it is made.
 [[nodiscard]] StreamSocket connecting_socket(const StreamAddress& to);
 [[nodiscard]] bool is_connected(const StreamSocket& socket) noexcept;
-/// One that waits to be accepted, and is allowed to speak at once; closed where none waits.
+/// Accepts a waiting connection, which may then transfer data at once. Returns a closed socket
+/// if none waits.
 [[nodiscard]] StreamSocket accepted_socket(const StreamSocket& listener) noexcept;
 
 [[nodiscard]] bool send_datagram(const StreamSocket& socket, std::string_view bytes,
                                  const StreamAddress& to) noexcept;
-/// To all groups by every interface, and to all ports of every peer. What does not get through
-/// is told nowhere: another way may.
+/// Sends to all groups by every interface, and to all ports of every peer. It reports no
+/// failure, because another way may succeed.
 void send_search(const StreamSocket& socket, std::string_view bytes,
                  const StreamNetwork& network) noexcept;
-/// The next one that has come; none where none has.
+/// The next datagram that has arrived; `receive_datagram` returns none if there is none.
 struct ReceivedDatagram {
   std::string bytes;
   StreamAddress from;
 };
 [[nodiscard]] std::optional<ReceivedDatagram> receive_datagram(const StreamSocket& socket);
 
-/// How many bytes went; none where the connection is gone.
+/// Returns the number of bytes sent, or none if the connection is gone.
 [[nodiscard]] std::optional<std::size_t> send_bytes(const StreamSocket& socket,
                                                     std::string_view bytes) noexcept;
-/// What has come; none where the connection is gone.
+/// Returns the bytes that have arrived, or none if the connection is gone.
 [[nodiscard]] std::optional<std::string> receive_bytes(const StreamSocket& socket);
 
 /// Wakes a thread that waits in `poll`.

@@ -11,26 +11,26 @@
 
 namespace jnd::core {
 
-/// A stream that we offer to whoever records it. Safe to call from several threads. Never waits
-/// for a consumer: what one that is too slow has not fetched is dropped, the oldest first, and
-/// counted. Not real time.
+/// A stream that we offer to other recorders. Several threads may call it. It never waits for a
+/// consumer: it drops the oldest samples that a slow one has not fetched, and counts them. Not
+/// real time.
 class StreamOutlet {
  public:
   virtual ~StreamOutlet() = default;
 
-  /// Samples in order, each with a value for every channel.
+  /// Sends samples in order, each with a value for every channel.
   virtual void push(const std::vector<StreamSample>& samples) = 0;
-  /// As it is offered: with its identity, host and ports.
+  /// Returns the description as it is offered, with identity, host and ports.
   [[nodiscard]] virtual const StreamInfo& info() const noexcept = 0;
   [[nodiscard]] virtual int num_consumers() const = 0;
-  /// Samples that some consumer has lost because it was too slow.
+  /// Returns the number of samples that some consumer has lost because it was too slow.
   [[nodiscard]] virtual std::int64_t num_dropped() const = 0;
 };
 
-/// One of our own: by protocol 1.10, on a thread of its own. `seconds_kept`: how much of the
-/// stream is kept for a consumer that is slow; of a stream without a rate a hundred samples for
-/// each. What is still to be sent when it is destroyed is sent for a second at most. Throws
-/// `Error` where the system has no port for it.
+/// Opens an outlet of our own implementation, by protocol 1.10, with a thread of its own.
+/// `seconds_kept` is how much of the stream is kept for a slow consumer; for a stream without a
+/// rate this is a hundred samples for each second. The destructor sends the remaining samples
+/// for a second at most. Throws `Error` if the system has no port for it.
 [[nodiscard]] std::unique_ptr<StreamOutlet> open_own_outlet(StreamInfo info,
                                                             const StreamNetwork& network,
                                                             double seconds_kept = 60.0);

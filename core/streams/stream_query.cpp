@@ -9,12 +9,12 @@
 namespace jnd::core {
 namespace {
 
-/// Thrown and caught in this file: the query is none that is understood here.
+/// Thrown and caught in this file: this parser does not understand the query.
 struct NotUnderstood {};
 
 constexpr int kDeepestQuery = 16;
 
-/// A value: what a path or a text says, or nothing where there is no such element.
+/// The value of a path or a text, or nothing if there is no such element.
 struct Operand {
   std::optional<std::string> text;
   bool is_number = false;
@@ -45,7 +45,7 @@ class QueryReader {
     return true;
   }
 
-  /// A word by itself, not the beginning of a longer one.
+  /// Takes a whole word, not the beginning of a longer one.
   bool take_word(std::string_view word) {
     skip_spaces();
     const std::string_view rest = query_.substr(at_);
@@ -108,7 +108,8 @@ class QueryReader {
     const Operand left = operand();
     if (take("!=")) return left.text && !is_same(left, operand());
     if (take("=")) return is_same(left, operand());
-    return left.text.has_value() && !left.is_number;  // There is such an element.
+    // A path alone is true if there is such an element.
+    return left.text.has_value() && !left.is_number;
   }
 
   static bool is_same(const Operand& left, const Operand& right) {

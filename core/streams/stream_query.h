@@ -6,15 +6,14 @@
 
 namespace jnd::core {
 
-/// Whether a stream is one that is looked for. Queries are predicates of XPath over the
-/// elements of `stream_xml`; understood are `and`, `or`, `not()`, parentheses, `=` and `!=`
-/// between a path of names and a text or number, `starts-with()` and `contains()` of the same.
-/// An empty query is for every stream; one that is none of these is for no stream. Not real
-/// time.
+/// Whether a stream fits a query. Queries are predicates of XPath over the elements of
+/// `stream_xml`. It understands `and`, `or`, `not()`, parentheses, `=` and `!=` between a path
+/// of names and a text or number, and `starts-with()` and `contains()` of the same. An empty
+/// query fits every stream, and a query that it does not understand fits none. Not real time.
 [[nodiscard]] bool matches_query(const XmlElement& info, std::string_view query);
 
-/// A text in a query, between quotes that it does not hold itself; one that holds both kinds
-/// loses its double ones.
+/// Returns the text in quotes for a query. It uses the kind of quotes that the text lacks. If
+/// the text has both kinds, its double ones are left out.
 [[nodiscard]] std::string quoted_for_query(std::string_view text);
 
 }  // namespace jnd::core

@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kBetweenQuestions_s = 0.5;
 constexpr double kGlance_s = 0.1;
-/// What answers beyond this is no laboratory.
+/// No laboratory has more streams.
 constexpr std::size_t kMostStreams = 256;
 
-/// The description, with the address it came from; none where it is no stream.
+/// Returns the description with the address from which it came, or none if it is no stream.
 std::optional<StreamInfo> stream_in(const ReceivedDatagram& came, const std::string& id) {
   const auto xml = found_of(came.bytes, id);
   if (!xml) return std::nullopt;

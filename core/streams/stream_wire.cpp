@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little,
               "numbers are sent as they lie in memory");
 
 constexpr char kDeducedTime = 1, kToldTime = 2;
-/// Of a test sample.
+/// Time of a test sample.
 constexpr double kTestTime_s = 123456.789;
 
 template <typename Number>
@@ -37,7 +37,7 @@ Number number_at(std::string_view bytes, bool big_endian) {
   return value;
 }
 
-/// Channel after channel up by one, every other one below zero.
+/// Returns values that increase by one from channel to channel, with every other sign negative.
 template <typename Number>
 std::string test_values(int channel_count, std::int64_t first) {
   std::string bytes;
@@ -52,8 +52,8 @@ std::string test_values(int channel_count, std::int64_t first) {
   return bytes;
 }
 
-/// A text and how many bytes it takes with its length before it; none where the rest is still
-/// to come.
+/// Takes a text. Returns how many bytes it takes, including its length before it, or none if
+/// more bytes have to come.
 std::optional<std::size_t> take_text(std::string_view bytes, bool big_endian,
                                      std::string& text) {
   if (bytes.empty()) return std::nullopt;

@@ -8,27 +8,29 @@
 
 namespace jnd::core {
 
-/// Samples as they travel, by protocol 1.10: a mark, a time where it is told, a value for each
+/// Samples as protocol 1.10 transmits them: a mark, a time if it is sent, and a value for each
 /// channel. Not real time.
 
-/// Whoever sends more for one channel is no recorder.
+/// No recorder sends a longer text for one channel.
 inline constexpr std::size_t kMostTextBytes = std::size_t{1} << 20;
 
-/// Adds a sample with its time, little-endian. `values` or `texts` have one for each channel.
+/// Appends a sample with its time, little-endian. `values` or `texts` has an entry for each
+/// channel.
 void append_sample(std::string& bytes, const StreamSample& sample, ChannelFormat format);
 
-/// The sample that both sides know: an outlet begins with those of 4 and 2, by which an inlet
-/// sees that it reads numbers as they were meant.
+/// Returns the sample that both sides know. An outlet begins with those of offsets 4 and 2, by
+/// which an inlet checks that it reads numbers correctly.
 [[nodiscard]] StreamSample test_sample(ChannelFormat format, int channel_count, int offset);
 
-/// What begins the bytes, where all of it is there.
+/// The first sample of some bytes.
 struct TakenSample {
   StreamSample sample;
-  bool has_time = true;  ///< Else it follows the one before by a period of the nominal rate.
+  /// If false, the sample follows the one before it by a period of the nominal rate.
+  bool has_time = true;
   std::size_t num_bytes = 0;
 };
-/// None where the rest is still to come. `big_endian`: as the sender has its numbers; what is
-/// returned is little-endian. Throws `Error` for what is no sample.
+/// Returns none if more bytes have to come. `big_endian` is the sender's byte order; the result
+/// is little-endian. Throws `Error` for what is no sample.
 [[nodiscard]] std::optional<TakenSample> take_sample(std::string_view bytes,
                                                      ChannelFormat format, int channel_count,
                                                      bool big_endian);

@@ -54,7 +54,7 @@ class XmlReader {
     return text_.substr(at_).starts_with(with);
   }
 
-  /// Behind the next one of these.
+  /// Moves behind the next occurrence of the mark.
   std::string_view until(std::string_view mark) {
     const std::size_t end = text_.find(mark, at_);
     if (end == std::string_view::npos) refuse("`" + std::string(mark) + "`");
@@ -99,7 +99,7 @@ class XmlReader {
 
   XmlElement element(int depth) {
     if (depth > kDeepestXml) refuse("no more than " + std::to_string(kDeepestXml) + " levels");
-    ++at_;  // <
+    ++at_;  // Skips the <.
     XmlElement read{.name = word()};
     for (skip_spaces(); !starts(">") && !starts("/>"); skip_spaces()) skip_attribute();
     if (starts("/>")) {
@@ -116,7 +116,7 @@ class XmlReader {
     return read;
   }
 
-  /// Behind the mark of the end.
+  /// Moves behind the end tag.
   void content(XmlElement& read, int depth) {
     while (true) {
       const std::size_t next = text_.find('<', at_);

@@ -9,11 +9,11 @@
 
 namespace jnd::device {
 
-/// What a device has to do, or must not do.
+/// A rule that a device has to follow.
 struct DeviceRule {
   std::string_view name;    ///< "force_sign", as JSON spells it.
-  std::string_view demand;  ///< "A push moves the hand along with it."
-  std::string_view advice;  ///< What to do where it does not; a sentence.
+  std::string_view demand;  ///< The rule: "A push moves the hand along with it."
+  std::string_view advice;  ///< A sentence with advice for a device that breaks the rule.
 };
 
 inline constexpr DeviceRule kForceSign = {
@@ -29,28 +29,29 @@ inline constexpr DeviceRule kTellsOfAHand = {
 
 /// A force on one point alone.
 [[nodiscard]] core::PointVectors push_of(int point, const Eigen::Vector3d& force_n);
-/// The first that the device has: where it is pushed.
+/// Returns the first point that the device has, which is pushed.
 [[nodiscard]] int pushed_point(const DeviceCapabilities& can);
 
-/// What became of a rule on one device.
+/// The outcome of a rule on one device.
 struct RuleOutcome {
   enum class Verdict { kPassed, kFailed, kSkipped };
 
   DeviceRule rule;
   Verdict verdict = Verdict::kPassed;
-  std::string found;  ///< What was measured; why it was skipped. "" for nothing to tell.
+  /// What was measured, or why the rule was skipped; "" if there is nothing to say.
+  std::string found;
 };
 
-/// "pass", "fail" or "skip".
+/// Returns "pass", "fail" or "skip".
 [[nodiscard]] std::string_view name(RuleOutcome::Verdict verdict) noexcept;
 
-/// Is told every outcome as soon as it is known.
+/// Receives every outcome as soon as it is known.
 using TellOutcome = std::function<void(const RuleOutcome&)>;
 
-/// Tells outcomes, and remembers whether any rule is broken.
+/// Reports outcomes and remembers whether any rule is broken.
 class RuleJudge {
  public:
-  /// `tell` has to outlive this.
+  /// `tell` must outlive this object.
   explicit RuleJudge(const TellOutcome& tell) : tell_(tell) {}
 
   void judge(const DeviceRule& rule, bool is_kept, std::string found);

@@ -45,7 +45,7 @@ constexpr DeviceRule kDriverReopens = {"reopens", "It can be closed and opened a
 
 struct Measured {
   core::HapticState state;
-  double came_s = 0.0;  ///< Since the device was opened.
+  double came_s = 0.0;  ///< Time since the device was opened.
   std::int64_t tick = 0;
 };
 
@@ -124,7 +124,7 @@ class DriverChecker {
         all.push_back({state, std::chrono::duration<double>(Clock::now() - begin_).count(), i});
         newest_ = state;
       }
-      // A push that nobody can see is none.
+      // Without a measurement nobody could see the push, so it is zero.
       core::PointVectors limited_n = is_measured ? force_n : core::zero_vectors();
       limiter_.limit(newest_.attached, newest_.tip_velocity_m_per_s, limited_n);
       if (!device_.write(limited_n)) ++num_not_taken_;
@@ -132,7 +132,7 @@ class DriverChecker {
     return all;
   }
 
-  /// Looks, and writes nothing.
+  /// Reads without writing.
   std::vector<Measured> reads(double duration_s) {
     std::vector<Measured> all;
     const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -201,7 +201,8 @@ class DriverChecker {
     const double device_s = 1e-9 * static_cast<double>(all.back().state.device_time_ns -
                                                        all.front().state.device_time_ns);
     const double ours_s = all.back().came_s - all.front().came_s;
-    // One without a clock of its own moves on by a period a tick, however long that took.
+    // Without a clock of its own a device advances by one period in each tick, however long
+    // that took.
     const double expected_s =
         can_.has_own_clock
             ? ours_s
@@ -216,7 +217,8 @@ class DriverChecker {
                              num_risen, all.size() - 1, 1e6 * drift));
   }
 
-  /// How far it goes by itself along this axis in the time of a push, m: what it would hide.
+  /// Returns how far the hand moves by itself along this axis in the time of a push, m. A push
+  /// would be hidden in it.
   static double own_way_m(const std::vector<Measured>& all, std::size_t point, int axis) {
     double low = 1e9, high = -1e9;
     for (std::size_t i = all.size() / 2; i < all.size(); ++i) {
@@ -251,7 +253,7 @@ class DriverChecker {
         wrong += fmt::format("{}it moved {:+.2f} mm along {}", wrong.empty() ? "" : ", ",
                              1e3 * moved_m, letter);
       }
-      // The velocities, summed over the device's time, are the way.
+      // The sum of the velocities over the device's time is the displacement.
       double way_m = 0.0;
       for (std::size_t i = 1; i < pushed.size(); ++i) {
         const auto step_ns =
@@ -285,7 +287,7 @@ class DriverChecker {
     lag_.observe(states, point_);
   }
 
-  /// By what the device tells, or else by where the hand goes.
+  /// Judges by the force that the device reports, or otherwise by where the hand goes.
   [[nodiscard]] bool acts(const std::vector<Measured>& all, std::size_t first) const {
     return std::any_of(
         all.begin() + static_cast<std::ptrdiff_t>(std::min(first, all.size())), all.end(),
@@ -300,8 +302,8 @@ class DriverChecker {
     (void)ticks(0.05, push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0}));
     device_.halt();
     constexpr std::size_t kUnderWay = 3;
-    // jnd withholds what is written after a halt. That the driver itself ends the force is seen
-    // where its time goes on without writes.
+    // jnd withholds what is written after a halt. That the driver itself ends the force shows
+    // only if its time advances without writes.
     if (can_.has_own_clock && acts(reads(0.05), kOfDelay)) {
       judge_.judge(kDriverHalt, false, "the force stood after the halt, without any write");
       (void)ticks(0.3, core::zero_vectors());
@@ -360,7 +362,7 @@ class DriverChecker {
 
   HapticDevice& device_;
   DeviceCapabilities can_;
-  std::size_t point_;  ///< That is pushed.
+  std::size_t point_;  ///< The point that is pushed.
   double push_n_;
   bool can_push_, is_paced_;
   std::function<bool()> is_cancelled_;

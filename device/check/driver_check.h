@@ -10,10 +10,10 @@
 namespace jnd::device {
 
 struct DriverCheck {
-  /// Whether the hand may be pushed: never with a person's hand in the device. A simulation is
-  /// pushed by 2 N, a real one by 0.5 N.
+  /// Whether the hand may be pushed. Never set it with a person's hand in the device. A
+  /// simulation is pushed by 2 N, a real device by 0.5 N.
   bool pushes = false;
-  /// Else one tick follows the other at once: of a simulation without a clock of its own.
+  /// If false, ticks follow each other at once, for a simulation without a clock of its own.
   bool is_paced = true;
   /// The program is to stop: no force then, the device is closed, and `core::Error` is thrown.
   std::function<bool()> is_cancelled{};
@@ -23,9 +23,10 @@ struct DriverCheck {
   TellPrompt prompt{};
 };
 
-/// Tries what `HapticDevice` promises of a device that is closed: it opens, is punctual, tells
-/// units, frame and time truly, follows a push and halts, and opens again. Some ten seconds.
-/// Whether no rule is broken; the device is closed afterwards. Not real time.
+/// Tests what `HapticDevice` promises with a device that is closed: it opens, is punctual,
+/// reports units, frame and time correctly, follows a push and halts, and opens again. This
+/// takes some ten seconds. Returns whether no rule is broken, with the device closed. Not real
+/// time.
 [[nodiscard]] bool check_driver(HapticDevice& device, const DriverCheck& check,
                                 const TellOutcome& tell);
 

@@ -36,7 +36,8 @@ bool LinkProbe::connect(double timeout_s) {
     }
     port_.pause(kMillisecond_ns);
     receive();
-    if (challenge != challenge_) hello_ns = 0;  // Worth another hello at once.
+    // A new challenge is worth another hello at once.
+    if (challenge != challenge_) hello_ns = 0;
   }
   return is_connected();
 }
@@ -92,7 +93,7 @@ bool LinkProbe::arm(std::uint32_t arm_number) {
 void LinkProbe::halt() { (void)send(wire::Halt{}); }
 
 void LinkProbe::say_goodbye() {
-  // Twice, for nobody answers it.
+  // It is sent twice, because nobody answers it.
   for (int i = 0; i < 2; ++i) (void)send(wire::Goodbye{});
   stream_id_ = 0;
 }

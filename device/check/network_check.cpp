@@ -29,7 +29,8 @@ bool acts(const Seen& seen) {
 
 bool is_armed_or_acts(const Seen& seen) { return seen.state.armed || acts(seen); }
 
-/// Whether any from this one on is armed or acts: what was under way is not counted.
+/// Whether any state from this one on is armed or reports a force. States that were under way
+/// do not count.
 bool any_after(const States& states, std::size_t first) {
   return states.size() > first &&
          std::any_of(states.begin() + static_cast<std::ptrdiff_t>(first), states.end(),
@@ -108,7 +109,7 @@ class NetworkChecker {
                                            .max_speed_m_per_s = kGentleSpeed_m_per_s},
                                           1.0 / rate_hz_));
     }
-    // So that the hellos of others are not refused for us.
+    // This keeps the hellos of others from being refused because of us.
     program.say_goodbye();
     port_pause(0.05);
   }
@@ -117,7 +118,7 @@ class NetworkChecker {
     check_.open_port()->pause(std::llround(1e9 * duration_s));
   }
 
-  /// What a fresh program hears to these bytes.
+  /// Returns the refusal that a new program gets for these bytes.
   std::optional<wire::RefusalReason> refusal_of(std::span<const std::byte> bytes) {
     const auto port = check_.open_port();
     port->send(bytes, check_.server);
@@ -147,7 +148,7 @@ class NetworkChecker {
     return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)};
   }
 
-  /// A hello whose header says the next version, with the checksum of that.
+  /// Returns a hello whose header has the next version, with the matching checksum.
   static std::vector<std::byte> hello_of_next_version(const wire::Datagram& hello) {
     std::vector<std::byte> bytes = bytes_of(hello, std::nullopt);
     const std::uint16_t version = wire::kVersion + 1;
@@ -189,7 +190,7 @@ class NetworkChecker {
   }
 
   void judge_states(LinkProbe& program) {
-    // The first second is for the connection to settle.
+    // The connection settles in the first second.
     (void)program.talk(1.0, 0, core::zero_vectors());
     const States states = program.talk(1.0, 0, core::zero_vectors());
     const auto num_states = static_cast<double>(states.size());
@@ -246,7 +247,7 @@ class NetworkChecker {
         static_cast<double>(states.back().state.measured.device_time_ns -
                             states.front().state.measured.device_time_ns) /
         ours_ns;
-    // A simulation whose ticks are late is slower than time.
+    // A simulation whose ticks are late is slower than real time.
     constexpr double kSlowest = 0.3, kFastest = 1.5;
     judge_.judge(kTime, device_ratio > kSlowest && device_ratio < kFastest,
                  fmt::format("in a second it went on by {:.3g} s", device_ratio));
@@ -288,13 +289,13 @@ class NetworkChecker {
     judge_.judge(kArming, program.arm(2), "");
   }
 
-  /// Where the point is that is pushed, m.
+  /// Returns the position of the pushed point, m.
   [[nodiscard]] Eigen::Vector3d place_of(const States& states) const {
     return states.empty() ? Eigen::Vector3d::Zero().eval()
                           : states.back().state.measured.tip_position_m[point_];
   }
 
-  /// The velocities, summed over the device's time.
+  /// Returns the sum of the velocities over the device's time.
   [[nodiscard]] double way_by_velocity_m(const States& states, int axis) const {
     double way_m = 0.0;
     for (std::size_t i = 1; i < states.size(); ++i) {
@@ -383,7 +384,7 @@ class NetworkChecker {
       most_step_n = std::max(most_step_n, told_n - last_n);
       last_n = told_n;
     }
-    // Of states that were lost the steps add up.
+    // If states were lost, their steps add up.
     const bool is_slow = most_step_n <= 3.0 * kSlew_n_per_s / rate_hz_ + kRounding_n;
     if (most_n == 0.0) {
       judge_.skip(kNoLimits, kNothingActed);
@@ -396,7 +397,8 @@ class NetworkChecker {
     (void)program.talk(0.5, arm_number_ - 1, core::zero_vectors());
   }
 
-  /// Arms it and pushes. Whether a force acted: else nothing is known of how it ends.
+  /// Arms the device and pushes. Returns whether a force acted; if not, nothing is known of how
+  /// it would end.
   bool acts_when_pushed(LinkProbe& program) {
     (void)program.arm(arm_number_++);
     const States& states = program.talk(0.04, arm_number_ - 1,
@@ -458,7 +460,7 @@ class NetworkChecker {
                                                    is_armed_or_acts),
                  is_let_in ? "" : "it lets nobody in");
     if (!is_let_in) return;
-    // As if it had died.
+    // The program behaves as if it had died.
     port_pause(kGoneAfter_s);
     const auto last_port = check_.open_port();
     LinkProbe last(*last_port, check_.server, check_.key, token_++);
@@ -468,10 +470,11 @@ class NetworkChecker {
 
   static constexpr char kNothingActed[] = "no force acted that could end";
   static constexpr double kLeastMoved_m = 0.0002, kLeastSpeed_m_per_s = 0.005;
-  /// Of a real device: a push that gets away ends.
+  /// On a real device these limits end a push that gets out of control.
   static constexpr double kGentleSlew_n_per_s = 100.0, kGentleSpeed_m_per_s = 0.5;
   static constexpr double kTooMuch_n = 100.0, kWayThere_s = 0.030, kGoneAfter_s = 1.3;
-  static constexpr std::size_t kUnderWay = 5;  ///< States that were sent before.
+  /// Number of states that may have been sent before.
+  static constexpr std::size_t kUnderWay = 5;
 
   const NetworkCheck& check_;
   RuleJudge judge_;
@@ -479,7 +482,7 @@ class NetworkChecker {
   std::uint32_t arm_number_ = 3;
   double rate_hz_ = 1000.0, most_force_n_ = 0.0, stand_in_s_ = 0.0, push_n_ = 0.0;
   bool is_simulated_ = false, can_push_ = false;
-  std::size_t point_ = 0;  ///< That is pushed.
+  std::size_t point_ = 0;  ///< The point that is pushed.
 };
 
 }  // namespace

@@ -12,14 +12,15 @@
 namespace jnd::device {
 
 struct NetworkCheck {
-  /// A port of our own toward the device; each is another program to it.
+  /// Opens a port of ours towards the device. To the device, each port is another program.
   std::function<std::unique_ptr<DatagramPort>()> open_port;
   Address server;
   std::optional<DeviceKey> key;
-  /// Whether the hand may be pushed: never with a person's hand in the device. A simulation is
-  /// pushed by 2 N, and asked for 100 N to see its limits; a real one by 0.5 N.
+  /// Whether the hand may be pushed. Never set it with a person's hand in the device. A
+  /// simulation is pushed by 2 N, and asked for 100 N to test its limits; a real device is
+  /// pushed by 0.5 N.
   bool pushes = false;
-  /// The operator says that it is a simulation, and it has to say so, too.
+  /// The operator says that the device is a simulation. The device has to say so as well.
   bool believes_simulated = false;
   /// A person moves it as the prompts say, and nothing pushes it: how long one prompt is; none:
   /// nobody does.
@@ -27,9 +28,9 @@ struct NetworkCheck {
   TellPrompt prompt{};
 };
 
-/// Tries the rules of device/network/README.md at a device that nobody uses, one after the
-/// other, in some ten seconds. Throws `DeviceUnreachable` where nothing answers or another
-/// program is connected. Whether no rule is broken. Not real time.
+/// Tests the rules of device/network/README.md at a device that nobody uses, one after another,
+/// in some ten seconds. Returns whether no rule is broken. Throws `DeviceUnreachable` if
+/// nothing answers or another program is connected. Not real time.
 [[nodiscard]] bool check_network_device(const NetworkCheck& check, const TellOutcome& tell);
 
 }  // namespace jnd::device

@@ -2,7 +2,7 @@
 
 #include "device/check/device_rule.h"
 
-// What a device across the network has to do, by the page of its datagrams
+// What a device across the network has to do, according to the page of its datagrams
 // (device/network/README.md). Each wrong device of the references breaks the rule of its name.
 
 namespace jnd::device {

@@ -11,11 +11,12 @@ namespace {
 
 constexpr std::array kPoses = {FingerPose::k0, FingerPose::k90, FingerPose::k180,
                                FingerPose::k270, FingerPose::kInclined};
-constexpr double kMostForceN = 100.0;  ///< More no hand gives and no finger takes.
+/// No hand exerts, and no finger resists, a larger force.
+constexpr double kMostForceN = 100.0;
 constexpr std::uint8_t kEveryBit = (1 << core::kNumContactPoints) - 1;
 constexpr std::array kWeights_kg = {0.050, 0.100, 0.150, 0.200, 0.250};
 
-/// Relative errors, the lightest weight left out.
+/// Returns the mean relative error, without the lightest weight.
 double mean_relative_error(const SensorAccuracy& sensor) {
   double sum = 0.0;
   for (std::size_t i = 1; i < sensor.readings.size(); ++i) {
@@ -26,7 +27,8 @@ double mean_relative_error(const SensorAccuracy& sensor) {
   return sum / static_cast<double>(sensor.readings.size() - 1);
 }
 
-/// Every motor's torque less the links' weight, as forces of the tips on the hand.
+/// Returns the torques of all motors minus the links' weight, as forces of the tips on the
+/// hand.
 Eigen::Vector3d force_of_fingers_n(const ExoskeletonKinematics& kinematics,
                                    const core::Sample& sample) {
   const JointVector gravity_n_m = kinematics.gravity_torque_n_m();
@@ -76,7 +78,7 @@ FingerCharacter characterize_finger(FingerBench& bench, int num_repetitions,
   const auto step_done = [&] {
     if (on_progress) on_progress(++done / num_steps);
   };
-  std::array<std::vector<double>, 2> force_n;  // Abduction, extension.
+  std::array<std::vector<double>, 2> force_n;  // For abduction and extension.
   for (const FingerPose pose : kPoses) {
     BreakAway& entry = character.break_away.emplace_back(BreakAway{.pose = pose});
     for (int repetition = 1; repetition <= num_repetitions; ++repetition) {
@@ -122,7 +124,7 @@ std::array<double, core::kNumJointsPerFinger> expected_torque_n_m(
 }
 
 void FreeSpaceRegression::add(const core::Sample& sample) {
-  // A finger that hangs free tells nothing of a hand.
+  // A finger that hangs free tells nothing about a hand.
   if (sample.attached_bits != kEveryBit) return;
   Eigen::Vector3d velocity_m_per_s = Eigen::Vector3d::Zero();
   for (const core::PlainVector& tip : sample.tip_velocity_m_per_s) {
@@ -134,7 +136,7 @@ void FreeSpaceRegression::add(const core::Sample& sample) {
   kinematics.update(positions_of(sample));
   const double against_n =
       -force_of_fingers_n(kinematics, sample).dot(velocity_m_per_s) / speed_m_per_s;
-  // Of a stretched finger, whose torques say nothing about forces along it.
+  // A stretched finger's torques tell nothing about forces along it.
   if (!(std::abs(against_n) < kMostForceN)) return;
   ++num_;
   sum_v_ += speed_m_per_s;

@@ -11,7 +11,8 @@ namespace jnd::device {
 namespace {
 
 double period_of(double rate_hz) {
-  // Beyond that the magnets, stiff within a few steps, let the simulation blow up or crawl.
+  // Beyond these rates the simulation diverges or becomes very slow, because the magnets are
+  // stiff within a few steps.
   core::require(rate_hz >= 100.0 && rate_hz <= 10000.0, "rate_hz", "a number in [100, 10000]",
                 rate_hz);
   return 1.0 / rate_hz;
@@ -77,7 +78,7 @@ void ExoskeletonDevice::open() {
   measure();
 }
 
-/// All that a tick knows of the robot.
+/// Computes everything that a tick knows about the robot.
 void ExoskeletonDevice::measure() noexcept {
   measured_.position_rad = world_.encoder_position_rad();
   measured_.velocity_rad_per_s = filter_.update(measured_.position_rad);
@@ -111,13 +112,14 @@ bool ExoskeletonDevice::write(const core::PointVectors& force_on_hand_n) noexcep
   if (arm_.takes_putting_back()) {
     for (int point = 0; point < core::kNumContactPoints; ++point) world_.attach(point);
   }
-  // What is no number must not lie in wait in the delay line.
+  // A number that is not finite must not enter the delay line.
   core::PointVectors given_n = std::isfinite(total_of(force_on_hand_n).sum())
                                    ? delayed(within_capabilities(force_on_hand_n))
                                    : force_on_hand_n;
   JointVector torque_n_m = control_.torque_n_m(kinematics_, measured_, given_n);
   if (control_.fault() != core::Fault::kNone) delay_line_.fill(core::zero_vectors());
-  // Halted in the middle of it: the force goes, the robot's weight stays held.
+  // If the device was halted in the middle of this, the force ends, but the robot's weight is
+  // still held.
   if (halt_.is_halted()) {
     torque_n_m = kinematics_.gravity_torque_n_m();
     given_n = core::zero_vectors();
@@ -133,7 +135,7 @@ bool ExoskeletonDevice::write(const core::PointVectors& force_on_hand_n) noexcep
   return control_.fault() == core::Fault::kNone;
 }
 
-/// Of whoever is at the hand: the person whose it is, or somebody who holds a dummy.
+/// Returns the pull of whoever is at the hand: the person, or somebody who holds a dummy.
 Eigen::Vector3d ExoskeletonDevice::pull_on_forearm_n() noexcept {
   const BenchState& done = bench_.newest();
   const Eigen::Vector3d& hand_m = world_.hand_position_m();
@@ -149,7 +151,7 @@ Eigen::Vector3d ExoskeletonDevice::pull_on_forearm_n() noexcept {
     constexpr double kCarrying_m_per_s = 0.2;
     const Eigen::Vector3d mark_m(done.mark_m[0], done.mark_m[1], done.mark_m[2]);
     const Eigen::Vector3d way_m = mark_m - kinematics_.tip_position_m().front();
-    // Slower near the mark, for the arm comes after.
+    // The motion slows down near the mark, because the arm lags behind.
     constexpr double kSlowing_per_s = 5.0;
     const double way_now_m =
         period_s_ * std::min(kSlowing_per_s * way_m.norm(), kCarrying_m_per_s);
@@ -158,7 +160,7 @@ Eigen::Vector3d ExoskeletonDevice::pull_on_forearm_n() noexcept {
   return pull_n + kHolding.effort(held_m_ - hand_m, velocity_m_per_s);
 }
 
-/// Whoever writes may have a limiter or none: what the device says of itself it keeps.
+/// The writer may have no limiter, so the device keeps to its own capabilities.
 core::PointVectors ExoskeletonDevice::within_capabilities(
     const core::PointVectors& force_n) const noexcept {
   core::PointVectors within_n = force_n;

@@ -9,30 +9,31 @@
 
 namespace jnd::device {
 
-/// The dimensions and masses of the exoskeleton on its arm, as its own control knows them. The
-/// simulated world (data/models/exoskeleton.xml) is built with the same numbers, whose sources
-/// are in data/models/README.md; tests hold the two against each other.
+/// The dimensions and masses of the exoskeleton on its arm, as its control knows them. The
+/// simulated world (data/models/exoskeleton.xml) uses the same numbers, whose sources are in
+/// data/models/README.md. Tests compare the two.
 ///
-/// Frames: `base` is the arm's foot, axes parallel to the workspace's; `platform` has its
-/// origin at the arm's flange (the end effector) and in the neutral pose the workspace's axes;
-/// each finger has a frame at its base joint, +x along the stretched finger, +z towards the
-/// hand.
+/// Frames: `base` is the arm's foot, with axes parallel to the workspace's. `platform` has its
+/// origin at the arm's flange (the end effector) and in the neutral pose the workspace's axes.
+/// Each finger has a frame at its base joint, with +x along the stretched finger and +z towards
+/// the hand.
 
-/// One value per joint, in the order of `core::kJointNames`: rad, rad/s or N m.
+/// One value for each joint, in the order of `core::kJointNames`: rad, rad/s or N m.
 using JointVector = Eigen::Matrix<double, core::kNumJoints, 1>;
 
-/// A link as gravity sees it: its mass, and where that is in the frame of the joint before it.
+/// Mass and centre of mass of a link, in the frame of the joint before it.
 struct LinkMass {
   double mass_kg;
   std::array<double, 3> center_m;
 };
 
-// The arm: a KUKA LWR 4+. Each link reaches along z from its joint to the next one.
+// The arm, a KUKA LWR 4+. Each link extends along z from its joint to the next one.
 enum class Axis { kZ, kY, kMinusY };
 inline constexpr std::array<Axis, core::kNumArmJoints> kArmAxes = {
     Axis::kZ, Axis::kMinusY, Axis::kZ, Axis::kY, Axis::kZ, Axis::kMinusY, Axis::kZ};
-/// Along z, from the joint before (the foot) to this one. 0.102 + 0.2085 = 0.3105 m to the
-/// shoulder, 0.4 m to the elbow, 0.39 m to the wrist; the seventh joint turns the flange.
+/// Distance along z from the joint before (at first the foot) to this one. 0.102 + 0.2085 =
+/// 0.3105 m to the shoulder, 0.4 m to the elbow, 0.39 m to the wrist. The seventh joint turns
+/// the flange.
 inline constexpr std::array<double, core::kNumArmJoints> kArmOffsets_m = {
     0.102, 0.2085, 0.1915, 0.2085, 0.1915, 0.1985, 0.078};
 inline constexpr std::array<LinkMass, core::kNumArmJoints> kArmLinks = {
@@ -44,24 +45,25 @@ inline constexpr std::array<LinkMass, core::kNumArmJoints> kArmLinks = {
 // The platform with the bodies of five fingers, mounted flat on the flange.
 inline constexpr LinkMass kPlatform = {1.5, {0.04, 0.0, 0.01}};
 
-// A finger: DLR/HIT Hand II.
+// A finger of the DLR/HIT Hand II.
 inline constexpr double kProximalLink_m = 0.055;
 inline constexpr double kMedialLink_m = 0.025;
-inline constexpr double kDistalLink_m = 0.035;  ///< With the metal cone that holds the magnet.
-/// Proximal, medial and distal; centres along the link.
+/// Includes the metal cone that holds the magnet.
+inline constexpr double kDistalLink_m = 0.035;
+/// Proximal, medial and distal link; the centres are along the link.
 inline constexpr std::array<LinkMass, 3> kFingerLinks = {LinkMass{0.0444, {0.0275, 0.0, 0.0}},
                                                          LinkMass{0.0271, {0.0125, 0.0, 0.0}},
                                                          LinkMass{0.0182, {0.0175, 0.0, 0.0}}};
 
-/// Where a finger sits on the platform, in its frame. Unit vectors: `stretched` is the finger's
-/// +x, `towards_hand` its +z.
+/// Where a finger is mounted on the platform, in the platform's frame. `stretched` is the unit
+/// vector of the finger's +x, `towards_hand` that of its +z.
 struct FingerMount {
   std::array<double, 3> base_m;
   std::array<double, 3> stretched;
   std::array<double, 3> towards_hand;
 };
-/// In the order of `core::ContactPoint`: two at the palm's side, opposite them index and
-/// middle, with their tips facing those; the thumb's from above (thesis, A.2).
+/// In the order of `core::ContactPoint`: two at the side of the palm; index and middle opposite
+/// them, with the tips facing those; and the thumb from above (thesis, A.2).
 inline constexpr std::array<FingerMount, core::kNumContactPoints> kFingerMounts = {
     FingerMount{{0.0527, -0.1252, 0.017}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}},
     FingerMount{{0.0527, -0.1252, -0.043}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}},
@@ -69,7 +71,7 @@ inline constexpr std::array<FingerMount, core::kNumContactPoints> kFingerMounts 
     FingerMount{{0.0527, 0.1233, 0.007}, {0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}},
     FingerMount{{0.0527, 0.1283, -0.018}, {0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}}};
 
-/// Mechanical stops.
+/// Mechanical stops of a joint.
 struct JointRange {
   double low_rad;
   double high_rad;
@@ -83,19 +85,19 @@ inline constexpr std::array<JointRange, core::kNumArmJoints> kArmRanges = {
     JointRange{-170.0 * kDegree_rad, 170.0 * kDegree_rad},
     JointRange{-120.0 * kDegree_rad, 120.0 * kDegree_rad},
     JointRange{-170.0 * kDegree_rad, 170.0 * kDegree_rad}};
-/// Abduction, extension, proximal; the last one counts for the distal joint, too.
+/// For abduction, extension and proximal joint. The last one is also that of the distal joint.
 inline constexpr std::array<JointRange, core::kNumJointsPerFinger> kFingerRanges = {
     JointRange{-20.0 * kDegree_rad, 20.0 * kDegree_rad},
     JointRange{-20.0 * kDegree_rad, 90.0 * kDegree_rad}, JointRange{0.0, 90.0 * kDegree_rad}};
 
 /// Dry friction of a finger's joints: 0.83 N and 0.4 N at the tip, times its lever in the
-/// neutral pose; the third is an assumption, for those joints moved before the base (thesis,
-/// A.4.1).
+/// neutral pose. The third is an assumption, because these joints moved before the base did
+/// (thesis, A.4.1).
 inline constexpr std::array<double, core::kNumJointsPerFinger> kFingerFriction_n_m = {
     0.0533, 0.0418, 0.0278};
 
-// The neutral pose: the arm in a vertical plane, its elbow up, its flange towards +x; the tips
-// where `lumped_hand_tips_m` has them, to 0.1 mm.
+// The neutral pose: the arm is in a vertical plane with the elbow up and the flange towards +x.
+// The tips are where `lumped_hand_tips_m` has them, to 0.1 mm.
 inline constexpr double kUpperArmTilt_rad = 1.25;  ///< From straight up, towards -y.
 inline constexpr double kForearmTilt_rad = 2.70;   ///< From straight up, towards -y.
 inline constexpr double kNeutralExtension_rad = 0.5;
@@ -107,7 +109,7 @@ inline constexpr std::array<double, 3> kNeutralEndEffector_m = {-0.135, 0.0, 0.0
   return {values[0], values[1], values[2]};
 }
 
-/// The range of a joint between its stops.
+/// Returns the range of a joint between its stops.
 [[nodiscard]] constexpr JointRange range_of(int joint) noexcept {
   return joint < core::kNumArmJoints
              ? kArmRanges[joint]

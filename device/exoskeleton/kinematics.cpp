@@ -15,7 +15,7 @@ double finger_mass_kg() noexcept {
   return kFingerLinks[0].mass_kg + kFingerLinks[1].mass_kg + kFingerLinks[2].mass_kg;
 }
 
-/// The frame turned about one of its own axes.
+/// Returns the frame turned about one of its own axes.
 Matrix3d turned(const Matrix3d& frame, Axis axis, double angle_rad) noexcept {
   const double c = std::cos(angle_rad);
   const double s = axis == Axis::kMinusY ? -std::sin(angle_rad) : std::sin(angle_rad);
@@ -32,8 +32,8 @@ Matrix3d turned(const Matrix3d& frame, Axis axis, double angle_rad) noexcept {
   return result;
 }
 
-/// A finger is flat: how far a chain reaches in the finger's plane, along it and up towards the
-/// hand, and how that changes with extension and proximal angle.
+/// How far a chain of links reaches in the finger's plane, along the finger and up towards the
+/// hand, and how that changes with the proximal angle.
 struct Reach {
   double along_m = 0.0, up_m = 0.0;
   double along_by_proximal_m = 0.0, up_by_proximal_m = 0.0;
@@ -41,7 +41,8 @@ struct Reach {
   [[nodiscard]] Vector3d at(double cos_abduction, double sin_abduction) const noexcept {
     return {along_m * cos_abduction, along_m * sin_abduction, up_m};
   }
-  /// Columns: by abduction, extension (which turns the whole), proximal.
+  /// The columns are the derivatives by abduction, extension (which turns the whole chain) and
+  /// proximal angle.
   [[nodiscard]] Matrix3d slope(double cos_abduction, double sin_abduction) const noexcept {
     Matrix3d slope;
     slope << -along_m * sin_abduction, -up_m * cos_abduction,
@@ -53,8 +54,8 @@ struct Reach {
   }
 };
 
-/// The distal joint turns as far as the proximal one, so the links lean by the extension plus
-/// 0, 1 and 2 times that angle.
+/// The distal joint turns as far as the proximal one, so the links are inclined by the
+/// extension plus 0, 1 and 2 times that angle.
 struct FingerAngles {
   FingerAngles(double extension_rad, double proximal_rad) noexcept {
     for (int link = 0; link < 3; ++link) {
@@ -62,7 +63,7 @@ struct FingerAngles {
       sine[link] = std::sin(extension_rad + link * proximal_rad);
     }
   }
-  /// A chain that goes this far along each link.
+  /// Returns the reach of a chain that goes this far along each link.
   [[nodiscard]] Reach reach(double proximal_m, double medial_m,
                             double distal_m) const noexcept {
     return {.along_m = proximal_m * cosine[0] + medial_m * cosine[1] + distal_m * cosine[2],
@@ -108,7 +109,7 @@ void ExoskeletonKinematics::update_arm(const JointVector& position_rad) noexcept
     link_center_m_[joint] = origin_m + frame * vector_of(kArmLinks[joint].center_m);
   }
   end_effector_m_ = origin_m;
-  // Mounted so that the platform's x is the flange's z, its y the flange's x.
+  // The platform is mounted so that its x is the flange's z and its y the flange's x.
   workspace_from_platform_.col(0) = frame.col(2);
   workspace_from_platform_.col(1) = frame.col(0);
   workspace_from_platform_.col(2) = frame.col(1);
@@ -131,7 +132,7 @@ void ExoskeletonKinematics::update_finger(int point, const JointVector& position
     arm_jacobian_[point].col(joint) = axis_[joint].cross(tip_m_[point] - joint_m_[joint]);
   }
 
-  // All links as one chain whose lengths are weighed by what hangs on them.
+  // All links count as one chain whose lengths are weighted by the masses beyond.
   const auto& [proximal, medial, distal] = kFingerLinks;
   const Reach moment =
       angles.reach(proximal.mass_kg * proximal.center_m[0] +
@@ -203,7 +204,7 @@ JointVector ExoskeletonKinematics::gravity_torque_n_m() const noexcept {
     torque_n_m.segment<core::kNumJointsPerFinger>(core::finger_joint(point, 0)) =
         kGravity_m_per_s2 * finger_moment_slope_kg_m_[point].row(2).transpose();
   }
-  // From the flange to the foot, each joint carries what hangs beyond it.
+  // From the flange to the foot, each joint carries everything beyond it.
   for (int joint = core::kNumArmJoints - 1; joint >= 0; --joint) {
     mass_kg += kArmLinks[joint].mass_kg;
     moment_kg_m += kArmLinks[joint].mass_kg * link_center_m_[joint];

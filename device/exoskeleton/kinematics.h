@@ -9,17 +9,17 @@
 
 namespace jnd::device {
 
-/// Everything that follows from joint angles: where the tips are, how they move with the
-/// joints, and what gravity asks of each joint. Workspace frame throughout; nothing here knows
-/// whether the joints are real. Real time except the constructor.
+/// Everything that follows from joint angles: the positions of the tips, how they move with the
+/// joints, and the gravity torque of each joint. All are in the workspace frame. It does not
+/// matter whether the joints are real. Real time except the constructor.
 class ExoskeletonKinematics {
  public:
   using ArmJacobian = Eigen::Matrix<double, 3, core::kNumArmJoints>;
 
-  /// The arm's foot where the neutral pose has the middle of the hand at `home_m`.
+  /// Places the arm's foot so that the neutral pose has the middle of the hand at `home_m`.
   explicit ExoskeletonKinematics(const Eigen::Vector3d& home_m) noexcept;
 
-  /// Brings everything below up to date. Joint angles in rad.
+  /// Updates everything below. Joint angles are in rad.
   void update(const JointVector& position_rad) noexcept;
 
   [[nodiscard]] const Eigen::Vector3d& base_position_m() const noexcept { return base_m_; }
@@ -27,39 +27,40 @@ class ExoskeletonKinematics {
   [[nodiscard]] const Eigen::Vector3d& end_effector_position_m() const noexcept {
     return end_effector_m_;
   }
-  /// Its axes are those of the platform: the workspace's in the neutral pose.
+  /// Returns the axes of the platform, which in the neutral pose are those of the workspace.
   [[nodiscard]] const Eigen::Matrix3d& workspace_from_platform() const noexcept {
     return workspace_from_platform_;
   }
 
-  /// d tip / d joint of the finger that holds it: abduction, extension, proximal, m/rad.
+  /// Returns d tip / d joint of the finger at this point: abduction, extension, proximal,
+  /// m/rad.
   [[nodiscard]] const Eigen::Matrix3d& finger_jacobian(int point) const noexcept {
     return finger_jacobian_[point];
   }
-  /// d tip / d joint of the arm, m/rad.
+  /// Returns d tip / d joint of the arm, m/rad.
   [[nodiscard]] const ArmJacobian& arm_jacobian(int point) const noexcept {
     return arm_jacobian_[point];
   }
 
-  /// Velocities of the tips from those of the joints in rad/s.
+  /// Returns the velocities of the tips for joint velocities in rad/s.
   [[nodiscard]] core::PointVectors tip_velocity_m_per_s(
       const JointVector& velocity_rad_per_s) const noexcept;
 
-  /// J^T: the joint torques that push with these forces at the tips, those of the arm included:
-  /// it gets the sum of the forces and their moments (thesis, C.4), so that the platform is not
-  /// pushed back by its own fingers.
+  /// J^T: returns the joint torques that exert these forces at the tips. The arm's joints get
+  /// the sum of the forces and their moments (thesis, C.4), so that the platform is not pushed
+  /// back by its own fingers.
   [[nodiscard]] JointVector torque_of_n_m(const core::PointVectors& force_n) const noexcept;
 
-  /// By which axis the platform is turned away from the workspace's axes, times the sine of the
-  /// angle.
+  /// Returns the axis by which the platform is turned away from the workspace's axes, times the
+  /// sine of the angle.
   [[nodiscard]] Eigen::Vector3d platform_turn_rad() const noexcept;
   [[nodiscard]] Eigen::Vector3d platform_velocity_rad_per_s(
       const JointVector& velocity_rad_per_s) const noexcept;
-  /// The torques of the arm that turn the platform with this moment.
+  /// Returns the torques of the arm that turn the platform with this moment.
   [[nodiscard]] JointVector torque_of_moment_n_m(
       const Eigen::Vector3d& moment_n_m) const noexcept;
 
-  /// What holds the whole against gravity.
+  /// Returns the torques that hold everything against gravity.
   [[nodiscard]] JointVector gravity_torque_n_m() const noexcept;
 
  private:

@@ -9,12 +9,12 @@ struct mjModel_;
 
 namespace jnd::device {
 
-/// Where in data/models/exoskeleton.xml the things are that the program knows by name.
+/// Addresses in data/models/exoskeleton.xml of everything that the program knows by name.
 struct ModelAddresses {
-  /// Throws `core::Error` naming what is not there. Not real time.
+  /// Throws `core::Error` naming what is missing. Not real time.
   explicit ModelAddresses(const mjModel_& model);
 
-  // In qpos and in qvel.
+  // Addresses in qpos and in qvel.
   std::array<int, core::kNumJoints> position{}, dof{};
   std::array<int, core::kNumContactPoints> distal_position{}, distal_dof{};
   std::array<int, 3> hand_position{}, hand_dof{};

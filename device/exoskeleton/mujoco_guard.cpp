@@ -12,8 +12,8 @@
 namespace jnd::device {
 namespace {
 
-// Where an error in a step of this thread leads to. MuJoCo's step is plain C with nothing to
-// destroy, so that it may be left by a jump.
+// Where an error in a step of this thread jumps to. MuJoCo's step is plain C without anything
+// to destroy, so a jump may leave it.
 thread_local std::jmp_buf* step_escape = nullptr;
 
 void on_error(const char* message) {
@@ -22,9 +22,9 @@ void on_error(const char* message) {
                     std::string(message) + "\"; report this as a bug");
 }
 
-void on_warning(const char*) {}  // Each has a counter, too, which every step looks at.
+void on_warning(const char*) {}  // Each warning also has a counter, which every step checks.
 
-// MuJoCo keeps its handlers, and the model last loaded, for the whole process.
+// MuJoCo keeps its handlers and the last loaded model for the whole process.
 std::mutex& loading() {
   static std::mutex mutex;
   return mutex;

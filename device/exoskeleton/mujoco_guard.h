@@ -8,9 +8,9 @@ struct mjData_;
 
 namespace jnd::device {
 
-/// MuJoCo left to itself ends the process at an error, writes warnings to a file in the current
-/// folder, and resets a world in which a number went bad. Behind this guard it does neither of
-/// the first two, and the third is told.
+/// By itself MuJoCo ends the process at an error, writes warnings to a file in the current
+/// folder, and resets a world in which a number becomes invalid. Behind this guard it does
+/// neither of the first two, and the third is reported.
 
 struct MujocoDeleter {
   void operator()(mjModel_* model) const noexcept;
@@ -24,8 +24,8 @@ using MujocoData = std::unique_ptr<mjData_, MujocoDeleter>;
 /// Throws `core::Error`. Not real time.
 [[nodiscard]] MujocoData make_mujoco_data(const mjModel_& model);
 
-/// One `mj_step`. False: it raised an error, or a warning since the data were reset; the state
-/// means nothing then. Real time.
+/// Makes one `mj_step`. Returns false if it raised an error, or a warning since the data were
+/// reset; the state is then invalid. Real time.
 [[nodiscard]] bool step_mujoco(const mjModel_& model, mjData_& data) noexcept;
 
 }  // namespace jnd::device

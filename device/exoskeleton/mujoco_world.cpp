@@ -19,18 +19,19 @@ using Eigen::Map;
 using Eigen::Vector3d;
 using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-// Longer steps make the stiff magnets and stops soft.
+// Longer steps would make the stiff magnets and stops soft.
 constexpr double kMaxStep_s = 0.00125;
-// Assumptions; README.md beside the model.
+// These are assumptions; see README.md beside the model.
 constexpr double kArmEncoder_rad = 1e-5;
 constexpr double kFingerEncoder_rad = 5e-5;
 constexpr double kMagnetReach_m = 0.0003;
 constexpr double kMagnetCatches_m_per_s = 0.05;
-constexpr double kMagnetHolds_s = 0.5;  ///< Then whoever put the finger back turns away.
+/// After this time the person who put the finger back turns away.
+constexpr double kMagnetHolds_s = 0.5;
 constexpr Guiding kFingerGuiding = {.stiffness = 5000.0, .damping = 20.0, .strength = 3.0};
 constexpr Guiding kPlatformGuiding = {.stiffness = 200.0, .damping = 40.0, .strength = 15.0};
 constexpr Guiding kPlatformTurning = {.stiffness = 5.0, .damping = 0.5, .strength = 1.5};
-// Mean relative errors of a finger's torque sensors (thesis, A.4.2), taken as errors of gain:
+// Mean relative errors of a finger's torque sensors (thesis, A.4.2), used as errors of gain:
 // abduction and extension of the base, distal.
 constexpr std::array<double, core::kNumJointsPerFinger> kSensorErrorRatio = {0.0356, 0.0889,
                                                                              0.0083};
@@ -88,7 +89,7 @@ void MujocoWorld::place() {
   }
 }
 
-/// A magnet sits where the finger's tip is in the neutral pose, to the last bit.
+/// Places each magnet exactly where the finger's tip is in the neutral pose.
 void MujocoWorld::anchor_magnets() {
   reset();
   for (int point = 0; point < core::kNumContactPoints; ++point) {
@@ -129,7 +130,8 @@ void MujocoWorld::reset() {
   feel();
 }
 
-/// The motors hold the robot before anybody asks: nobody takes over one that falls.
+/// The motors hold the robot before any command comes, because a falling robot could not be
+/// taken over.
 void MujocoWorld::hold_weight() {
   for (int joint = 0; joint < core::kNumJoints; ++joint) {
     const int dof = addresses_.dof[joint];
@@ -180,7 +182,7 @@ void MujocoWorld::push(int body, const Vector3d& force_n, const Vector3d& torque
   Map<Vector3d>(data_->xfrc_applied + 6 * body + 3) = torque_n_m;
 }
 
-/// Towards the magnet's place; within the magnet's reach it takes over.
+/// Returns a force towards the magnet's place. Within its reach the magnet takes over.
 Vector3d MujocoWorld::guiding_force_n(int point) noexcept {
   const int magnet = addresses_.magnet[point];
   const int body = model_->eq_obj2id[magnet];
@@ -203,8 +205,8 @@ Vector3d MujocoWorld::guiding_force_n(int point) noexcept {
   return kFingerGuiding.effort(gap_m, speed_m_per_s);
 }
 
-/// Fingers that are put back reach the hand only if the platform is there: where too few hold
-/// it, it is carried back as well.
+/// Fingers that are put back can reach the hand only if the platform is there. So if too few
+/// hold the hand, the platform is carried back as well.
 void MujocoWorld::carry_platform() noexcept {
   const bool somebody_is_there = std::count(guided_.begin(), guided_.end(), true) > 0;
   const auto num_attached = std::count(attached_.begin(), attached_.end(), true);
@@ -243,8 +245,8 @@ void MujocoWorld::feel() noexcept {
   let_go_where_pulled();
 }
 
-/// A sensor sits behind the gear: it has what the motor does, less the gear's friction and what
-/// the motor needs for itself.
+/// A sensor is behind the gear. It measures the motor's torque minus the gear's friction and
+/// the torque that the motor needs for its own inertia.
 void MujocoWorld::sense_torques() noexcept {
   JointVector torque_n_m;
   for (int joint = 0; joint < core::kNumJoints; ++joint) {
@@ -271,14 +273,16 @@ void MujocoWorld::let_go_where_pulled() noexcept {
         std::find(addresses_.magnet.begin(), addresses_.magnet.end(), data_->efc_id[row]);
     if (magnet == addresses_.magnet.end()) continue;
     const auto point = static_cast<int>(magnet - addresses_.magnet.begin());
-    // Three rows each, one an axis; on the finger, and the other way on the hand.
+    // Each magnet has three rows, one for each axis. They act on the finger, and in the
+    // opposite direction on the hand.
     magnet_force_n_[point] = -Map<const Vector3d>(data_->efc_force + row);
     row += 2;
     if (pulling_n(point) > parameters_.break_away_n) let_go(point);
   }
 }
 
-/// What pulls the finger off the hand or shears it along; pressed onto it, a magnet holds.
+/// Returns the force that pulls the finger off the hand or shears it along. A magnet that is
+/// pressed onto the hand holds.
 double MujocoWorld::pulling_n(int point) const noexcept {
   const int body = model_->eq_obj2id[addresses_.magnet[point]];
   const Vector3d into_hand = rotation_at(data_->xmat, body) * into_hand_[point];

@@ -12,41 +12,43 @@
 
 namespace jnd::device {
 
-/// The model that every `MujocoWorld` is made of, as text: for whoever wants to draw it. Its
-/// joints are named as `core::kJointNames`.
+/// Returns the text of the model from which every `MujocoWorld` is made, for programs that draw
+/// it. Its joints have the names of `core::kJointNames`.
 [[nodiscard]] std::string_view exoskeleton_model_text() noexcept;
 
-/// The simulated apparatus with a person's hand on it, as the outside sees it: torques and the
-/// pull of the person's arm go in, what sensors say comes out, with their errors. Neither
-/// control nor medium is known here. The same torques give the same motion to the bit.
+/// The simulated apparatus with a person's hand on it, as seen from outside: joint torques and
+/// the pull of the person's arm go in, and sensor readings with their errors come out. It knows
+/// neither control nor medium. The same torques give the same motion to the bit.
 ///
-/// Each contact point holds to the hand by a magnet that lets go above its break-away force;
+/// A magnet connects each contact point to the hand, and lets go above its break-away force.
 /// `attach` is somebody who guides the loose finger back to its place.
 class MujocoWorld {
  public:
   struct Parameters {
-    double period_s = 0.001;                           ///< Of one `step`, > 0.
+    double period_s = 0.001;                           ///< Duration of one `step`, > 0.
     Eigen::Vector3d home_m{0.0, 0.0, -0.15};           ///< Middle of the hand at the start.
     Eigen::Vector3d base_m = Eigen::Vector3d::Zero();  ///< The arm's foot.
     std::array<bool, core::kNumArmJoints> arm_joint_locked{};
     std::array<bool, core::kNumContactPoints> attached = core::kAllAttached;
-    double break_away_n = 25.0;     ///< Of each magnet, > 0.
-    std::uint64_t sensor_seed = 1;  ///< Decides which sensors err up and which down.
+    double break_away_n = 25.0;  ///< Of each magnet, > 0.
+    /// Determines which sensors read too much and which too little.
+    std::uint64_t sensor_seed = 1;
   };
 
   /// Throws `core::Error` naming the field. Not real time.
   explicit MujocoWorld(const Parameters& parameters);
 
-  /// The neutral pose at rest, magnets as at first. Not real time.
+  /// Resets to rest in the neutral pose, with the magnets as at first. Not real time.
   void reset();
 
-  /// One period with these joint torques and this pull of the person's arm on the forearm.
-  /// False: the simulation is invalid, for good until `reset`. Real time.
+  /// Simulates one period with these joint torques and this pull of the person's arm on the
+  /// forearm. Returns false if the simulation is invalid, which it stays until `reset`. Real
+  /// time.
   [[nodiscard]] bool step(const JointVector& torque_n_m,
                           const Eigen::Vector3d& pull_on_forearm_n) noexcept;
   [[nodiscard]] bool is_valid() const noexcept { return valid_; }
 
-  // What sensors say. Real time.
+  // These return the sensor readings. Real time.
   [[nodiscard]] const JointVector& encoder_position_rad() const noexcept {
     return encoder_rad_;
   }
@@ -55,12 +57,12 @@ class MujocoWorld {
     return attached_;
   }
 
-  // What is true of the hand. Real time.
+  // These return the hand's true position and velocity. Real time.
   [[nodiscard]] const Eigen::Vector3d& hand_position_m() const noexcept { return hand_m_; }
   [[nodiscard]] const Eigen::Vector3d& hand_velocity_m_per_s() const noexcept {
     return hand_velocity_m_per_s_;
   }
-  /// What each magnet does to the hand; 0 where none holds.
+  /// Returns the force of each magnet on the hand; 0 if it does not hold.
   [[nodiscard]] const core::PointVectors& magnet_force_on_hand_n() const noexcept {
     return magnet_force_n_;
   }
@@ -68,12 +70,11 @@ class MujocoWorld {
   /// Takes a finger off the hand. Real time.
   void detach(int point) noexcept;
   /// From now on somebody guides the finger to its place, with 3 N at most, until its magnet
-  /// has held for half a second.
-  /// With fewer than three holding, the platform is carried along.
-  /// Real time.
+  /// has held for half a second. If fewer than three magnets hold, the platform is carried
+  /// along. Real time.
   void attach(int point) noexcept;
-  /// A load on a tip in the workspace frame, until told otherwise: a weight that hangs there.
-  /// Real time.
+  /// Sets a load on a tip, in the workspace frame, such as a weight that hangs there. It stays
+  /// until the next call. Real time.
   void load_tip(int point, const Eigen::Vector3d& force_n) noexcept {
     load_n_[point] = force_n;
   }
@@ -108,7 +109,8 @@ class MujocoWorld {
   JointVector sensor_n_m_ = JointVector::Zero();
   std::array<bool, core::kNumContactPoints> attached_ = core::kAllAttached;
   std::array<bool, core::kNumContactPoints> guided_{};
-  std::array<double, core::kNumContactPoints> held_s_{};  ///< Since a guided finger is back.
+  /// Time since a guided finger is back.
+  std::array<double, core::kNumContactPoints> held_s_{};
   core::PointVectors load_n_ = core::zero_vectors();
   core::PointVectors into_hand_;  ///< Unit vectors in the frame of the magnet's body.
   core::PointVectors magnet_force_n_ = core::zero_vectors();

@@ -15,7 +15,7 @@ constexpr double kMoved_rad = 0.005;
 constexpr double kSettle_s = 0.2;
 constexpr double kMostWeight_n = 5.0;
 constexpr double kMeasured_s = 10.0;
-constexpr double kSwingsOut_s = 1.0;  ///< Before it is measured.
+constexpr double kSwingsOut_s = 1.0;  ///< Waiting time before the measurement.
 
 ExoskeletonDevice::Parameters on_a_bench(const SimulatedBench::Parameters& parameters) {
   core::require(parameters.point >= 0 && parameters.point < core::kNumContactPoints, "point",
@@ -54,7 +54,8 @@ JointVector SimulatedBench::position_rad() const {
   return JointVector(state_.joint_position_rad.data());
 }
 
-/// Along the tip's motion, or between that and away from the base.
+/// Returns the direction of the weight: along the tip's motion, or between that and away from
+/// the base.
 Eigen::Vector3d SimulatedBench::pull_direction(FingerPose pose) const {
   const Eigen::Matrix3d& jacobian =
       exoskeleton_.kinematics().finger_jacobian(parameters_.point);
@@ -69,7 +70,7 @@ Eigen::Vector3d SimulatedBench::pull_direction(FingerPose pose) const {
     case FingerPose::kInclined:
       break;
   }
-  // The abduction's and the extension's motion are at right angles to the finger.
+  // The motions of abduction and extension are at right angles to the finger.
   const Eigen::Vector3d along = jacobian.col(0).cross(jacobian.col(1)).normalized();
   const Eigen::Vector3d outward =
       along.dot(exoskeleton_.kinematics().tip_position_m()[parameters_.point] -
@@ -129,7 +130,7 @@ FreeSpaceRegression stroke_in_free_space(double rate_hz, std::uint64_t seed,
     const StrokePlan plan{.amplitude_m = 0.2, .max_speed_m_per_s = kSpeeds_m_per_s[i]};
     hand.begin_strokes(plan,
                        core::RandomStream(seed, "stroke", {static_cast<std::int64_t>(i)}));
-    // The first stroke begins with a start from rest.
+    // The first stroke is left out, because it starts from rest.
     for (std::int64_t stroke = 0; stroke < 4; stroke = hand.strokes_finished()) {
       loop.tick();
       telemetry.fetch();

@@ -8,23 +8,23 @@
 
 namespace jnd::device {
 
-/// The simulated exoskeleton on a bench, its arm locked and nobody's hand on it: weights hang
-/// at the tip of one finger. The finger stays in its neutral pose and the weight is turned
-/// about it instead, which is the same where gravity is compensated.
+/// The simulated exoskeleton on a bench, with its arm locked and nobody's hand on it. Weights
+/// hang at the tip of one finger. Instead of the finger, the direction of the weight is turned,
+/// which is the same if gravity is compensated.
 class SimulatedBench final : public FingerBench {
  public:
   struct Parameters {
     double rate_hz = 1000.0;
-    int point = 3;           ///< The finger, as in `core::ContactPoint`.
-    std::uint64_t seed = 1;  ///< Of how fast the container is filled.
+    int point = 3;           ///< Index of the finger, as in `core::ContactPoint`.
+    std::uint64_t seed = 1;  ///< Determines how fast the container is filled.
     std::uint64_t sensor_seed = 1;
   };
 
   /// Throws `core::Error` naming the field.
   explicit SimulatedBench(const Parameters& parameters);
 
-  /// Filled until a base joint has turned by 5 mrad, half a millimetre at the tip, with 0.2 to
-  /// 0.4 N/s.
+  /// Fills the container at 0.2 to 0.4 N/s until a base joint has turned by 5 mrad, which is
+  /// half a millimetre at the tip.
   [[nodiscard]] double break_away_weight_n(FingerPose pose, int repetition) override;
   [[nodiscard]] TorqueReading torques_under(FingerPose pose, double weight_n) override;
 
@@ -39,8 +39,8 @@ class SimulatedBench final : public FingerBench {
   core::HapticState state_;
 };
 
-/// The device with a simulated hand that strokes in free space at several speeds: what it adds
-/// by itself. `on_progress` is told how much is done, 0 to 1. Throws `core::Error` if the
+/// Moves the device by a simulated hand that strokes in free space at several speeds, to
+/// measure what it adds by itself. `on_progress` gets 0 to 1. Throws `core::Error` if the
 /// device fails. Not real time.
 [[nodiscard]] FreeSpaceRegression stroke_in_free_space(
     double rate_hz, std::uint64_t seed, const std::function<void(double)>& on_progress = {});

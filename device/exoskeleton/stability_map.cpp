@@ -13,7 +13,7 @@ constexpr double kPushBegins_s = 0.05, kPushEnds_s = 0.15;
 constexpr double kPush_n = 4.0;
 constexpr double kPushedSpeed_m_per_s = 0.15;
 constexpr double kPress_n = 1.0;
-constexpr double kGap_m = 0.005;  ///< Between the lowest tip and the plane.
+constexpr double kGap_m = 0.005;  ///< Gap between the lowest tip and the plane.
 constexpr double kFirmMagnet_n = 1e6;
 
 constexpr StabilityLadder kViscosities_pa_s = {.first = 2.0, .last = 512.0};
@@ -27,14 +27,14 @@ ExoskeletonDevice::Parameters parameters_of(const StabilityCase& wanted) {
                                            .extra_delay_s = wanted.extra_delay_s};
   const bool is_detached = wanted.contact == Contact::kDetached;
   parameters.attached.fill(!is_detached);
-  // Nobody would hold it.
+  // Without a hand, nothing else would hold the arm.
   parameters.arm_joint_locked.fill(is_detached);
   parameters.break_away_n =
       wanted.contact == Contact::kSlipping ? kSlippingBreakAwayN : kFirmMagnet_n;
   return parameters;
 }
 
-/// The exoskeleton as it is, pushed; it claims that every point is attached.
+/// The exoskeleton with disturbances. It claims that every point is attached.
 class DisturbedExoskeleton final : public HapticDevice {
  public:
   explicit DisturbedExoskeleton(const StabilityCase& wanted)
@@ -91,7 +91,7 @@ class DisturbedExoskeleton final : public HapticDevice {
   Pattern pattern_ = Pattern::kTogether;
   bool is_on_plane_ = false;
   std::int64_t tick_ = 0;
-  std::array<bool, core::kNumContactPoints> is_moving_{};  ///< It was pushed enough.
+  std::array<bool, core::kNumContactPoints> is_moving_{};  ///< The point was pushed enough.
 };
 
 core::HapticCommand command_of(const core::MediumAmounts& medium) {

@@ -8,10 +8,10 @@
 
 namespace jnd::device {
 
-/// How the hand is on the exoskeleton while its stability is measured.
+/// How the hand is attached to the exoskeleton while its stability is measured.
 enum class Contact {
   kAttached,  ///< Every magnet holds, whatever pulls.
-  /// Every magnet lets go above `kSlippingBreakAwayN` and somebody puts the finger back at
+  /// Every magnet lets go above `kSlippingBreakAwayN`, and somebody puts the finger back at
   /// once.
   kSlipping,
   kDetached,  ///< No finger is on the hand.
@@ -24,30 +24,32 @@ inline constexpr double kSlippingBreakAwayN = 1.0;
 /// One row of the map.
 struct StabilityCase {
   double rate_hz = 1000.0;
-  double extra_delay_s = 0.0;  ///< Of the force, beyond the tick that it takes anyway.
+  /// Delay of the force, beyond the one tick that it always takes.
+  double extra_delay_s = 0.0;
   Contact contact = Contact::kAttached;
 };
 
 struct ExoskeletonStability {
-  StabilityLimit viscosity_pa_s;     ///< Of a viscous fluid, force = 12 area / length mu v.
-  StabilityLimit stiffness_n_per_m;  ///< Of the solid plane, without damping and friction.
+  StabilityLimit viscosity_pa_s;     ///< For a viscous fluid, force = 12 area / length mu v.
+  StabilityLimit stiffness_n_per_m;  ///< For the solid plane, without damping and friction.
 };
 
-/// The largest values for which the simulated exoskeleton settles (`settles`) after each of two
-/// disturbances: every tip pushed by 4 N until it moves at 0.15 m/s, for 100 ms at most, all
-/// the same way, and alternately to and fro; across the hand plane for a fluid, across the
-/// surface for a plane that the lowest tip just touches and onto which every tip is pressed by
-/// 1 N. The hand is held at home by its arm and nobody strokes.
+/// Returns the largest values for which the simulated exoskeleton settles (`settles`) after
+/// each of two disturbances. Every tip is pushed by 4 N until it moves at 0.15 m/s, for 100 ms
+/// at most: all in the same direction, and alternately to and fro. The push is across the hand
+/// plane for a fluid, and across the surface for a plane. The lowest tip just touches the
+/// plane, and every tip is pressed onto it by 1 N. The arm holds the hand at home and nobody
+/// strokes.
 ///
-/// The loop is told that every point is attached, whether or not it is: what the limiter knows
-/// of attachment is out of the way, so that what it protects from can be seen.
+/// The loop is told that every point is attached, whether it is or not. So the limiter, which
+/// otherwise knows of detached points, does not hide the instability from which it protects.
 ///
-/// `is_cancelled`, asked before every run, ends it by a throw of its own; may be empty. Throws
-/// `core::Error` for a rate or delay the device cannot do. Not real time.
+/// `is_cancelled` is called before every run and may throw to stop; it may be empty. Throws
+/// `core::Error` for a rate or delay that the device cannot do. Not real time.
 [[nodiscard]] ExoskeletonStability measure_stability(
     const StabilityCase& wanted, const std::function<void()>& is_cancelled = {});
 
-/// One such run, for whoever wants to see a single value.
+/// Does one such run, to see a single value.
 [[nodiscard]] bool is_stable_in(const StabilityCase& wanted, const core::MediumAmounts& medium);
 
 }  // namespace jnd::device

@@ -12,7 +12,8 @@ using core::require;
 using core::require_not_negative;
 using core::require_positive;
 
-/// One comparison for all: a sum with anything not finite in it is not finite itself.
+/// One comparison serves all, because a sum with any term that is not finite is not finite
+/// itself.
 bool are_finite(const core::PointVectors& force_n) noexcept {
   double sum = 0.0;
   for (const Eigen::Vector3d& force : force_n) sum += force.sum();
@@ -73,8 +74,8 @@ JointVector TorqueControl::torque_n_m(const ExoskeletonKinematics& kinematics,
     human_torque_n_m_ +=
         feed_forward_weight_ratio_ *
         (device::human_torque_n_m(measured.torque_n_m, gravity_n_m) - human_torque_n_m_);
-    // Nobody does more to a joint than its motor could; a sensor that says so is broken. What
-    // is no number has to stay one, to be seen below.
+    // Nobody exerts more on a joint than its motor could, so a sensor that says so is broken. A
+    // value that is not a number must stay one, to be detected below.
     if (std::isfinite(human_torque_n_m_.sum())) {
       human_torque_n_m_ = clamped(human_torque_n_m_, max_torque_n_m_);
     }
@@ -94,7 +95,7 @@ JointVector TorqueControl::torque_n_m(const ExoskeletonKinematics& kinematics,
   if (moment_n_m.norm() > most_n_m) moment_n_m *= most_n_m / moment_n_m.norm();
   torque_n_m += kinematics.torque_of_moment_n_m(moment_n_m);
   torque_n_m += gravity_n_m;
-  // A clamp would hide what is no number behind its largest torque.
+  // A clamp would turn a value that is not a number into the largest torque.
   if (!std::isfinite(torque_n_m.sum())) {
     reset();
     fault_ = core::Fault::kNonFiniteState;
@@ -103,7 +104,8 @@ JointVector TorqueControl::torque_n_m(const ExoskeletonKinematics& kinematics,
   return clamped(torque_n_m, max_torque_n_m_);
 }
 
-/// A robot that falls pulls at the hand more than any force that was ever asked for.
+/// Holds the robot's weight, because a falling robot pulls at the hand more than any requested
+/// force.
 JointVector TorqueControl::faulted(const JointVector& gravity_n_m) const noexcept {
   if (!std::isfinite(gravity_n_m.sum())) return JointVector::Zero();
   return clamped(gravity_n_m, max_torque_n_m_);

@@ -19,7 +19,8 @@ double LimitProtection::torque_n_m(double position_rad,
 }
 
 LimitProtection default_protection(int joint) {
-  // The elbow stays up: else the arm, which has a joint more than a platform needs, winds.
+  // The elbow has to stay up, because otherwise the arm, which has one joint more than a
+  // platform needs, would turn.
   if (joint == 2) return {-0.35, 0.35, 10.0, 1.0, 10.0};
   if (joint < core::kNumArmJoints) {
     constexpr double kMargin_rad = 0.1;
@@ -30,8 +31,8 @@ LimitProtection default_protection(int joint) {
             .damping_n_m_s_per_rad = 5.0,
             .max_torque_n_m = 20.0};
   }
-  // Play of some 2 cm at the tip each way, then about 200 N/m, up to 5 N at a tip that is 6 to
-  // 7 cm away: assumptions.
+  // A play of some 2 cm at the tip in each direction, then about 200 N/m, up to 5 N at a tip
+  // that is 6 to 7 cm away. These are assumptions.
   constexpr double kMost_n_m = 0.35;
   switch ((joint - core::kNumArmJoints) % core::kNumJointsPerFinger) {
     case 0:

@@ -8,10 +8,10 @@
 
 namespace jnd::device {
 
-/// Velocities of joints from their encoders: differences over one period through a low-pass of
-/// first order,
+/// Computes the velocities of joints from their encoders, by differences over one period and a
+/// low-pass of first order,
 ///
-///     v += (1 - exp(-2 pi cutoff period)) ((position - last position) / period - v),
+///   v += (1 - exp(-2 pi cutoff period)) ((position - last position) / period - v),
 ///
 /// which lags by 1 / (2 pi cutoff) behind a steady acceleration. Real time except the
 /// constructor.
@@ -24,14 +24,14 @@ class VelocityFilter {
     weight_ratio_ = 1.0 - std::exp(-2.0 * std::numbers::pi * cutoff_hz * period_s);
   }
 
-  /// At rest there.
+  /// Starts at rest at this position.
   void start(const JointVector& position_rad) noexcept {
     position_rad_ = position_rad;
     velocity_rad_per_s_.setZero();
   }
 
-  /// One period later. A joint whose encoder said what is no number starts again at rest from
-  /// the next number on.
+  /// Takes the positions one period later. A joint whose encoder gave a value that is not a
+  /// number starts again at rest with the next number.
   const JointVector& update(const JointVector& position_rad) noexcept {
     const auto lost = !(position_rad_ + velocity_rad_per_s_).array().isFinite();
     if (lost.any()) {

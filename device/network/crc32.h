@@ -25,8 +25,9 @@ inline constexpr std::array<std::uint32_t, 256> kTable = make_table();
 
 }  // namespace crc32_detail
 
-/// The checksum of Ethernet, gzip and PNG (ISO 3309): polynomial 0x04c11db7 reflected, begun
-/// and ended with all bits inverted. It finds every burst of errors up to 32 bits. Real time.
+/// Returns the checksum of Ethernet, gzip and PNG (ISO 3309): polynomial 0x04c11db7 reflected,
+/// with all bits inverted at the beginning and the end. It detects every burst of errors up to
+/// 32 bits. Real time.
 [[nodiscard]] constexpr std::uint32_t crc32(std::span<const std::byte> bytes) noexcept {
   std::uint32_t remainder = 0xffffffffu;
   for (const std::byte byte : bytes) {

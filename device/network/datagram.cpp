@@ -12,7 +12,7 @@
 namespace jnd::device::wire {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x4b4c444a;  // "JDLK", as it lies in the bytes.
+constexpr std::uint32_t kMagic = 0x4b4c444a;  // "JDLK" in the order of the bytes.
 constexpr std::size_t kVersionAt = 4;
 constexpr std::size_t kKindAt = 6;
 constexpr std::size_t kSizeAt = 20;
@@ -22,7 +22,8 @@ static_assert(sizeof(core::RandomStream) == sizeof(std::uint64_t) &&
               "a random stream travels as its state");
 static_assert(core::kNumContactPoints <= 8, "bits of a byte say which are attached");
 
-// One function a content, for both directions: the order of the fields stands once.
+// Each content has one function for both directions, so that the order of its fields is written
+// once.
 
 template <typename Bytes, typename Flag>
 void flag(Bytes& bytes, Flag& value) noexcept {
@@ -32,7 +33,7 @@ void flag(Bytes& bytes, Flag& value) noexcept {
   if constexpr (Bytes::kReads) value = bit == 1;
 }
 
-/// An enumeration whose values go from `lowest` to `highest`.
+/// An enumeration with values from `lowest` to `highest`.
 template <typename Bytes, typename Enum, typename Limit>
 void choice(Bytes& bytes, Enum& value, Limit lowest, Limit highest) noexcept {
   auto number = static_cast<std::uint8_t>(value);
@@ -45,7 +46,7 @@ void choice(Bytes& bytes, Enum& value, Limit lowest, Limit highest) noexcept {
   if constexpr (Bytes::kReads) value = static_cast<Limit>(number);
 }
 
-/// A count, 32 bits wide on the wire.
+/// A count, with 32 bits on the wire.
 template <typename Bytes, typename Count>
 void count(Bytes& bytes, Count& value, std::uint32_t highest) noexcept {
   auto number = static_cast<std::uint32_t>(value);
@@ -84,7 +85,7 @@ void bits(Bytes& bytes, Bits& values) noexcept {
   }
 }
 
-/// 0 on the wire where it is infinite: the device does not say.
+/// An infinite number is 0 on the wire: the device does not say.
 template <typename Bytes, typename Number>
 void positive_or_unsaid(Bytes& bytes, Number& value) noexcept {
   double number = std::isfinite(value) ? value : 0.0;
@@ -93,7 +94,7 @@ void positive_or_unsaid(Bytes& bytes, Number& value) noexcept {
   if constexpr (Bytes::kReads) value = number > 0.0 ? number : core::kInfinity;
 }
 
-/// Which points there are, a bit each, 32 bits wide; the shares come later.
+/// One bit for each existing point, with 32 bits on the wire. The shares come later.
 template <typename Bytes, typename Shares>
 std::uint32_t point_bits(Bytes& bytes, const Shares& shares) noexcept {
   std::uint32_t bits = 0;
@@ -128,7 +129,7 @@ void channel_values(Bytes& bytes, Channels& channels) noexcept {
   bytes.number(channels.buttons);
 }
 
-/// 0 by a person, 1 as it is ordered, 2 as it likes.
+/// 0: moved by a person; 1: moves as ordered; 2: moves as it likes.
 template <typename Bytes, typename Flag>
 void movement(Bytes& bytes, Flag& by_itself, Flag& takes_orders) noexcept {
   std::uint8_t kind = by_itself ? (takes_orders ? 1 : 2) : 0;
@@ -271,8 +272,8 @@ requires std::same_as<std::remove_const_t<T>, Halt> ||
     std::same_as<std::remove_const_t<T>, Goodbye>
 void fields(Bytes&, T&) noexcept {}
 
-/// Makes the content of this kind, the number of an alternative from 1 on. False: there is
-/// none.
+/// Makes the content of this kind, which is the number of an alternative, from 1. Returns false
+/// if there is none.
 template <std::size_t kKind = 1>
 bool make_content(std::uint16_t kind, Content& content) noexcept {
   if constexpr (kKind <= std::variant_size_v<Content>) {

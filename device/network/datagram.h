@@ -17,109 +17,116 @@
 #include "device/network/link_quality.h"
 #include "device/stroking_arm.h"
 
-/// What a device and the program say to each other across a network: datagrams of fixed sizes,
-/// little endian, described byte by byte in README.md beside this file. What comes in is never
-/// trusted: see `decode`.
+/// What a device and the program send to each other across a network: datagrams of fixed sizes
+/// in little-endian order. README.md beside this file describes them byte by byte. Received
+/// bytes are never trusted: see `decode`.
 namespace jnd::device::wire {
 
 inline constexpr std::uint16_t kVersion = 3;
 inline constexpr std::size_t kHeaderBytes = 40;
 inline constexpr std::size_t kChecksumBytes = 4;
-/// Of the largest datagram; below what any Ethernet carries in one piece.
+/// Size of the largest datagram, which is below what any Ethernet carries in one piece.
 inline constexpr std::size_t kMaxBytes = 1280;
-/// However long a device says that its measurements may stand in: more is refused.
+/// Longest time for which a measurement may be reused, whatever a device asks for. A larger
+/// request is refused.
 inline constexpr double kMostStale_s = 0.1;
 
-/// What every datagram begins with, besides magic, version, kind and size.
+/// The beginning of every datagram, besides magic, version, kind and size.
 struct Header {
-  /// Drawn by the device for each connection; 0 where there is none yet.
+  /// Drawn by the device for each connection; 0 if there is none yet.
   std::uint64_t stream_id = 0;
-  /// One more than the sender's last on this stream, whatever its kind; wraps. 0 in hellos,
-  /// welcomes and refusals, which belong to none.
+  /// One more than the sender's last number on this stream, whatever the kind; it wraps. 0 in
+  /// hellos, welcomes and refusals, which belong to no stream.
   std::uint32_t sequence = 0;
-  std::int64_t sent_ns = 0;  ///< The sender's clock, any epoch.
-  std::int64_t echo_ns = 0;  ///< `sent_ns` of the newest that it had received; 0: none.
+  std::int64_t sent_ns = 0;  ///< The sender's clock, with any epoch.
+  /// `sent_ns` of the newest datagram that the sender had received; 0 for none.
+  std::int64_t echo_ns = 0;
 };
 
-// The contents, in the order of their kinds, from 1 on.
+// The contents in the order of their kinds, from 1.
 
-/// Program to device: wants to connect, or only to know what the device can do.
+/// Program to device: wants to connect, or only to know the device's capabilities.
 struct Hello {
   std::uint64_t token = 0;  ///< Drawn by the program; the answer repeats it.
   bool only_asks = false;
-  std::uint64_t challenge = 0;  ///< Of the last welcome: no old hello opens a stream.
-  double rate_hz = 1000.0;      ///< Of the commands that will come, > 0.
+  /// That of the last welcome, so that no old hello opens a stream.
+  std::uint64_t challenge = 0;
+  double rate_hz = 1000.0;  ///< Rate of the coming commands, > 0.
 };
 
-using DeviceText = std::array<char, 32>;  ///< Printable ASCII, zeros behind it.
+using DeviceText = std::array<char, 32>;  ///< Printable ASCII, filled up with zeros.
 
-/// Device to program: what it can do, and the stream from now on, in the header.
+/// Device to program: its capabilities, and in the header the stream from now on.
 struct Welcome {
   std::uint64_t token = 0;
   DeviceCapabilities capabilities;
   DeviceText name{};
-  DeviceText serial{};          ///< Empty: it does not say.
-  DeviceText firmware{};        ///< Likewise.
-  std::uint64_t challenge = 0;  ///< What the next hello that opens a stream has to repeat.
+  DeviceText serial{};          ///< Empty if unknown.
+  DeviceText firmware{};        ///< Empty if unknown.
+  std::uint64_t challenge = 0;  ///< The next hello that opens a stream has to repeat it.
 };
 
 enum class RefusalReason : std::uint8_t {
   kBusy = 1,           ///< Another program is connected.
-  kUnknownStream = 2,  ///< The stream in the header is none, or none any more.
-  kOtherVersion = 3,   ///< The header says which one the device speaks.
-  kOtherKey = 4,       ///< The keys of both sides differ, or only one has one.
+  kUnknownStream = 2,  ///< The stream in the header does not exist, or no longer.
+  kOtherVersion = 3,   ///< The header has the version of the device.
+  kOtherKey = 4,       ///< The keys of the two sides differ, or only one side has one.
 };
 
 /// Device to program.
 struct Refusal {
-  std::uint64_t token = 0;  ///< Of the hello; 0 if it was none.
+  std::uint64_t token = 0;  ///< Token of the hello; 0 if it was no hello.
   RefusalReason reason = RefusalReason::kBusy;
 };
 
-/// Device to program, each of its ticks: what was measured, and what became of the force.
+/// Device to program, in each of its ticks: the measurement, and what became of the force.
 struct State {
   core::HapticState measured;
-  core::ContactSums contact_sums;  ///< Of a simulation, else zeros.
+  core::ContactSums contact_sums;  ///< From a simulation; otherwise zeros.
   std::int64_t strokes_finished =
-      0;                           ///< Of the simulated hand, since its last order to stroke.
-  std::uint32_t armed_number = 0;  ///< Of the last arming that was granted; 0: none yet.
-  std::uint32_t order_number = 0;  ///< Of the last order that was taken; 0: none yet.
+      0;  ///< Of the simulated hand, since its last order to stroke.
+  /// Number of the last arming that was granted; 0 for none yet.
+  std::uint32_t armed_number = 0;
+  std::uint32_t order_number = 0;  ///< Number of the last order that was taken; 0 for none yet.
   bool armed = false;              ///< Forces are passed on.
-  bool is_measured = false;        ///< Else the device could not be read: old or zeros.
-  bool is_home = false;            ///< The simulated hand, since its last order.
+  /// If false, the device could not be read: the measurement is old or zeros.
+  bool is_measured = false;
+  bool is_home = false;  ///< The simulated hand has come home since its last order.
   core::Fault fault = core::Fault::kNone;      ///< Why it was disarmed last.
-  LinkLevel level = LinkLevel::kUnacceptable;  ///< Of what comes from the program.
+  LinkLevel level = LinkLevel::kUnacceptable;  ///< Quality of the connection from the program.
 };
 
-/// Program to device, each of its ticks.
+/// Program to device, in each of its ticks.
 struct Command {
-  /// Of the arming asked for, from 1 on. A program raises it only after its own loop has
-  /// latched a fault; the device grants it only to a command without any force.
+  /// Number of the requested arming, from 1. A program raises it only after its own loop has
+  /// latched a fault. The device grants it only to a command without any force.
   std::uint32_t arm_number = 0;
-  std::uint32_t answered_sequence = 0;  ///< Of the state that the force answers to.
+  std::uint32_t answered_sequence = 0;  ///< Number of the state to which the force responds.
   core::PointVectors force_on_hand_n = core::zero_vectors();
 };
 
-/// Program to a simulated device, until a state has taken its number: all that was ordered so
-/// far, so that only the newest has to arrive.
+/// Program to a simulated device, until a state reports its number. It contains everything
+/// ordered so far, so only the newest order has to arrive.
 struct Order {
-  std::uint32_t number = 0;           ///< From 1 on, rising.
-  std::uint32_t movement_number = 0;  ///< Of the order that it moves by; 0: none yet.
-  std::uint32_t num_put_back = 0;     ///< How often fingers were to be put back.
-  bool stroke = false;                ///< How it moves; else it goes home.
+  std::uint32_t number = 0;  ///< From 1, increasing.
+  /// Number of the order by which the hand moves; 0 for none yet.
+  std::uint32_t movement_number = 0;
+  std::uint32_t num_put_back = 0;  ///< How often fingers were to be put back.
+  bool stroke = false;             ///< Whether it strokes; if not, it goes home.
   StrokePlan plan;
   core::RandomStream random{0, "stroke"};
 };
 
-/// Program to device: no force, from now until armed again.
+/// Program to device: no force from now until it is armed again.
 struct Halt {};
 
-/// Either way: the connection is over.
+/// Either side: the connection is over.
 struct Goodbye {};
 
 using Content = std::variant<Hello, Welcome, Refusal, State, Command, Order, Halt, Goodbye>;
 
-/// `std::visit` that has nothing to throw: a content always is one of its kinds. Real time.
+/// Works like `std::visit`, but never throws, because a content always is one of its kinds.
+/// Real time.
 template <std::size_t kIndex = 0, typename AnyContent, typename Visitor>
 void visit_content(AnyContent& content, const Visitor& visitor) noexcept {
   if constexpr (kIndex < std::variant_size_v<Content>) {
@@ -133,7 +140,7 @@ struct Datagram {
   Content content;
 };
 
-/// Why something is no datagram of ours.
+/// Why something is no valid datagram.
 enum class Problem : std::uint8_t {
   kNone,
   kTooShort,
@@ -147,7 +154,7 @@ enum class Problem : std::uint8_t {
   kOtherKey,  ///< See `DatagramSeal`.
 };
 
-/// "wrong_checksum", as JSON spells it. Real time.
+/// Returns "wrong_checksum" and its like, as JSON spells them. Real time.
 [[nodiscard]] std::string_view name(Problem problem) noexcept;
 
 /// What is wrong with bytes that `decode` refuses, a part of a sentence with the kind, the
@@ -159,17 +166,17 @@ enum class Problem : std::uint8_t {
 [[nodiscard]] std::size_t encode(const Datagram& datagram,
                                  std::span<std::byte, kMaxBytes> bytes) noexcept;
 
-/// Takes nothing on trust: what it accepts is finite, within its range, and encodes to the very
-/// same bytes. With a problem, `datagram` is undefined. Real time.
+/// Trusts nothing: what it accepts is finite, within its range, and encodes to exactly the same
+/// bytes. If there is a problem, `datagram` is undefined. Real time.
 [[nodiscard]] Problem decode(std::span<const std::byte> bytes, Datagram& datagram) noexcept;
 
-/// The version that something with our magic claims; 0 without it. Real time.
+/// Returns the version that bytes with our magic claim, or 0 without the magic. Real time.
 [[nodiscard]] std::uint16_t version_of(std::span<const std::byte> bytes) noexcept;
 
-/// The size that something of our version claims; 0: it is not of it. Real time.
+/// Returns the size that bytes of our version claim, or 0 for others. Real time.
 [[nodiscard]] std::size_t size_of(std::span<const std::byte> bytes) noexcept;
 
-/// Neither hello nor welcome nor refusal, by the kind that it claims. Real time.
+/// Whether its claimed kind is neither hello nor welcome nor refusal. Real time.
 [[nodiscard]] bool is_of_stream(std::span<const std::byte> bytes) noexcept;
 
 }  // namespace jnd::device::wire

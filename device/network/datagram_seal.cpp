@@ -43,7 +43,7 @@ wire::Problem DatagramSeal::read(std::span<const std::byte> bytes,
                                  wire::Datagram& datagram) const noexcept {
   const std::size_t told = wire::size_of(bytes);
   if (!key_) {
-    // Sealed, and there is nothing here to open it with.
+    // The datagram is sealed, and this side has no key.
     if (told != 0 && told + kBytes == bytes.size()) return wire::Problem::kOtherKey;
     return wire::decode(bytes, datagram);
   }

@@ -11,19 +11,19 @@
 
 namespace jnd::device {
 
-/// Puts datagrams into bytes and back, for one side of a connection. With a key it seals each
-/// by 16 bytes behind it, the first half of an HMAC-SHA-256 over all of it, and takes only what
-/// the other side has sealed. What belongs to a stream is sealed by a key of that stream and
-/// direction alone, made of the shared key, the program's token and the device's stream ID, so
-/// that nothing that was said on another stream, or by oneself, can be said again. One thread
-/// at a time.
+/// Converts datagrams to bytes and back, for one side of a connection. With a key it appends a
+/// seal of 16 bytes to each, the first half of an HMAC-SHA-256 over all of it, and accepts only
+/// what the other side has sealed. Datagrams of a stream are sealed by a key for that stream
+/// and direction alone, which is made from the shared key, the program's token and the device's
+/// stream ID. So nothing that was sent on another stream, or in the other direction, can be
+/// replayed. One thread at a time may use it.
 class DatagramSeal {
  public:
   static constexpr std::size_t kBytes = 16;
   static constexpr std::size_t kMostBytes = wire::kMaxBytes + kBytes;
   enum class Side { kProgram, kDevice };
 
-  /// Whose side this is.
+  /// `side` is the side that uses this object.
   DatagramSeal(Side side, const std::optional<DeviceKey>& key) noexcept
       : side_(side), key_(key) {}
 
@@ -33,12 +33,12 @@ class DatagramSeal {
   /// time.
   void begin_stream(std::uint64_t token, std::uint64_t stream_id) noexcept;
 
-  /// Returns how many bytes were written. Real time.
+  /// Returns the number of written bytes. Real time.
   [[nodiscard]] std::size_t write(const wire::Datagram& datagram,
                                   std::span<std::byte, kMostBytes> bytes) const noexcept;
 
-  /// As `wire::decode`; besides `kOtherKey`, where key or seal are not the other side's. Real
-  /// time.
+  /// Works like `wire::decode`, and returns `kOtherKey` if key or seal are not those of the
+  /// other side. Real time.
   [[nodiscard]] wire::Problem read(std::span<const std::byte> bytes,
                                    wire::Datagram& datagram) const noexcept;
 
@@ -48,7 +48,7 @@ class DatagramSeal {
   Side side_;
   std::optional<DeviceKey> key_;
   bool has_stream_ = false;
-  DeviceKey to_device_{}, to_program_{};  ///< Keys of the stream, one for each direction.
+  DeviceKey to_device_{}, to_program_{};  ///< Keys of the stream for the two directions.
 };
 
 }  // namespace jnd::device

@@ -32,7 +32,7 @@ std::string hexadecimal(const DeviceKey& key) {
   return digits;
 }
 
-/// A file that is closed whatever happens.
+/// A file that is always closed.
 class OpenFile {
  public:
   OpenFile(const fs::path& file, int flags)

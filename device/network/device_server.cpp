@@ -12,7 +12,7 @@ namespace {
 
 using core::Fault;
 
-/// More than come in a step, and few enough that a flood costs no step.
+/// More than arrive in a step, but few enough that a flood costs no step.
 constexpr int kMostTakenByServer = 256;
 
 std::int64_t nanoseconds(double duration_s, const char* field) {
@@ -30,14 +30,14 @@ core::ForceLimiter::Parameters limits_of(const DeviceCapabilities& can, double s
   return limits;
 }
 
-/// As much of it as there is room for.
+/// Returns as much of the words as there is room for.
 wire::DeviceText text_of(std::string_view words) noexcept {
   wire::DeviceText text{};
   std::copy_n(words.begin(), std::min(words.size(), text.size()), text.begin());
   return text;
 }
 
-/// What it says of itself, some of it once it is open.
+/// Enters what the device says about itself, which may be complete only once it is open.
 void introduce(const HapticDevice& device, wire::Welcome& welcome) {
   const DeviceIdentity identity = device.identity();
   welcome.name = text_of(identity.model);
@@ -119,7 +119,7 @@ void DeviceServer::step(std::int64_t now_ns) noexcept {
 }
 
 void DeviceServer::dismiss(std::int64_t now_ns) noexcept {
-  // Twice, for there is no answer; the program would notice the silence, too.
+  // It is sent twice, because there is no answer. The program would also notice the silence.
   for (int i = 0; client_ && i < 2; ++i) {
     send(client_->address, client_->stream_id, wire::Goodbye{}, now_ns);
   }
@@ -158,7 +158,8 @@ void DeviceServer::take_in(std::int64_t now_ns) noexcept {
                incoming_.header.stream_id == client_->stream_id) {
       take_from_client(incoming_.header, incoming_.content, now_ns);
     } else if (!seal_.has_key() && std::holds_alternative<wire::Command>(incoming_.content)) {
-      // With a key, whoever had heard a command could have this answer sealed for later use.
+      // With a key there is no answer, because an eavesdropper could have it sealed for later
+      // use.
       refuse(from, incoming_.header.stream_id, {.reason = wire::RefusalReason::kUnknownStream},
              now_ns);
     }
@@ -172,7 +173,8 @@ void DeviceServer::refuse(const Address& to, std::uint64_t stream_id,
   send(to, stream_id, refusal, now_ns);
 }
 
-/// To somebody whom we do not understand: without a seal, for words alone.
+/// Answers a sender whom we do not understand, without a seal, so that people can read the
+/// reason.
 void DeviceServer::hint(const Address& to, wire::RefusalReason reason,
                         std::int64_t now_ns) noexcept {
   if (refused_in_step_) return;
@@ -188,16 +190,17 @@ void DeviceServer::take(const wire::Hello& hello, const Address& from,
   const bool is_known = client_ && from == client_->address;
   if (client_ && !is_known && !hello.only_asks) {
     ++counts_.num_turned_away;
-    // Refused, it must not be worth anything later.
+    // The challenge of a refused hello must not be valid later.
     if (hello.challenge == welcome_.challenge) ++welcome_.challenge;
     return refuse(from, 0, {.token = hello.token, .reason = wire::RefusalReason::kBusy},
                   now_ns);
   }
-  // The same hello again: our answer was lost.
+  // If the same hello comes again, our answer was lost.
   const bool is_again = is_known && hello.token == client_->token;
-  // One from long ago, which somebody has kept, opens nothing.
+  // An old hello that somebody recorded opens nothing.
   const bool opens = !hello.only_asks && (is_again || hello.challenge == welcome_.challenge);
-  // What opens nothing new can be said again by anybody: it must not take the place of others.
+  // Anybody can repeat a hello that opens nothing new. It must not use up the answers to
+  // others.
   constexpr int kMostWelcomes = 8;
   if ((!opens || is_again) && ++num_welcomed_in_step_ > kMostWelcomes) return;
   welcome_.token = hello.token;
@@ -263,15 +266,15 @@ void DeviceServer::take(const wire::Order& order) noexcept {
   if (order.movement_number <= client_->movement_number) return;
   client_->movement_number = order.movement_number;
   if (order.stroke) {
-    // It does not throw: the parser let only a valid plan pass.
+    // This does not throw, because the parser accepts only valid plans.
     hand->begin_strokes(order.plan, order.random);
   } else {
     hand->go_home();
   }
 }
 
-/// Held up with the whole machine, what waits here may be as old as the pause: nobody could
-/// tell its age, for our own states stood still, too.
+/// If the whole machine was held up, what waits here may be as old as the pause. Its age is
+/// unknown, because our own states stood still, too.
 void DeviceServer::watch_own_pace(std::int64_t now_ns) noexcept {
   const std::int64_t pause_ns = now_ns - last_step_ns_.value_or(now_ns);
   last_step_ns_ = now_ns;
@@ -307,7 +310,7 @@ bool DeviceServer::answers_in_time(std::int64_t now_ns) const noexcept {
 void DeviceServer::arm_or_disarm(std::int64_t now_ns) noexcept {
   const wire::Command& command = client_->command;
   if (!client_->is_recent || command.arm_number == state_.armed_number) return;
-  // It asks for another arming, so it means no force of the one before.
+  // The command asks for another arming, so it does not mean the force of the one before.
   armed_ = false;
   if (quality_.is_broken()) quality_.judge_anew();
   if (command.arm_number == 0 || !is_without_force(command) || !quality_.is_settled() ||
@@ -351,14 +354,14 @@ void DeviceServer::measure() noexcept {
 void DeviceServer::apply_force() noexcept {
   core::PointVectors force_on_hand_n = core::zero_vectors();
   const bool is_enabled = state_.measured.enabled;
-  // Whoever closes the switch must not be met by a force that waited for it.
+  // A person who closes the switch must not meet a force that waited for it.
   if (armed_ && is_enabled && !was_enabled_ && !is_without_force(client_->command)) {
     disarm(Fault::kNotEnabled);
   }
   was_enabled_ = is_enabled;
   if (armed_ && is_enabled) {
     force_on_hand_n = client_->command.force_on_hand_n;
-    // Who asks for none gets none at once: a stop is not slowed down by the slew.
+    // A request for zero force takes effect at once, because the slew must not delay a stop.
     if (is_without_force(client_->command)) limiter_.rearm();
     (void)limiter_.limit(state_.measured.attached, state_.measured.tip_velocity_m_per_s,
                          force_on_hand_n);
@@ -370,7 +373,8 @@ void DeviceServer::apply_force() noexcept {
     return;
   }
   disarm(device_.fault() != Fault::kNone ? device_.fault() : Fault::kDeviceWriteFailed);
-  // The last force would stand; as often as the loop does it at a device of its own.
+  // Otherwise the last force would persist. The halt is repeated as often as the loop does for
+  // a local device.
   constexpr int kNumHalts = 10;
   if (num_failed_writes_ < kNumHalts) device_.halt();
   num_failed_writes_ = std::min(num_failed_writes_ + 1, kNumHalts);
@@ -389,7 +393,8 @@ void DeviceServer::tell_client(std::int64_t now_ns) noexcept {
   send(client_->address, client_->stream_id, state_, now_ns);
 }
 
-/// Not where a program whose connection broke off says hello anew: for that the hand goes on.
+/// This does not apply to a program whose connection broke off and that says hello again: the
+/// hand continues for it.
 void DeviceServer::part_with_client() noexcept {
   was_used_ |= client_.has_value();
   end_session();
@@ -404,7 +409,7 @@ void DeviceServer::end_session() noexcept {
 
 void DeviceServer::send(const Address& to, std::uint64_t stream_id,
                         const wire::Content& content, std::int64_t now_ns) noexcept {
-  // Whoever is welcomed or refused has no stream yet, or none any more.
+  // The receiver of a welcome or refusal has no stream yet, or no longer.
   const bool is_of_stream = std::holds_alternative<wire::State>(content) ||
                             std::holds_alternative<wire::Goodbye>(content);
   if (is_of_stream) sent_ns_[place_of(sequence_)] = now_ns;

@@ -13,51 +13,55 @@
 
 namespace jnd::device {
 
-/// Serves a device to one program at a time, across a network. It trusts nothing that comes in:
-/// a force is passed on only while
-///   - it was asked for on this stream, by the address that opened it;
-///   - the connection has been good for a while when it was armed;
-///   - a command newer than all before has come within `watchdog_s`;
-///   - that command answers to a state younger than `max_answer_age_s`;
-///   - the steps themselves came without a pause of `watchdog_s`;
-///   - the device was read in this step, and its enabling switch is closed;
-/// and within limits of its own, as `core::ForceLimiter` has them. Whatever fails means no
-/// force at once, until the program arms again by a command with a new number and without any
-/// force. So neither a program that died nor one that came back can make a force step.
+/// Serves a device to one program at a time, across a network. It trusts nothing that it
+/// receives. It passes a force on only while
+/// - it was requested on this stream, by the address that opened it;
+/// - the connection had been good for a while when the device was armed;
+/// - a command newer than all before has come within `watchdog_s`;
+/// - that command responds to a state younger than `max_answer_age_s`;
+/// - the steps themselves came without a pause of `watchdog_s`;
+/// - the device was read in this step, and its enabling switch is closed.
 ///
-/// It knows no wall clock: `step` is told the time, by a thread or a test.
+/// It also limits forces by itself, as `core::ForceLimiter` does. If any condition fails, the
+/// force ends at once, until the program arms again by a command with a new number and without
+/// any force. So neither a program that died nor one that came back can make a force step.
+///
+/// It uses no wall clock: a thread or a test passes the time to `step`.
 class DeviceServer {
  public:
   struct Parameters {
-    double watchdog_s = 0.020;          ///< > 0. As long may a state be late, see `Welcome`.
-    double max_answer_age_s = 0.040;    ///< > 0; a stand-in and the way there and back.
-    double client_timeout_s = 1.0;      ///< Silence after which another may connect, > 0.
+    /// > 0. A state may be late for as long, see `Welcome`.
+    double watchdog_s = 0.020;
+    /// > 0; covers a reused state and the way there and back.
+    double max_answer_age_s = 0.040;
+    /// Silence after which another program may connect, > 0.
+    double client_timeout_s = 1.0;
     double slew_n_per_s = 2000.0;       ///< > 0.
-    std::uint64_t first_stream_id = 1;  ///< Drawn anew whenever a server starts.
+    std::uint64_t first_stream_id = 1;  ///< Drawn whenever a server starts.
     std::uint32_t first_sequence = 1;   ///< Of what it sends on a stream.
-    std::uint64_t first_challenge = 0;  ///< Drawn anew whenever a server starts.
-    /// With it, only programs that have it too are listened to; see `DatagramSeal`.
+    std::uint64_t first_challenge = 0;  ///< Drawn whenever a server starts.
+    /// If set, only programs with the same key are heard; see `DatagramSeal`.
     std::optional<DeviceKey> key;
   };
 
-  /// What there was, for a person to read at the end.
+  /// Counts for a person to read at the end.
   struct Counts {
     std::int64_t num_steps = 0;
     std::int64_t num_clients = 0;
-    std::int64_t num_turned_away = 0;  ///< Hellos while another was connected.
+    std::int64_t num_turned_away = 0;  ///< Hellos while another program was connected.
     std::int64_t num_armings = 0;
-    std::int64_t num_disarmings = 0;  ///< But for those that the program asked for.
+    std::int64_t num_disarmings = 0;  ///< Except those that the program requested.
     core::Fault last_fault = core::Fault::kNone;
   };
 
-  /// Device and port have to outlive this. Throws `core::Error` naming the field. Not real
+  /// Device and port must outlive this object. Throws `core::Error` naming the field. Not real
   /// time.
   DeviceServer(HapticDevice& device, DatagramPort& port, const Parameters& parameters);
   DeviceServer(const DeviceServer&) = delete;
   DeviceServer& operator=(const DeviceServer&) = delete;
 
-  /// One of the device's ticks: takes in what has come, reads the device, writes its force,
-  /// tells the program. The device is opened and closed by the caller. Real time.
+  /// Runs one of the device's ticks: takes in what has arrived, reads the device, writes its
+  /// force and sends a state to the program. The caller opens and closes the device. Real time.
   void step(std::int64_t now_ns) noexcept;
   /// The machine slept before the next step, while the clock of `step` stood still: whatever
   /// waits for it is as old as that. Real time.
@@ -65,13 +69,13 @@ class DeviceServer {
   /// Between steps: opens the device anew if a program has left it since, so that the next one
   /// finds a simulation as it was at the start. Throws what `open` throws. Not real time.
   void renew_device();
-  /// Says goodbye to the program, and no force. Real time.
+  /// Says goodbye to the program and ends the force. Real time.
   void dismiss(std::int64_t now_ns) noexcept;
 
   [[nodiscard]] bool has_client() const noexcept { return client_.has_value(); }
   [[nodiscard]] bool is_armed() const noexcept { return armed_; }
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
-  /// Of the commands that come in, all programs together.
+  /// Returns the quality of the received commands, of all programs together.
   [[nodiscard]] const LinkQuality& quality() const noexcept { return quality_; }
 
  private:
@@ -80,9 +84,10 @@ class DeviceServer {
     std::uint64_t token = 0;
     std::uint64_t stream_id = 0;
     std::int64_t last_heard_ns = 0;
-    std::int64_t last_sent_ns = 0;  ///< Its own clock, of the newest that has come.
+    std::int64_t last_sent_ns = 0;  ///< The client's own clock in its newest datagram.
     bool commanded = false;         ///< A command has come.
-    bool is_recent = false;         ///< And no pause of our own since.
+    /// A command has come, and since then the server has made no pause.
+    bool is_recent = false;
     std::uint32_t command_sequence = 0;
     std::int64_t command_ns = 0;  ///< When the newest command came.
     wire::Command command;
@@ -129,7 +134,7 @@ class DeviceServer {
   /// makes the answers older.
   std::vector<std::int64_t> sent_ns_;
   bool tells_acting_force_;
-  core::PointVectors written_n_ = core::zero_vectors();  ///< Last.
+  core::PointVectors written_n_ = core::zero_vectors();  ///< The force that was written last.
   LinkQuality quality_;
   Counts counts_;
 
@@ -138,11 +143,12 @@ class DeviceServer {
   std::uint64_t next_stream_id_;
   std::uint32_t sequence_;
   bool armed_ = false;
-  bool was_enabled_ = false;   ///< The device, in the step before.
+  bool was_enabled_ = false;   ///< Whether the device was enabled in the step before.
   int num_failed_writes_ = 0;  ///< In a row.
   bool was_used_ = false;      ///< A program has left the device since it was opened.
   std::optional<std::int64_t> last_step_ns_;
-  // Few answers a step: nobody is to be flooded through us.
+  // The number of answers in a step is limited, so that nobody can be flooded through this
+  // server.
   int num_welcomed_in_step_ = 0;
   bool refused_in_step_ = false;
   wire::State state_;

@@ -6,9 +6,8 @@
 namespace jnd::device {
 namespace {
 
-// OpenSSL's newer interface, its own HMAC as well as its digests, takes memory for each
-// message, which the loop must not. The older one does not, and goes on being there in
-// OpenSSL 3.
+// OpenSSL's newer interface, with its HMAC and its digests, allocates memory for each message,
+// which the loop must not do. The older one does not, and remains available in OpenSSL 3.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 

@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kSmoothing = 1.0 / 16.0;
 
-/// Of this many; the limits are those of 512.
+/// Returns the level for this many missing datagrams of the window. The limits are given for
+/// 512.
 LinkLevel level_of_missing(std::uint32_t num_missing, std::uint32_t window) noexcept {
   const auto most = [window](std::uint32_t of_512) {
     return std::max(1U, of_512 * window / 512);
@@ -100,7 +101,7 @@ void LinkQuality::advance_to(std::uint32_t sequence) noexcept {
 }
 
 LinkQuality::Verdict LinkQuality::received(std::uint32_t sequence) noexcept {
-  // Half of all numbers count as ahead, the other half as behind: so they may wrap.
+  // Half of all numbers count as ahead, the other half as behind, so they may wrap.
   const auto ahead = static_cast<std::int32_t>(sequence - newest_);
   Verdict verdict = Verdict::kNewest;
   if (!has_newest_) {
@@ -110,7 +111,8 @@ LinkQuality::Verdict LinkQuality::received(std::uint32_t sequence) noexcept {
   } else if (ahead > 0) {
     advance_to(sequence);
   } else if (ahead <= -static_cast<std::int32_t>(num_expected_) || is_marked(sequence)) {
-    // One from before the first that came was never missed: counted, it would hide a loss.
+    // A datagram from before the first one that came was never missed. If it counted, it would
+    // hide a loss.
     ++counts_.doubled;
     return Verdict::kRepeated;
   } else {

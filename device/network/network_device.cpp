@@ -8,21 +8,22 @@ namespace {
 
 using core::Fault;
 
-/// More than come in a tick, and few enough that a flood costs no tick.
+/// More than arrive in a tick, but few enough that a flood costs no tick.
 constexpr int kMostTakenByHost = 64;
 constexpr std::int64_t kHelloEvery_ns = 50'000'000;
-/// Without a state for so long, the stream is given up.
+/// The stream is given up after this time without a state.
 constexpr std::int64_t kStreamOver_ns = 200'000'000;
-/// From opening the device to the first ticks of a loop a program may take its time.
+/// A program may take this time between opening the device and the first ticks of its loop.
 constexpr std::int64_t kGrace_ns = 200'000'000;
-/// On top of what states may be missing for: a score of lost commands and the way there and
-/// back.
+/// This is added to the time for which states may be missing: some twenty lost commands, and
+/// the way there and back.
 constexpr std::int64_t kMostDeaf_ns = 40'000'000;
-/// Commands in a row that the system does not take: fewer than the device's watchdog needs.
+/// Commands in a row that the system does not take. They are fewer than the device's watchdog
+/// needs.
 constexpr int kMostFailedSends = 5;
-/// Where nobody can be hurt, as the simulated devices themselves have it.
+/// For simulations, which cannot hurt anybody; simulated devices themselves use the same value.
 constexpr double kSimulatedWatchdog_s = 0.250;
-/// However long a device asks for: a hand moves on while its measurement stands in.
+/// Limit of what a device may ask for, because a hand moves on while its measurement is reused.
 constexpr double kMostStaleOfReal_s = 0.020;
 
 bool has_force(const core::PointVectors& force_n) noexcept {
@@ -71,7 +72,7 @@ DeviceCapabilities NetworkDevice::capabilities() const noexcept {
   can.max_stale_s = std::max(can.max_stale_s, parameters_.max_stale_s);
   if (!can.simulated) can.max_stale_s = std::min(can.max_stale_s, kMostStaleOfReal_s);
   can.has_own_clock = true;
-  can.tells_acting_force = true;  // Every state does.
+  can.tells_acting_force = true;  // Every state reports it.
   if (can.simulated) can.watchdog_timeout_s = kSimulatedWatchdog_s;
   return can;
 }
@@ -103,8 +104,8 @@ bool NetworkDevice::read(core::HapticState& state) noexcept {
   return true;
 }
 
-/// Between `open` and the first ticks the device may have missed commands, and disarmed itself:
-/// before there was any force, nobody needs to know.
+/// Between `open` and the first ticks the device may have missed commands and disarmed itself.
+/// Before there was any force, this is not reported.
 bool NetworkDevice::is_trusted(std::int64_t now_ns) const noexcept {
   if (phase_ == Phase::kUp) return true;
   return phase_ == Phase::kArming && fault_ == Fault::kLinkLost && !had_force_ &&
@@ -119,7 +120,7 @@ bool NetworkDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
   had_force_ |= has_force(force_on_hand_n);
   for (const Eigen::Vector3d& force : force_on_hand_n) {
     if (force.allFinite()) continue;
-    // The device would refuse the datagram, and go on with the force before.
+    // The device would refuse the datagram and continue with the force before.
     lose(Fault::kNonFiniteForce, phase_ == Phase::kUp ? Phase::kArming : phase_);
   }
   const std::int64_t now_ns = port_->now_ns();
@@ -130,7 +131,7 @@ bool NetworkDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
 void NetworkDevice::halt() noexcept {
   const std::uint64_t stream_id = stream_id_.load();
   if (stream_id == 0) return;
-  // The other one is that of the loop's thread.
+  // `seal_` belongs to the loop's thread, so this needs one of its own.
   DatagramSeal seal(DatagramSeal::Side::kProgram, parameters_.key);
   seal.begin_stream(stream_token_.load(), stream_id);
   const wire::Datagram datagram{.header = {.stream_id = stream_id,
@@ -177,7 +178,8 @@ void NetworkDevice::keep_refused(std::span<const std::byte> bytes) noexcept {
 void NetworkDevice::take(const wire::Header& header, const wire::Welcome& welcome,
                          std::int64_t now_ns) noexcept {
   if (welcome.token != token_) return;
-  if (challenge_ != welcome.challenge) last_hello_ns_ = 0;  // Worth another hello at once.
+  // A new challenge is worth another hello at once.
+  if (challenge_ != welcome.challenge) last_hello_ns_ = 0;
   challenge_ = welcome.challenge;
   if (header.stream_id == 0) {
     if (!device_) device_ = welcome;
@@ -206,7 +208,7 @@ void NetworkDevice::take(const wire::Header& header, const wire::Refusal& refusa
   if (refusal.reason == wire::RefusalReason::kOtherKey) {
     has_other_key_ = true;
   } else if (refusal.reason == wire::RefusalReason::kUnknownStream) {
-    if (seal_.has_key()) return;  // Whoever heard us could have asked for it.
+    if (seal_.has_key()) return;  // Whoever heard us could have provoked it.
     if (header.stream_id != stream_id_ || phase_ == Phase::kClosed) return;
     if (phase_ != Phase::kSeeking) lose(Fault::kLinkLost, Phase::kSeeking);
   } else if (refusal.token == token_) {
@@ -243,17 +245,17 @@ bool NetworkDevice::is_silent(std::int64_t now_ns) const noexcept {
   return now_ns - newest_ns_ >= max_stale_ns();
 }
 
-/// States come, but nothing in them has seen what we sent.
+/// Whether states arrive that have seen nothing of what we sent.
 bool NetworkDevice::is_deaf(std::int64_t now_ns) const noexcept {
   return now_ns - quality_.last_echo_ns() >= max_stale_ns() + kMostDeaf_ns;
 }
 
-/// By the number that we ask for: an arming that was not ours is none.
+/// Judges by the number that we requested, because an arming with another number is not ours.
 bool NetworkDevice::is_armed() const noexcept {
   return newest_.armed && newest_.armed_number == arm_number_;
 }
 
-/// It had granted the arming, and took it back.
+/// Whether the device had granted the arming and took it back.
 bool NetworkDevice::has_disarmed() const noexcept {
   return !newest_.armed && newest_.armed_number == arm_number_;
 }
@@ -284,7 +286,8 @@ void NetworkDevice::judge(std::int64_t now_ns) noexcept {
 }
 
 void NetworkDevice::lose(Fault fault, Phase phase) noexcept {
-  // A heartbeat is ours alone. From elsewhere it must not let a force fade that is gone there.
+  // A heartbeat exists only on this side. If the device reports its loss, the force is already
+  // gone there and must not merely fade.
   fault_ = fault == Fault::kHeartbeatLost ? Fault::kLinkLost : fault;
   phase_ = phase;
   ++arm_number_;

@@ -19,30 +19,33 @@
 
 namespace jnd::device {
 
-/// A device that another program serves, across a network: `DeviceServer`, or whatever speaks
-/// the datagrams of README.md. It has a clock of its own, so the loop has to run in real time.
+/// A device that another program serves across a network: `DeviceServer`, or any program that
+/// follows README.md. It has a clock of its own, so the loop has to run in real time.
 ///
-/// `read` takes in all that has come; the newest state wins and stands in for those that are
-/// missing, for `max_stale_s` or as long as the device says. Beyond that, or where the device
-/// is not armed, does not hear us, was restarted or the connection is too bad, `read` fails
-/// with a fault, so that the loop latches; so does `write` when nothing can be sent. From then
-/// on each tick works at coming back, without ever waiting: the same stream if it is there
-/// still, else a new one; good quality for a while; and a new arming, which the device grants
-/// to a command without force alone. Then `read` succeeds again, and force comes back when the
-/// loop is armed, from zero.
+/// `read` takes in everything that has arrived. The newest state wins and is reused for missing
+/// ones, for `max_stale_s` or as long as the device allows. `read` fails with a fault, which
+/// the loop latches, after that time, or if the device is not armed, does not hear us or was
+/// restarted, or if the connection is too bad. `write` fails if nothing can be sent. From then
+/// on each tick works on recovering, without ever waiting: the same stream if it still exists,
+/// or a new one; good quality for a while; and a new arming, which the device grants only to a
+/// command without force. Then `read` succeeds again, and the force returns from zero when the
+/// loop is armed.
 ///
-/// One thread, as every device; `halt` any thread, `simulated_hand` one other.
+/// One thread may use it, as with every device. Any thread may call `halt`, and one other
+/// thread `simulated_hand`.
 class NetworkDevice final : public HapticDevice {
  public:
   struct Parameters {
-    double rate_hz = 1000.0;           ///< Of the loop; the device's own is no lower.
-    double max_stale_s = 0.020;        ///< > 0.
-    double patience_s = 2.0;           ///< For the device to answer and the link to be good.
-    std::uint64_t token = 1;           ///< Drawn anew for each run of the program.
+    /// Rate of the loop. The device's own rate is not lower.
+    double rate_hz = 1000.0;
+    double max_stale_s = 0.020;  ///< > 0.
+    /// Time for the device to answer and the link to become good.
+    double patience_s = 2.0;
+    std::uint64_t token = 1;           ///< Drawn for each run of the program.
     std::uint32_t first_sequence = 1;  ///< Of what it sends.
-    /// With it, only a device that has it too is believed; see `DatagramSeal`.
+    /// If set, only a device with the same key is trusted; see `DatagramSeal`.
     std::optional<DeviceKey> key;
-    /// Whether a device that says of itself that nobody can be hurt by it is believed.
+    /// Whether to believe a device that says that nobody can be hurt by it.
     bool believes_simulated = true;
   };
 
@@ -51,17 +54,18 @@ class NetworkDevice final : public HapticDevice {
                 const Parameters& parameters);
   ~NetworkDevice() override;
 
-  /// Asks the device what it can do, without connecting: from then on `capabilities` are its
-  /// own, before they are those of no device in particular. Throws `DeviceUnreachable` if it
-  /// does not answer or speaks another version. Not real time.
+  /// Asks the device for its capabilities, without connecting. From then on `capabilities`
+  /// returns them; before, they are those of no particular device. Throws `DeviceUnreachable`
+  /// if it does not answer or speaks another version. Not real time.
   void ask();
 
   [[nodiscard]] std::string_view name() const noexcept override { return "network"; }
-  /// "lumped": what the device is called where it is served; "" before it answered. Real time.
+  /// Returns the device's name where it is served, such as "lumped", or "" before it answered.
+  /// Real time.
   [[nodiscard]] std::string_view served_name() const noexcept;
   [[nodiscard]] DeviceCapabilities capabilities() const noexcept override;
   [[nodiscard]] DeviceIdentity identity() const override;
-  /// What it says itself, believed or not. Real time.
+  /// Returns what it says itself, whether that is believed or not. Real time.
   [[nodiscard]] bool says_simulated() const noexcept {
     return device_ && device_->capabilities.simulated;
   }
@@ -71,7 +75,7 @@ class NetworkDevice final : public HapticDevice {
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override;
   void close() noexcept override;
   [[nodiscard]] core::Fault fault() const noexcept override { return fault_; }
-  /// The connection has been good for a while, both ways.
+  /// Whether the connection has been good for a while, in both directions.
   [[nodiscard]] bool may_arm() const noexcept override;
   void halt() noexcept override;
   [[nodiscard]] SimulatedHand* simulated_hand() noexcept override;
@@ -81,14 +85,14 @@ class NetworkDevice final : public HapticDevice {
 
   [[nodiscard]] std::optional<LinkReport> link() const noexcept override;
 
-  /// Quality of the link, by the states that come in. Real time.
+  /// Returns the quality of the link, judged by the received states. Real time.
   [[nodiscard]] const LinkQuality& quality() const noexcept { return quality_; }
 
  private:
   enum class Phase {
     kClosed,
-    kSeeking,  ///< No stream: says hello.
-    kArming,   ///< A stream, but no trust in it yet: commands no force.
+    kSeeking,  ///< There is no stream, so it says hello.
+    kArming,   ///< There is a stream but no trust in it yet, so it commands no force.
     kUp,
   };
 
@@ -101,7 +105,7 @@ class NetworkDevice final : public HapticDevice {
   void take(const wire::Header& header, const wire::State& state, std::int64_t now_ns) noexcept;
   void take(const wire::Header& header, const wire::Goodbye& goodbye,
             std::int64_t now_ns) noexcept;
-  /// What only a device has to take.
+  /// Contents that only a device takes are ignored.
   template <typename Content>
   void take(const wire::Header&, const Content&, std::int64_t) noexcept {}
 
@@ -123,8 +127,8 @@ class NetworkDevice final : public HapticDevice {
   Address server_;
   Parameters parameters_;
 
-  std::optional<wire::Welcome> device_;  ///< What the device said of itself at first.
-  bool is_another_ = false;              ///< It introduced itself as something else since.
+  std::optional<wire::Welcome> device_;  ///< What the device said about itself at first.
+  bool is_another_ = false;              ///< The device has since described itself differently.
   std::optional<wire::RefusalReason> refusal_;
   std::uint16_t other_version_ = 0;
   bool has_other_key_ = false;
@@ -143,14 +147,15 @@ class NetworkDevice final : public HapticDevice {
   std::int64_t newest_ns_ = 0;  ///< When it came.
   std::int64_t peer_sent_ns_ = 0;
   std::int64_t last_hello_ns_ = 0;
-  std::int64_t first_read_ns_ = 0;  ///< 0: not read since it was opened.
-  bool had_force_ = false;          ///< The loop has asked for one since it was opened.
-  int num_failed_sends_ = 0;        ///< Commands in a row that the system did not take.
+  std::int64_t first_read_ns_ = 0;  ///< 0 if it was not read since it was opened.
+  /// The loop has requested a force since the device was opened.
+  bool had_force_ = false;
+  int num_failed_sends_ = 0;  ///< Commands in a row that the system did not take.
   std::uint32_t arm_number_ = 0;
   RemoteHand hand_;
   wire::Datagram incoming_;
 
-  // Whoever halts needs these as well, from any thread.
+  // `halt` needs these as well, from any thread.
   std::atomic<std::uint64_t> stream_id_{0};
   std::atomic<std::uint64_t> stream_token_{0};
   std::atomic<std::uint32_t> sequence_;

@@ -7,7 +7,7 @@
 #include "device/network/network_device.h"
 #include "device/network/udp_port.h"
 
-// What a network device does outside the tick: it may wait, and says what is wrong.
+// What a network device does outside of the tick, where it may wait and report what is wrong.
 
 namespace jnd::device {
 namespace {
@@ -47,7 +47,7 @@ void NetworkDevice::ask() {
   last_hello_ns_ = 0;
   for (std::int64_t now_ns = port_->now_ns(); now_ns < deadline_ns; now_ns = port_->now_ns()) {
     take_in(now_ns);
-    // Anybody can say another version, or another key: with a key of ours we wait on.
+    // Anybody can claim another version or another key. If we have a key, we keep waiting.
     if (device_ || (!seal_.has_key() && (other_version_ != 0 || has_other_key_))) break;
     say_hello(true, now_ns);
     port_->pause(1'000'000);
@@ -55,7 +55,7 @@ void NetworkDevice::ask() {
   if (!device_) throw DeviceUnreachable(what_is_wrong());
 }
 
-/// A device that is slower than the loop would have it feel the same measurement twice.
+/// With a device slower than the loop, the loop would use the same measurement twice.
 void NetworkDevice::require_rate() const {
   const double rate_hz = device_->capabilities.rate_hz;
   constexpr double kMostOff = 0.001;
@@ -153,7 +153,7 @@ std::string NetworkDevice::what_is_wrong() const {
 
 void NetworkDevice::close() noexcept {
   if (phase_ != Phase::kClosed) {
-    // Twice, for there is no answer; the device would notice the silence, too.
+    // It is sent twice, because there is no answer. The device would also notice the silence.
     send(wire::Goodbye{}, port_->now_ns());
     send(wire::Goodbye{}, port_->now_ns());
   }

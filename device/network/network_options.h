@@ -8,17 +8,17 @@
 
 namespace jnd::device {
 
-/// What stands behind "network:" on a command line, as in
-/// `10.0.0.2:4700,key=robot` or `127.0.0.1:4700,simulated`.
+/// What follows "network:" on a command line, as in `10.0.0.2:4700,key=robot` or
+/// `127.0.0.1:4700,simulated`.
 struct NetworkOptions {
   Endpoint endpoint;
-  /// Whether nobody can be hurt by the device, where the operator says so: `simulated` or
-  /// `real`.
+  /// Whether the operator says that nobody can be hurt by the device: `simulated` or `real`.
+  /// None if neither is given.
   std::optional<bool> is_simulated;
-  std::string key_name;  ///< Of a key of `jnd device-key`; "": none.
+  std::string key_name;  ///< Name of a key of `jnd device-key`; "" for none.
 };
 
-/// Throws `core::Error` saying what was expected. Not real time.
+/// Throws `core::Error` that says what was expected. Not real time.
 [[nodiscard]] NetworkOptions network_options(std::string_view argument);
 
 }  // namespace jnd::device

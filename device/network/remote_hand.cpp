@@ -28,7 +28,7 @@ void RemoteHand::give() noexcept {
   orders_.publish(last_order_);
 }
 
-// As long as an order has not arrived, what is told belongs to the one before.
+// Until an order has arrived, the reported progress is that of the order before.
 std::int64_t RemoteHand::strokes_finished() const noexcept {
   const std::uint64_t progress = progress_.load(std::memory_order_relaxed);
   const bool in_force = progress >> 32 >= last_stroke_order_;

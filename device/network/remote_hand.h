@@ -9,8 +9,8 @@
 
 namespace jnd::device {
 
-/// The simulated person on a device elsewhere: orders wait here until they have been taken
-/// there. What a `SimulatedHand` offers belongs to the one who orders, everything else to the
+/// The simulated person at a remote device. Orders wait here until the device has taken them.
+/// The functions of `SimulatedHand` are for the thread that gives orders, all others for the
 /// loop's thread.
 class RemoteHand final : public SimulatedHand {
  public:
@@ -20,9 +20,9 @@ class RemoteHand final : public SimulatedHand {
   [[nodiscard]] bool is_home() const noexcept override;
   void put_fingers_back() noexcept override;
 
-  /// Orders forgotten. While nobody else uses it.
+  /// Forgets the orders. Call it while nobody else uses the object.
   void reset() noexcept;
-  /// Takes in how far the hand has come; returns the order that it does not know yet, or
+  /// Takes in the hand's progress. Returns the order that the device does not know yet, or
   /// nullptr. Real time.
   [[nodiscard]] const wire::Order* order_after(const wire::State& state) noexcept;
 
@@ -33,7 +33,7 @@ class RemoteHand final : public SimulatedHand {
   core::LatestValue<wire::Order> orders_;
   wire::Order last_order_;
   std::uint32_t last_stroke_order_ = 0;
-  /// Number of the order in force in the upper half, 2 * strokes + home in the lower.
+  /// Number of the order in force in the upper half, 2 * strokes + home in the lower half.
   std::atomic<std::uint64_t> progress_{1};
 };
 

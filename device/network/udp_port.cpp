@@ -24,7 +24,7 @@ using core::kNsPerS;
 static_assert(sizeof(sockaddr_in6) <= sizeof(Address::bytes));
 static_assert(sizeof(sockaddr_in) <= sizeof(Address::bytes));
 
-/// As the system's calls want it.
+/// An address in the form of the system's calls.
 struct SystemAddress {
   sockaddr_storage storage{};
   socklen_t size = sizeof(sockaddr_storage);
@@ -61,16 +61,17 @@ bool is_same_host(const Address& a, const Address& b) noexcept {
                  reinterpret_cast<const sockaddr_in6&>(other.storage).sin6_addr);
 }
 
-/// A system that grants none of it serves us as it serves others.
+/// The port works as well on a system that grants none of this.
 void ask_for_haste(int socket, bool is_6) noexcept {
-  constexpr int kPriority = 6;                   // The highest that everybody may ask for.
-  constexpr int kExpeditedForwarding = 46 << 2;  // As the byte of the header has it.
+  // The highest priority that every user may request.
+  constexpr int kPriority = 6;
+  constexpr int kExpeditedForwarding = 46 << 2;  // As it stands in the header's byte.
   const int one = 1;
   const auto ask = [socket](int level, int option, int value) {
     (void)::setsockopt(socket, level, option, &value, sizeof value);
   };
   ask(is_6 ? IPPROTO_IPV6 : IPPROTO_IP, is_6 ? IPV6_TCLASS : IP_TOS, kExpeditedForwarding);
-  // After the mark, which sets a priority of its own.
+  // This comes after the mark, which sets a priority of its own.
   ask(SOL_SOCKET, SO_PRIORITY, kPriority);
   ask(SOL_SOCKET, SO_TIMESTAMPNS, one);
 }
@@ -81,7 +82,7 @@ std::int64_t time_ns(clockid_t clock) noexcept {
   return static_cast<std::int64_t>(now.tv_sec) * kNsPerS + now.tv_nsec;
 }
 
-/// The kernel stamps by the clock of the day; how long ago that was counts, so that a clock
+/// The kernel stamps by the clock of the day. Only how long ago that was counts, so a clock
 /// that is set does no harm.
 std::int64_t arrival_of(const msghdr& message) noexcept {
   constexpr std::int64_t kLongest_ns = kNsPerS;
@@ -204,8 +205,8 @@ Address UdpPort::local() const {
 
 bool UdpPort::send(std::span<const std::byte> datagram, const Address& to) noexcept {
   SystemAddress system = system_address(to);
-  // A connected socket tells with the next call what anybody says of the datagram before: that
-  // nobody was there, or that there is no way. It says nothing of this one.
+  // The next call on a connected socket reports errors of the datagram before, such as that
+  // nobody received it or that there is no route. They do not concern this datagram.
   for (int attempt = 0; attempt < 2; ++attempt) {
     const ssize_t sent = ::sendto(socket_, datagram.data(), datagram.size(),
                                   MSG_DONTWAIT | MSG_NOSIGNAL, system.get(), system.size);
@@ -217,8 +218,8 @@ bool UdpPort::send(std::span<const std::byte> datagram, const Address& to) noexc
 
 std::size_t UdpPort::receive(std::span<std::byte> bytes, Address& from) noexcept {
   SystemAddress system;
-  // An empty datagram is as good as none, but must not hide what comes behind it; nor must the
-  // word of anybody that one of ours did not arrive.
+  // An empty datagram is useless, but it must not hide those behind it. Nor must somebody's
+  // message that one of our datagrams did not arrive.
   for (int attempt = 0; attempt < 16; ++attempt) {
     iovec where{.iov_base = bytes.data(), .iov_len = bytes.size()};
     alignas(cmsghdr) std::array<std::byte, CMSG_SPACE(sizeof(timespec))> stamps{};

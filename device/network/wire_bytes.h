@@ -12,7 +12,8 @@
 
 namespace jnd::device::wire {
 
-/// Writes numbers one behind the other, little endian, as long as there is room. Real time.
+/// Writes numbers one after another, in little-endian order, as long as there is room. Real
+/// time.
 class ByteWriter {
  public:
   static constexpr bool kReads = false;
@@ -36,7 +37,8 @@ class ByteWriter {
   std::size_t at_ = 0;
 };
 
-/// Reads them back and remembers the first problem; zeros behind the end. Real time.
+/// Reads the numbers and remembers the first problem. Behind the end it returns zeros. Real
+/// time.
 class ByteReader {
  public:
   static constexpr bool kReads = true;
@@ -72,7 +74,7 @@ class ByteReader {
   /// Where the value begins that was the first problem.
   [[nodiscard]] std::size_t problem_at() const noexcept { return problem_at_; }
 
-  /// `kWrongSize` too where something is left over.
+  /// Returns `kWrongSize` as well if bytes are left.
   [[nodiscard]] Problem problem() const noexcept {
     if (problem_ != Problem::kNone) return problem_;
     return at_ == bytes_.size() ? Problem::kNone : Problem::kWrongSize;

@@ -29,18 +29,20 @@ namespace {
 using core::Fault;
 
 constexpr std::int64_t kLookEvery_ns = 2'000'000;
-/// For a driver to close when the program has ended.
+/// Time for a driver to close after the program has ended.
 constexpr std::int64_t kLastPatience_ns = 1'000'000'000;
-/// Below the loop's and its watchdog's: a driver that never sleeps must not starve them.
+/// These are below the priorities of the loop and its watchdog, so that a driver that never
+/// sleeps cannot starve them.
 constexpr int kDriverPriority = 79;
 constexpr int kHostWatchPriority = 81;
-/// Looking out for the next question, as the loop does for its next tick.
+/// Time for which it spins for the next question, as the loop does for its next tick.
 constexpr std::int64_t kLongestSpin_ns = 200'000;
 
 constexpr int kProgramIsGone = 1;
 constexpr int kStartedByOthers = 2;
 
-/// The files that the program has opened for its host: anything else is no start of ours.
+/// Whether the program has opened these files for its host. If not, something else has started
+/// this process.
 bool are_pages() noexcept {
   struct stat program {
   }, host{};
@@ -132,9 +134,9 @@ class DeviceHost {
     }
   }
 
-  /// Of a device with a clock of its own questions come once a period, and the force soon after
-  /// its answer. To be woken up takes longer than to answer, so this thread sleeps until
-  /// shortly before the next question is due and looks out for it from then on.
+  /// If a device has a clock of its own, questions come once a period, and the force comes soon
+  /// after the answer. Waking takes longer than answering, so this thread sleeps until shortly
+  /// before the next question is due and then spins.
   void wait_for_request(std::uint32_t seen) noexcept {
     const std::atomic<std::uint32_t>& version = program_.request.version();
     if (has_own_clock_ && last_question_ns_ != 0) {
@@ -152,8 +154,8 @@ class DeviceHost {
     futex_wait_until(version, seen, monotonic_ns() + kLookEvery_ns * 10);
   }
 
-  /// The driver waits for its device. Each measurement is told at once; then there is half a
-  /// period for the force that answers to it, and what comes later goes with the next.
+  /// The driver waits for its device. Each measurement is reported at once. Then the force that
+  /// responds to it has half a period to come; a later one goes with the next measurement.
   void pace_until_the_end(DriverSession& session) noexcept {
     const auto half_a_period_ns = std::llround(0.5e9 / order_.rate_hz);
     while (!program_is_gone()) {
@@ -184,7 +186,7 @@ class DeviceHost {
       force_n[i] = {point[0], point[1], point[2]};
     }
     last_command_ns_ = request.written_ns;
-    // Held up with the whole machine, what waits here may be as old as the pause.
+    // If the whole machine was held up, what waits here may be as old as the pause.
     if (is_too_old(request)) session.halt();
     write_fault_ = session.write(force_n);
     if (write_fault_ == Fault::kDeviceWriteFailed) session.words_of_failure(answer_.words);
@@ -192,7 +194,7 @@ class DeviceHost {
     ++answer_.num_writes;
   }
 
-  /// Where time moves on by writes alone, a force is as old as it is long.
+  /// If time advances by writes alone, a force never becomes too old.
   [[nodiscard]] bool is_too_old(const DriverRequest& request) const noexcept {
     return has_own_clock_ && monotonic_ns() - request.written_ns >= timeout_ns_;
   }
@@ -214,7 +216,7 @@ class DeviceHost {
     futex_wake(host_.answer.version());
   }
 
-  /// The other thread: whatever the driver is stuck in.
+  /// Runs in the other thread, whatever call the driver is stuck in.
   void watch_over(DriverSession& session) noexcept {
     RealtimeReport ignored;
     obtain_scheduler(kHostWatchPriority, ignored);
@@ -247,7 +249,7 @@ class DeviceHost {
   const DriverOrder order_;
   const std::int64_t period_ns_;
   AdaptiveSpin spin_;
-  std::int64_t last_question_ns_ = 0;  ///< When the last one was answered.
+  std::int64_t last_question_ns_ = 0;  ///< When the last question was answered.
   DriverReport report_;
   DriverAnswer answer_;
   bool has_own_clock_ = true;
@@ -263,7 +265,7 @@ class DeviceHost {
 
 int run_device_host() noexcept {
   if (!are_pages()) return kStartedByOthers;
-  // The signal only wakes what waits: it comes as well where just a thread of the program has
+  // The signal only wakes what waits. It also comes when just a thread of the program has
   // ended, so `program_is_gone` decides.
   struct sigaction woken {};
   woken.sa_handler = [](int) {};
@@ -275,12 +277,12 @@ int run_device_host() noexcept {
     const auto& order = *static_cast<const ProgramPage*>(program.memory());
     if (order.order.version != kDriverPagesVersion) return kStartedByOthers;
     if (::getppid() != order.order.program) return kProgramIsGone;
-    // The program's other threads may be kept off the loop's CPU, and this one with them: what
+    // The program keeps its other threads, and this one with them, off the loop's CPU. But what
     // answers the loop must not wait behind them.
     if (CPU_COUNT(&order.order.cpus) > 0) {
       (void)::sched_setaffinity(0, sizeof order.order.cpus, &order.order.cpus);
     }
-    // Whatever destructors a vendor's library has registered: the device is closed.
+    // The device is closed, so destructors that a vendor's library has registered are skipped.
     std::_Exit(DeviceHost(order, *static_cast<HostPage*>(host.memory())).run());
   } catch (const std::exception&) {
     return kStartedByOthers;

@@ -7,11 +7,11 @@
 
 namespace jnd::device {
 
-/// A driver in this process, whose crash is ours: to measure what a process of its own costs,
-/// with simulated devices alone. `halt` any thread.
+/// A driver in this process, which crashes with the driver. It serves to measure what a
+/// separate process costs, with simulated devices alone. Any thread may call `halt`.
 class DirectPluginDevice final : public HapticDevice {
  public:
-  /// Throws `DeviceUnreachable`, beginning with `place`. Not real time.
+  /// Throws `DeviceUnreachable`, with a message that begins with `place`. Not real time.
   DirectPluginDevice(const std::filesystem::path& driver, const std::string& options,
                      std::string place, double rate_hz, bool believes_simulated);
 

@@ -54,7 +54,7 @@ void require_shares(const jnd_device_description& description) {
                 sum);
 }
 
-/// Exactly 1 in all, however its numbers were rounded.
+/// Returns shares that add up to exactly 1, however the driver's numbers were rounded.
 core::ShareRatios shares_of(const jnd_device_description& description) noexcept {
   if (!has_shares(description)) return core::area_shares(description.contact_point_bits);
   return core::normalised_shares(std::to_array(description.area_share_ratio));
@@ -76,11 +76,11 @@ core::ChannelBits channels_of(const jnd_device_description& description) noexcep
 bool is_finite(const double* numbers, int count) noexcept {
   double sum = 0.0;
   for (int i = 0; i < count; ++i) sum += std::abs(numbers[i]);
-  // Beyond this no unit is right, and sums of squares would overflow.
+  // Beyond this limit the unit is certainly wrong, and sums of squares would overflow.
   return sum < 1e100;
 }
 
-/// What the device does not measure stays as it is.
+/// Channels that the device does not measure stay unchanged.
 void take_channels(const jnd_device_description& description, const jnd_device_state& measured,
                    core::DeviceChannels& channels) noexcept {
   channels.bits = channels_of(description);
@@ -181,7 +181,7 @@ void require_same_device(const jnd_device_description& before,
   jnd_device_description compared = now;
   std::memcpy(compared.serial, before.serial, sizeof compared.serial);
   std::memcpy(compared.firmware, before.firmware, sizeof compared.firmware);
-  // Whole structs, which are cleared before a driver fills them.
+  // The whole structs can be compared, because they are cleared before a driver fills them.
   if (std::memcmp(&compared, &before, sizeof compared) == 0) return;  // NOLINT: bytes are meant
   throw core::Error(
       "expected a device that is described alike before and after it is opened, "

@@ -11,30 +11,32 @@
 
 namespace jnd::device {
 
-/// Takes nothing that a driver says of its device on trust. Throws `core::Error` naming the
-/// field, in words for whoever writes the driver. Not real time.
+/// Checks everything that a driver says about its device. Throws `core::Error` naming the
+/// field, in words for the driver's author. Not real time.
 void require_description(const jnd_device_description& description);
 
-/// Likewise, that an open device is the one that was described: all but serial and firmware.
+/// Checks that an open device is the one that was described; only serial and firmware may
+/// differ. Throws `core::Error`. Not real time.
 void require_same_device(const jnd_device_description& before,
                          const jnd_device_description& now);
 
-/// Of a description that passed, for a loop of this rate. `believes_simulated`: what it says of
-/// itself, that nobody can be hurt by it, is taken for true. Real time.
+/// Returns the capabilities for a description that passed the check, and a loop of this rate.
+/// `believes_simulated` says whether to believe the device that nobody can be hurt by it. Real
+/// time.
 [[nodiscard]] DeviceCapabilities capabilities_of(const jnd_device_description& description,
                                                  double rate_hz,
                                                  bool believes_simulated) noexcept;
 
-/// Throws `core::Error`, beginning with `place`: a device with its own clock that is slower
-/// than a loop of this rate, or paces it at another. Not real time.
+/// Throws `core::Error`, beginning with `place`, if a device with its own clock is slower than
+/// a loop of this rate, or paces it at another rate. Not real time.
 void require_rate(const jnd_device_description& description, double rate_hz,
                   const std::string& place);
 
 /// Not real time.
 [[nodiscard]] DeviceIdentity identity_of(const jnd_device_description& description);
 
-/// The measurement as the loop has it, or what is wrong with it: a number that is none, a
-/// point, switch or orientation that there cannot be. `state` is then undefined. Real time.
+/// Converts the measurement for the loop. Returns a fault if it has an invalid number, point,
+/// switch or orientation; `state` is then undefined. Real time.
 [[nodiscard]] core::Fault checked_state(const jnd_device_description& description,
                                         const jnd_device_state& measured,
                                         core::HapticState& state) noexcept;
@@ -47,7 +49,8 @@ void require_rate(const jnd_device_description& description, double rate_hz,
 /// side. Longer where nobody can be hurt. Real time.
 [[nodiscard]] double command_timeout_s(bool simulated) noexcept;
 
-/// What the device has, "enable_switch", in the order of the flags. Not real time.
+/// Returns what the device has, such as "enable_switch", in the order of the flags. Not real
+/// time.
 [[nodiscard]] std::vector<std::string> features_of(const jnd_device_description& description);
 
 }  // namespace jnd::device

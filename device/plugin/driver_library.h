@@ -8,12 +8,12 @@
 
 namespace jnd::device {
 
-/// The functions of a driver's shared object, as `jnd_device.h` has them. What it loads is
-/// never unloaded, for the threads of a vendor's library may outlive it. Not real time.
+/// The functions of a driver's shared object, as declared in `jnd_device.h`. It is never
+/// unloaded, because the threads of a vendor's library may outlive it. Not real time.
 class DriverLibrary {
  public:
-  /// Loads it and asks for its version. Throws `core::Error`: no shared object, a symbol that
-  /// is missing, another version.
+  /// Loads the file and asks for its version. Throws `core::Error` if it is no shared object,
+  /// lacks a symbol or has another version.
   explicit DriverLibrary(const std::filesystem::path& file);
 
   decltype(&jnd_device_describe) describe = nullptr;
@@ -25,7 +25,8 @@ class DriverLibrary {
   decltype(&jnd_device_error) error = nullptr;
 };
 
-/// Somebody else's text in a sentence of ours: one line, printable, not too long; "" stays.
+/// Returns a foreign text in a form that fits into a sentence: one line, printable, not too
+/// long. "" stays "".
 [[nodiscard]] std::string text_in_sentence(const char* text);
 
 }  // namespace jnd::device

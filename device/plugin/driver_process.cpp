@@ -69,12 +69,12 @@ std::string how_ended(int status) {
   return "ended by itself (exit code " + std::to_string(WEXITSTATUS(status)) + ")";
 }
 
-/// The files 3 and 4 are the pages; no other that this program has open is the driver's.
+/// Files 3 and 4 are the pages. The driver gets no other file that this program has open.
 pid_t started(const std::filesystem::path& host, const std::string& driver, int program_page,
               int host_page) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
-  // By way of others: one of them may be 3 or 4 itself.
+  // The numbers are assigned through higher ones, because a page's own number may be 3 or 4.
   constexpr int kByWay = 100;
   posix_spawn_file_actions_adddup2(&files, program_page, kByWay);
   posix_spawn_file_actions_adddup2(&files, host_page, kByWay + 1);
@@ -85,8 +85,8 @@ pid_t started(const std::filesystem::path& host, const std::string& driver, int 
   posix_spawn_file_actions_addclosefrom_np(&files, kHostPageFile + 1);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  // A group of its own: what is typed at the terminal is for the program, which ends it in
-  // order.
+  // The process has a group of its own, because what is typed at the terminal is for the
+  // program, which ends the driver in order.
   posix_spawnattr_setflags(
       &attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   sigset_t none, all;
@@ -162,20 +162,20 @@ void DriverProcess::start(bool only_describes, bool believes_simulated) {
                      host_file_.number);
 }
 
-/// Nobody else has them: the process before has ended.
+/// Nobody else uses the pages, because the process before has ended.
 void DriverProcess::clear_pages() {
   new (program_.memory()) ProgramPage;
   const MappedPage writable(host_file_.number, sizeof(HostPage), true);
   new (writable.memory()) HostPage;
 }
 
-/// It takes what a broken driver may have written for nothing but numbers.
+/// What a broken driver may have written is treated as mere numbers.
 DriverReport DriverProcess::wait_for(DriverPhase phase, double patience_s) {
   const std::int64_t deadline_ns = deadline_after(patience_s);
   DriverReport report;
   while (true) {
     const std::uint32_t seen = host_page().report.version().load(std::memory_order_acquire);
-    // Asked first: what it wrote before it ended is there then.
+    // This is asked first, so that everything the process wrote before its end is there.
     const bool is_over = has_ended();
     if (host_page().report.load(report)) {
       report.problem.back() = '\0';
@@ -258,7 +258,7 @@ void DriverProcess::request(const DriverRequest& request, bool wakes) noexcept {
 
 void DriverProcess::wait_for_answer(std::uint32_t seen,
                                     std::int64_t deadline_ns) const noexcept {
-  constexpr std::int64_t kLook_ns = 80'000;  // Most answers come within it.
+  constexpr std::int64_t kLook_ns = 80'000;  // Most answers come within this time.
   look_until(host_page().answer.version(), seen,
              std::min(deadline_ns, monotonic_ns() + kLook_ns));
   futex_wait_until(host_page().answer.version(), seen, deadline_ns);

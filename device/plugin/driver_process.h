@@ -13,20 +13,21 @@
 namespace jnd::device {
 
 /// The process in which a driver runs, and the pages that it shares with this one. It is
-/// started anew for each opening, and is gone when this is. The driver's stdout goes to stderr.
+/// started for each opening and ends with this object. The driver's stdout goes to stderr.
 ///
-/// One thread, but for `halt`, and `request` and `answer`, which are another's while it is
-/// open.
+/// One thread may use it. Any thread may call `halt`, and while it is open another thread may
+/// call `request` and `answer`.
 class DriverProcess {
  public:
   struct Parameters {
     std::filesystem::path host;    ///< The program "jnd-device-host".
-    std::filesystem::path driver;  ///< Its shared object.
-    std::string options;           ///< For the driver.
-    std::string place;             ///< How a sentence about it begins: "device plugin hand.so".
+    std::filesystem::path driver;  ///< The driver's shared object.
+    std::string options;           ///< Options of the driver.
+    /// Beginning of a sentence about it: "device plugin hand.so".
+    std::string place;
     double rate_hz = 1000.0;
-    double load_patience_s = 5.0;   ///< For the driver to be loaded and describe itself, > 0.
-    double close_patience_s = 2.0;  ///< For it to close before the process is killed, > 0.
+    double load_patience_s = 5.0;   ///< Time for the driver to load and describe itself, > 0.
+    double close_patience_s = 2.0;  ///< Time for it to close before the process is killed, > 0.
   };
 
   /// Throws `core::Error`. Not real time.
@@ -35,18 +36,20 @@ class DriverProcess {
   DriverProcess(const DriverProcess&) = delete;
   DriverProcess& operator=(const DriverProcess&) = delete;
 
-  /// What the driver says of its device, which is not opened. Throws `DeviceUnreachable`: what
-  /// the driver lacks, that it crashed or that it does not return. Not real time.
+  /// Returns the driver's description of its device, which is not opened. Throws
+  /// `DeviceUnreachable` if the driver lacks something, crashes or does not return. Not real
+  /// time.
   [[nodiscard]] jnd_device_description describe();
 
-  /// Starts the driver and opens the device, for as long as it says that this may take. Throws
-  /// as `describe` does. Not real time.
+  /// Starts the driver and opens the device, within the time that the description allows.
+  /// Throws like `describe`. Not real time.
   [[nodiscard]] jnd_device_description open(bool believes_simulated);
 
-  /// Closes the device and ends the process, by force where it does not go. Not real time.
+  /// Closes the device and ends the process, by force if necessary. Not real time.
   void end() noexcept;
 
-  /// Wakes the process where `wakes`: it answers what has risen. Real time.
+  /// Publishes a request. With `wakes`, it wakes the process to answer what has increased. Real
+  /// time.
   void request(const DriverRequest& request, bool wakes) noexcept;
 
   /// "its process crashed (Aborted)": where it ended without being asked to; else "". Not real
@@ -57,18 +60,18 @@ class DriverProcess {
   [[nodiscard]] bool answer(DriverAnswer& answer) const noexcept {
     return host_page().answer.load(answer);
   }
-  /// Until there may be another answer than the one with this version, or this monotonic time
-  /// is over. Real time but for the waiting.
+  /// Waits until there may be another answer than that with this version, or until this
+  /// monotonic time. Real time apart from the waiting.
   void wait_for_answer(std::uint32_t seen, std::int64_t deadline_ns) const noexcept;
   [[nodiscard]] std::uint32_t answer_version() const noexcept {
     return host_page().answer.version().load(std::memory_order_acquire);
   }
 
-  /// Tells it to halt the device, which it does beside whatever it is stuck in. Any thread.
-  /// Real time.
+  /// Tells the process to halt the device, which it does even while the driver is stuck. Any
+  /// thread. Real time.
   void halt() noexcept;
 
-  /// -1: none. For tests, and words.
+  /// Returns -1 if there is none. For tests and messages.
   [[nodiscard]] pid_t process() const noexcept { return process_; }
 
  private:
@@ -94,10 +97,12 @@ class DriverProcess {
   };
   File program_file_, host_file_;
   MappedPage program_, host_;
-  cpu_set_t cpus_{};  ///< When this was made: the loop keeps one of them free later.
+  /// CPUs at the construction. Later the loop keeps one of them for itself.
+  cpu_set_t cpus_{};
   pid_t process_ = -1;
-  bool is_stuck_ = false;  ///< Killed, and still there: its pages are not to be used again.
-  int exit_status_ = 0;    ///< As `waitpid` has it, of the process that ended last.
+  /// It was killed but still exists, so its pages must not be used again.
+  bool is_stuck_ = false;
+  int exit_status_ = 0;  ///< As from `waitpid`, of the process that ended last.
 };
 
 }  // namespace jnd::device

@@ -128,7 +128,7 @@ Fault DriverSession::read(jnd_device_state& measured) noexcept {
   return Fault::kNone;
 }
 
-/// A number or a time that runs back is a measurement from long ago.
+/// A number or a time that goes back belongs to an old measurement.
 Fault DriverSession::check_newness(const jnd_device_state& measured) noexcept {
   if (!newest_) return Fault::kNone;
   const bool number_rises = measured.sample_number > newest_->sample_number;
@@ -147,7 +147,7 @@ Fault DriverSession::write(const core::PointVectors& force_on_hand_n) noexcept {
   core::PointVectors force_n = force_on_hand_n;
   Fault found = Fault::kNone;
   if (halt_.withholds(force_on_hand_n) || nothing_asked || !newest_) {
-    // Who asks for none gets none at once: an end is not slowed down by the slew.
+    // A request for zero force takes effect at once, because the slew must not delay an end.
     limiter_.rearm();
     force_n = core::zero_vectors();
     if (!nothing_asked) found = newest_ ? Fault::kWatchdog : Fault::kDeviceReadFailed;
@@ -156,7 +156,7 @@ Fault DriverSession::write(const core::PointVectors& force_on_hand_n) noexcept {
     found = limiter_.fault();
   }
   const Fault taken = pass_on(force_n);
-  // Halted in the middle of it: a force that came after the halt must not stand.
+  // If a halt came in the middle of this, a force that was passed on after it must not persist.
   if (!is_none(force_n) && halt_.is_halted()) (void)pass_on(core::zero_vectors());
   return taken != Fault::kNone ? taken : found;
 }

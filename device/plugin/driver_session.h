@@ -16,43 +16,47 @@
 
 namespace jnd::device {
 
-/// A driver that is loaded, and what stands between it and everybody else: whatever it says is
-/// checked, and every force that it gets is finite, within the limits that it described and the
-/// slew, and none while it is halted. The same in the driver's own process and without one.
+/// A loaded driver, with all checks between it and the rest of the program. Everything that it
+/// says is checked. Every force that it gets is finite and within the limits that it described
+/// and the slew, and zero while it is halted. This is the same in the driver's own process and
+/// without one.
 ///
-/// One thread; `halt` and `is_halted` any.
+/// One thread may use it. Any thread may call `halt` and `is_halted`.
 class DriverSession {
  public:
-  /// Loads the driver and has it describe its device. Throws `core::Error`. Not real time.
+  /// Loads the driver and gets its description of its device. Throws `core::Error`. Not real
+  /// time.
   DriverSession(const std::filesystem::path& file, std::string options, double rate_hz);
   ~DriverSession() { close(); }
   DriverSession(const DriverSession&) = delete;
   DriverSession& operator=(const DriverSession&) = delete;
 
-  /// As it was last: serial and firmware are known once it is open. Real time.
+  /// Returns the latest description. Serial and firmware are known once the device is open.
+  /// Real time.
   [[nodiscard]] const jnd_device_description& description() const noexcept {
     return description_;
   }
 
-  /// Throws `core::Error` with what the driver says. Not real time.
+  /// Throws `core::Error` with the driver's words. Not real time.
   void open();
-  /// May be called twice. Not real time.
+  /// It may be called twice. Not real time.
   void close() noexcept;
 
-  /// The newest measurement; where the driver has nothing new, the one before, and the same
-  /// `sample_number`. A time of the driver's own must rise with each. Real time, as the driver.
+  /// Reads the newest measurement. If the driver has nothing new, it is the one before, with
+  /// the same `sample_number`. A time of the driver's own must increase with each measurement.
+  /// Real time if the driver is.
   [[nodiscard]] core::Fault read(jnd_device_state& measured) noexcept;
 
-  /// Passes on these forces, limited by what was measured last. A driver that does not take
-  /// them is halted. Real time, as the driver.
+  /// Passes on these forces, limited with the last measurement. A driver that does not accept
+  /// them is halted. Real time if the driver is.
   [[nodiscard]] core::Fault write(const core::PointVectors& force_on_hand_n) noexcept;
 
-  /// What the driver says of its last call, which failed. By the thread that called it. Real
-  /// time, as the driver.
+  /// Copies the driver's words about its last call, which failed. For the thread that made the
+  /// call. Real time if the driver is.
   void words_of_failure(std::array<char, 128>& words) noexcept;
 
-  /// Zero force at once, and until a `write` of nothing but zeros. Any thread; also while the
-  /// driver is stuck in another call. Real time, as the driver.
+  /// Sets zero force at once, until a `write` consists of zeros only. Any thread may call it,
+  /// even while the driver is stuck in another call. Real time if the driver is.
   void halt() noexcept;
 
  private:
@@ -66,7 +70,8 @@ class DriverSession {
   core::ForceLimiter limiter_;
   HaltLatch halt_;
   std::atomic<jnd_device*> device_{nullptr};
-  std::atomic<int> num_halting_{0};  ///< Threads inside `halt`: none may be when it is closed.
+  /// Threads inside of `halt`. There must be none when the device is closed.
+  std::atomic<int> num_halting_{0};
   std::uint64_t num_writes_ = 0;
   std::optional<jnd_device_state> newest_;
   const char* problem_ = nullptr;  ///< Of the measurement that was refused last; or none.

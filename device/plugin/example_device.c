@@ -1,13 +1,12 @@
-/* A driver to begin with: a simulated hand of one point. A mass hangs on a spring and a damper
- * whose other end goes to and fro, as a person's arm does who strokes through a fluid; the
- * force of the program acts on the mass. There is no hardware behind it.
+/* A driver to begin with: a simulated hand of one point. A mass hangs on a spring and a
+ * damper whose other end moves to and fro, like the arm of a person who strokes through a
+ * fluid. The program's force acts on the mass. There is no hardware behind it.
  *
  *     cc -std=c11 -Wall -shared -fPIC -I . example_device.c -o example_device.so
  *     jnd run short_tour --device plugin:./example_device.so:simulated --headless \
  *         --study tour.study --participant P01
  *
- * Options: mass=KG and amplitude=M, as in plugin:./example_device.so:simulated,mass=0.5.
- */
+ * Options: mass=KG and amplitude=M, as in plugin:./example_device.so:simulated,mass=0.5. */
 #include "jnd_device.h"
 
 #include <stdatomic.h>
@@ -19,7 +18,7 @@ struct jnd_device {
   double period_s, mass_kg, amplitude_m, phase_ratio;
   double position_m[3], velocity_m_per_s[3], acted_n[3];
   uint64_t num_steps;
-  atomic_int halted; /* By the other thread. */
+  atomic_int halted; /* Set by the other thread. */
 };
 
 static char error_text[128] = "";
@@ -29,7 +28,7 @@ static int failed(const char* words) {
   return JND_DEVICE_FAILED;
 }
 
-/* The number behind KEY= among the options; `otherwise` if it is not there. */
+/* Returns the number after KEY= in the options, or `otherwise` if the key is missing. */
 static double option(const char* options, const char* key, double otherwise) {
   const char* at = strstr(options, key);
   return at == NULL ? otherwise : strtod(at + strlen(key), NULL);
@@ -43,7 +42,7 @@ int jnd_device_describe(jnd_device* device, const char* options,
   snprintf(description->name, sizeof description->name, "example hand");
   snprintf(description->firmware, sizeof description->firmware, "1.0");
   if (device != NULL) snprintf(description->serial, sizeof description->serial, "simulated");
-  /* Its time moves on with each write, so it has no clock of its own. */
+  /* Its time advances with each write, so it has no clock of its own. */
   description->flags = JND_DEVICE_IS_SIMULATED | JND_DEVICE_MOVES_BY_ITSELF |
                        JND_DEVICE_HAS_DEVICE_TIME | JND_DEVICE_TELLS_ACTED_FORCE;
   description->contact_point_bits = 1; /* The inner palm, which stands for the hand. */
@@ -72,7 +71,7 @@ int jnd_device_open(const char* options, double rate_hz, jnd_device** device) {
   made->mass_kg = mass_kg;
   made->amplitude_m = amplitude_m;
   made->position_m[0] = -amplitude_m;
-  made->position_m[2] = -0.15; /* In the fluid. */
+  made->position_m[2] = -0.15; /* The hand begins in the fluid. */
   *device = made;
   return JND_DEVICE_OK;
 }
@@ -88,7 +87,8 @@ int jnd_device_read(jnd_device* device, jnd_device_state* state) {
   return JND_DEVICE_OK;
 }
 
-/* The arm's way along x: to and fro in two seconds, each stroke a cubic at rest at its ends. */
+/* The arm's way along x: to and fro in two seconds. Each stroke is a cubic with rest at its
+ * ends. */
 static double way_m(jnd_device* device, double* velocity_m_per_s) {
   const double stroke_s = 1.0;
   device->phase_ratio += device->period_s / (2.0 * stroke_s);
@@ -118,7 +118,7 @@ int jnd_device_write(jnd_device* device, const jnd_device_command* command) {
   return JND_DEVICE_OK;
 }
 
-/* A real driver tells the motors here; this one gives nothing in its next step. */
+/* A real driver stops its motors here. This one gives no force in its next step. */
 void jnd_device_halt(jnd_device* device) { atomic_store(&device->halted, 1); }
 
 void jnd_device_close(jnd_device* device) { free(device); }

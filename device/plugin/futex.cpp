@@ -25,7 +25,7 @@ void futex_wait_until(const std::atomic<std::uint32_t>& word, std::uint32_t seen
                       std::int64_t deadline_ns) noexcept {
   const timespec deadline{.tv_sec = static_cast<time_t>(deadline_ns / core::kNsPerS),
                           .tv_nsec = static_cast<long>(deadline_ns % core::kNsPerS)};
-  // This one alone takes a time that is absolute.
+  // Of the futex calls, only this one takes an absolute time.
   ::syscall(SYS_futex, &word, FUTEX_WAIT_BITSET, seen, &deadline, nullptr,
             FUTEX_BITSET_MATCH_ANY);
 }

@@ -11,14 +11,15 @@ namespace {
 
 using core::Fault;
 
-/// Of a tick: the rest is for the loop and the write.
+/// Share of a tick. The rest is for the loop and the write.
 constexpr double kWaitRatio = 0.4;
-/// Where nothing but a simulation is waited for, and its time stands still meanwhile; within
-/// the watchdog's 0.25 s.
+/// A simulation may be waited for this long, because its time stands still meanwhile. This is
+/// within the watchdog's 0.25 s.
 constexpr std::int64_t kWaitForSimulation_ns = 200'000'000;
-/// Nobody can be hurt, and a busy machine may hold its process up: as across the network.
+/// This is longer because nobody can be hurt and a busy machine may hold the driver's process
+/// up. A simulation across the network has the same value.
 constexpr double kMaxStaleOfSimulation_s = 0.1;
-/// Of the last 256 answers, so many may have nothing new: a tenth.
+/// Of the last 256 answers, at most this many may have nothing new: a tenth.
 constexpr int kMostMissing = 25;
 
 std::int64_t in_ns(double duration_s) noexcept { return std::llround(1e9 * duration_s); }
@@ -82,7 +83,7 @@ bool PluginDevice::read(core::HapticState& state) noexcept {
   if (!is_open_) return fail(Fault::kDeviceReadFailed);
   const std::int64_t now_ns = monotonic_ns();
   if (paces_loop_) {
-    // The driver counts by itself; what it had measured before counts no more.
+    // The driver measures by itself, and what it had measured before does not count.
     request_.read_number = taken_number_ + 1;
   } else {
     ++request_.read_number;
@@ -93,7 +94,7 @@ bool PluginDevice::read(core::HapticState& state) noexcept {
       !has_own_clock_ ? kWaitForSimulation_ns : in_ns(kWaitRatio / parameters_.process.rate_hz);
   DriverAnswer answer;
   is_well_ = false;
-  // Who was lost is not waited for: the loop's time is not his.
+  // A driver whose last answer was missing is not waited for, because the loop needs its time.
   if (!receive(is_lost_ ? now_ns : now_ns + patience_ns, answer)) {
     is_lost_ = true;
     ++counts_.num_late;
@@ -106,8 +107,9 @@ bool PluginDevice::read(core::HapticState& state) noexcept {
   return true;
 }
 
-/// The answer to this read; where that does not come in time, one to a read before that was
-/// late. Of a simulation only the very answer, for there is no time to be late in.
+/// Waits for the answer to this read. If it does not come in time, a late answer to an earlier
+/// read serves. For a simulation only the exact answer counts, because its answers cannot be
+/// late.
 bool PluginDevice::receive(std::int64_t deadline_ns, DriverAnswer& answer) noexcept {
   while (true) {
     const std::uint32_t seen = process_.answer_version();
@@ -124,7 +126,8 @@ bool PluginDevice::receive(std::int64_t deadline_ns, DriverAnswer& answer) noexc
   }
 }
 
-/// Whatever the other side has checked: its memory may be broken.
+/// This checks everything again, whatever the other side has checked, because its memory may be
+/// corrupt.
 bool PluginDevice::take(const DriverAnswer& answer) noexcept {
   taken_number_ = answer.read_number;
   const Fault told = answer.fault <= static_cast<std::uint32_t>(core::kLastFault)
@@ -151,8 +154,8 @@ bool PluginDevice::take(const DriverAnswer& answer) noexcept {
   return true;
 }
 
-/// The loop excuses a measurement that stands in for 5 ms; a device at half the rate always
-/// has one, and would never be found.
+/// The loop excuses a reused measurement for 5 ms. A device at half the rate always reuses one,
+/// and would never be detected.
 void PluginDevice::count_newness(bool is_new) noexcept {
   counts_.num_repeated += is_new ? 0 : 1;
   num_missing_ += (is_new ? 0 : 1) - (missing_[next_judged_] ? 1 : 0);
@@ -161,7 +164,7 @@ void PluginDevice::count_newness(bool is_new) noexcept {
 }
 
 bool PluginDevice::stand_in(core::HapticState& state, std::int64_t now_ns) noexcept {
-  // The loop's own watch over the device's time comes first, by these two ticks.
+  // The two additional ticks let the loop's own check of the device's time come first.
   const double longest_s = capabilities().max_stale_s + 2.0 / parameters_.process.rate_hz;
   if (newest_ns_ == 0 || !has_own_clock_ || now_ns - newest_ns_ > in_ns(longest_s)) {
     return fail(Fault::kDeviceReadFailed);
@@ -187,7 +190,7 @@ bool PluginDevice::fail(Fault fault) noexcept {
 bool PluginDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
   if (!is_open_) return fail(Fault::kDeviceWriteFailed);
   for (std::size_t i = 0; i < force_on_hand_n.size(); ++i) {
-    // The driver keeps the force before; the loop halts it.
+    // The driver keeps the force before, and the loop halts it.
     if (!force_on_hand_n[i].allFinite()) return fail(Fault::kNonFiniteForce);
     for (int axis = 0; axis < 3; ++axis) {
       request_.force_on_hand_n[i][static_cast<std::size_t>(axis)] = force_on_hand_n[i][axis];
@@ -195,7 +198,8 @@ bool PluginDevice::write(const core::PointVectors& force_on_hand_n) noexcept {
   }
   ++request_.write_number;
   request_.written_ns = monotonic_ns();
-  // The time of a simulation moves on by writes alone: it may as well do so at the next read.
+  // The time of a simulation advances by writes alone. It may do so at the next read as well,
+  // so the process need not be woken.
   process_.request(request_, has_own_clock_);
   if (write_fault_ != Fault::kNone) return fail(write_fault_);
   return fault_ == Fault::kNone;

@@ -14,28 +14,29 @@
 
 namespace jnd::device {
 
-/// A device whose driver is a shared object of somebody else's, `jnd_device.h`, in a process of
-/// its own.
+/// A device whose driver is somebody else's shared object (`jnd_device.h`), in a process of its
+/// own.
 ///
 /// Each `read` asks the driver for a measurement, by a number one higher than the last one's,
-/// and waits for the answer for 0.4 of a tick at most (a simulation without a clock of its own:
-/// 0.2 s). Where none comes in time the last measurement stands in, with its old time, which
-/// the loop calls stale after 5 ms; a driver that brings too few new ones (more than a tenth
+/// and waits for the answer for at most 0.4 of a tick (for a simulation without a clock of its
+/// own: 0.2 s). If none comes in time, the last measurement is reused with its old time, which
+/// the loop calls stale after 5 ms. A driver with too few new measurements (more than a tenth
 /// missing of the last 256) is called stale as well. So a driver that crashes, hangs, is
-/// stopped or ends is a fault, and nothing waits for it. What comes is checked, whatever the
-/// driver's process has checked. There is no way back but `close` and `open`, which starts the
-/// driver anew, unless the driver answers again.
+/// stopped or ends is a fault, and nothing waits for it. Everything received is checked again,
+/// whatever the driver's process has checked. Unless the driver answers again, the only way
+/// back is `close` and `open`, which restarts the driver.
 ///
-/// A driver that paces the loop is not asked: it measures at its own pace, and `read` takes the
-/// newest that came; one that comes within 0.4 of a tick counts, too.
+/// A driver that paces the loop is not asked. It measures at its own pace, and `read` takes the
+/// newest measurement, also one that comes within 0.4 of a tick.
 ///
-/// One thread, as every device; `halt` any.
+/// One thread may use it, as with every device. Any thread may call `halt`.
 class PluginDevice final : public HapticDevice {
  public:
   struct Parameters {
     DriverProcess::Parameters process;
-    bool believes_simulated = false;  ///< What the driver says of itself.
-    double max_stale_s = 0.005;       ///< For which a measurement may stand in, > 0.
+    /// Whether to believe the driver that nobody can be hurt.
+    bool believes_simulated = false;
+    double max_stale_s = 0.005;  ///< How long a measurement may be reused, > 0.
   };
 
   /// Counts since it was opened.
@@ -51,7 +52,7 @@ class PluginDevice final : public HapticDevice {
 
   [[nodiscard]] std::string_view name() const noexcept override { return "plugin"; }
   [[nodiscard]] DeviceCapabilities capabilities() const noexcept override;
-  /// What the driver says. Real time.
+  /// Returns the driver's description. Real time.
   [[nodiscard]] const jnd_device_description& description() const noexcept {
     return description_;
   }
@@ -65,12 +66,12 @@ class PluginDevice final : public HapticDevice {
   void close() noexcept override;
   [[nodiscard]] core::Fault fault() const noexcept override { return fault_; }
   [[nodiscard]] std::string words_of_fault() const override;
-  /// The driver answers, and its last measurement was a new one.
+  /// Whether the driver answers and its last measurement was a new one.
   [[nodiscard]] bool may_arm() const noexcept override { return is_well_; }
   void halt() noexcept override { process_.halt(); }
 
   [[nodiscard]] const Counts& counts() const noexcept { return counts_; }
-  /// Its process; -1: none. For tests.
+  /// Returns its process, or -1 if there is none. For tests.
   [[nodiscard]] int process() const noexcept { return process_.process(); }
 
  private:
@@ -86,30 +87,30 @@ class PluginDevice final : public HapticDevice {
   bool is_open_ = false;
   bool has_own_clock_ = true;
   bool paces_loop_ = false;
-  bool is_lost_ = false;  ///< The last answer did not come: none is waited for.
+  bool is_lost_ = false;  ///< The last answer did not come, so no answer is waited for.
   bool is_well_ = false;
   core::Fault fault_ = core::Fault::kNone;
-  core::Fault write_fault_ = core::Fault::kNone;  ///< What the driver made of a force.
+  core::Fault write_fault_ = core::Fault::kNone;  ///< The driver's result for a force.
   DriverRequest request_;
-  std::uint64_t taken_number_ = 0;  ///< Of the newest answer.
+  std::uint64_t taken_number_ = 0;  ///< Number of the newest answer.
   std::uint64_t newest_sample_ = 0;
   core::HapticState newest_;
-  std::int64_t newest_ns_ = 0;  ///< When it came; 0: there is none.
+  std::int64_t newest_ns_ = 0;  ///< When it came; 0 if there is none.
   Counts counts_;
   static constexpr std::size_t kNumJudged = 256;
   std::bitset<kNumJudged> missing_;  ///< Which of the last answers had nothing new, in a ring.
   std::size_t next_judged_ = 0;
-  int num_missing_ = 0;  ///< Of them.
+  int num_missing_ = 0;  ///< Number of those answers.
 };
 
-/// "plugin:ARGUMENT", in a process of its own or, where the options say so, without one. An
-/// empty argument is a device that is there to be listed. Throws as `plugin_options`,
-/// `plugin_file` and the constructor above do. Not real time.
+/// Makes "plugin:ARGUMENT", in a process of its own, or without one if the options say so. An
+/// empty argument gives a device that only serves to be listed. Throws like `plugin_options`,
+/// `plugin_file` and the constructor above. Not real time.
 [[nodiscard]] std::unique_ptr<HapticDevice> make_plugin_device(std::string_view argument,
                                                                double rate_hz);
 
-/// What the driver of "ARGUMENT" says of its device, which is not opened. Throws as above. Not
-/// real time.
+/// Returns the description from the driver of "ARGUMENT", whose device is not opened. Throws
+/// like the function above. Not real time.
 [[nodiscard]] jnd_device_description described_plugin(std::string_view argument);
 
 }  // namespace jnd::device

@@ -10,7 +10,8 @@
 namespace jnd::device {
 namespace {
 
-/// Nothing to be used: what `jnd devices` lists where no driver is named.
+/// Stands for the plug-in devices where `jnd devices` lists them and no driver is named. It
+/// cannot be used.
 class UnnamedPlugin final : public HapticDevice {
  public:
   explicit UnnamedPlugin(double rate_hz) : rate_hz_(rate_hz) {}
@@ -30,8 +31,8 @@ class UnnamedPlugin final : public HapticDevice {
   double rate_hz_;
 };
 
-/// A driver's own word that nobody can be hurt waives real time and arming: the operator has to
-/// say it as well.
+/// Throws unless the operator confirms the driver's statement that nobody can be hurt, because
+/// that waives real time and arming.
 void require_as_told(bool driver_says_simulated, const PluginOptions& options,
                      const std::string& place) {
   if (driver_says_simulated && !options.says_simulated && !options.says_real) {
@@ -81,7 +82,7 @@ std::unique_ptr<HapticDevice> make_plugin_device(std::string_view argument, doub
   const std::filesystem::path driver = plugin_file(options.name);
   const std::string place = place_of(driver);
   if (options.in_process) {
-    // Before anything of it is loaded.
+    // This check comes before anything of the driver is loaded.
     require_as_told(options.says_simulated, options, place);
     auto device = std::make_unique<DirectPluginDevice>(driver, options.of_driver, place,
                                                        rate_hz, options.says_simulated);

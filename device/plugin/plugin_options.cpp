@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Leaves room for what the process of a driver is told.
+/// This leaves room for the rest of what the driver's process is told.
 constexpr std::size_t kMostOptionBytes = 1000;
 
 fs::path own_folder() {

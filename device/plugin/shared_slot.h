@@ -8,10 +8,10 @@
 
 namespace jnd::device {
 
-/// A place in memory that two processes share, in which the newest value wins. One writer, any
-/// number of readers, none of which can hold up the writer. Where the writer ends in the middle
-/// of a value, or something else writes here, a reader gets none or nonsense, but never waits
-/// and never follows a pointer: what it gets is to be checked. Real time.
+/// A place in memory that two processes share, in which the newest value wins. There is one
+/// writer and any number of readers, none of which can hold up the writer. If the writer ends
+/// in the middle of a value, or something else writes here, a reader gets nothing or nonsense,
+/// but never waits and never follows a pointer. So readers have to check the value. Real time.
 template <typename T>
 class SharedSlot {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -22,14 +22,14 @@ class SharedSlot {
     std::memcpy(copy.data(), &value, sizeof value);
     const std::uint32_t before = version_.load(std::memory_order_relaxed) & ~1U;
     version_.store(before + 1, std::memory_order_relaxed);
-    // Whoever sees one of these words sees that the version is odd.
+    // A reader that sees one of these words also sees that the version is odd.
     for (std::size_t i = 0; i < kNumWords; ++i) {
       words_[i].store(copy[i], std::memory_order_release);
     }
     version_.store(before + 2, std::memory_order_release);
   }
 
-  /// False: none was stored yet, or each try met the writer.
+  /// Returns false if nothing was stored yet, or if each attempt met the writer.
   [[nodiscard]] bool load(T& value) const noexcept {
     constexpr int kMostTries = 4;
     std::array<std::uint64_t, kNumWords> copy;
@@ -46,7 +46,7 @@ class SharedSlot {
     return false;
   }
 
-  /// What changes with each store: a futex.
+  /// Changes with each store; a futex.
   [[nodiscard]] const std::atomic<std::uint32_t>& version() const noexcept { return version_; }
 
  private:

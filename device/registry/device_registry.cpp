@@ -22,8 +22,8 @@
 namespace jnd::device {
 namespace {
 
-/// What a program does not do on a network where others may be: believe a device that it cannot
-/// tell from another.
+/// Returns the key for the device. On a network with other participants, the program does not
+/// trust a device without a key, because it could not tell it from another.
 std::optional<DeviceKey> key_for(const NetworkOptions& options, const Address& server) {
   if (!options.key_name.empty()) return read_device_key(device_key_file(options.key_name));
   if (is_loopback(server)) return std::nullopt;
@@ -33,8 +33,8 @@ std::optional<DeviceKey> key_for(const NetworkOptions& options, const Address& s
                     "other machine and write HOST:PORT,key=NAME");
 }
 
-/// A device's own word that nobody can be hurt by it waives real time and arming: the operator
-/// has to say it as well.
+/// Throws unless the operator confirms the device's own statement that nobody can be hurt by
+/// it, because that waives real time and arming.
 void require_as_told(const NetworkDevice& device, const NetworkOptions& options,
                      const Address& server) {
   const std::string place = "device network " + text_of(server) + ": expected ";

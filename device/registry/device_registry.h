@@ -11,28 +11,28 @@ namespace jnd::device {
 /// One line of the table of devices.
 struct DeviceEntry {
   std::string_view name;         ///< As after `--device`.
-  std::string_view argument;     ///< What follows the name and a colon, "HOST:PORT"; or "".
+  std::string_view argument;     ///< What follows the name and a colon: "HOST:PORT", or "".
   std::string_view description;  ///< One phrase for people.
-  /// The device with its default settings, not opened, for a loop of this rate. Throws
-  /// `core::Error` for an argument or a rate it cannot do. Not real time.
+  /// Returns the device with its default settings, not opened, for a loop of this rate. Throws
+  /// `core::Error` for an argument or a rate that it cannot use. Not real time.
   std::unique_ptr<HapticDevice> (*make)(std::string_view argument, double rate_hz);
-  /// What may follow instead, "OPTION,..."; or "".
+  /// An optional argument, "OPTION,...", or "".
   std::string_view optional_argument;
 };
 
-/// What stands before the first colon of a device's name, and what after it. Real time.
+/// Return the parts of a device's name before and after the first colon. Real time.
 [[nodiscard]] std::string_view kind_of(std::string_view name) noexcept;
 [[nodiscard]] std::string_view argument_of(std::string_view name) noexcept;
 
-/// Every device of this program; the first is the default.
+/// Returns every device of this program; the first is the default.
 [[nodiscard]] std::span<const DeviceEntry> devices() noexcept;
 
-/// The entry for "lumped" or "network:127.0.0.1:4700". Throws `core::Error`, listing the names
-/// there are, or saying which argument is wanted. Not real time.
+/// Returns the entry for "lumped" or "network:127.0.0.1:4700". Throws `core::Error` that lists
+/// the existing names or says which argument is missing. Not real time.
 [[nodiscard]] const DeviceEntry& device_named(std::string_view name);
 
-/// Throws as `device_named` and the entry's `make` do, and `DeviceUnreachable` for one that has
-/// to be asked what it can do and does not answer. Not real time.
+/// Throws like `device_named` and the entry's `make`. Throws `DeviceUnreachable` for a device
+/// that has to be asked for its capabilities and does not answer. Not real time.
 [[nodiscard]] std::unique_ptr<HapticDevice> make_device(std::string_view name, double rate_hz);
 
 class NetworkDevice;

@@ -21,20 +21,20 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Below the haptic loop (80) and its watchdog: sound never keeps a force waiting.
+/// Below the haptic loop (80) and its watchdog, so that sound never delays a force.
 constexpr int kSoundPriority = 20;
 constexpr unsigned kWantedRate_hz = 48000;
-/// 5 ms a period and four of them: short enough for a cue, long enough for a desktop.
+/// Four periods of 5 ms are short enough for a cue and long enough for a desktop.
 constexpr snd_pcm_uframes_t kWantedPeriod = 256;
 constexpr unsigned kWantedPeriods = 4;
-/// A server or a card that takes nothing for so long is taken for dead.
+/// A server or a card that accepts nothing for so long counts as dead.
 constexpr int kPatience_ms = 2000;
-/// An output that is further ahead of the clock has none of its own.
+/// An output that is further ahead of the clock has no clock of its own.
 constexpr std::int64_t kMostAhead_ns = core::kNsPerS / 4;
 constexpr snd_pcm_format_t kFormats[] = {SND_PCM_FORMAT_S32_LE, SND_PCM_FORMAT_S16_LE,
                                          SND_PCM_FORMAT_FLOAT_LE};
 
-/// ALSA tells every plug-in that it misses on stderr, which belongs to the program.
+/// ALSA reports every plug-in that it misses on stderr, which belongs to the program.
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}
 
 void hush_alsa() {
@@ -54,7 +54,7 @@ std::int64_t monotonic_ns() noexcept {
                     "; `jnd sound` lists the outputs, and another program may hold this one");
 }
 
-/// A sample in [-1, 1] as the format has it, to the nearest step.
+/// Writes a sample in [-1, 1] in this format, rounded to the nearest step.
 void write_sample(float sample, snd_pcm_format_t format, unsigned char* to) noexcept {
   const double x = std::clamp(static_cast<double>(sample), -1.0, 1.0);
   if (format == SND_PCM_FORMAT_S16_LE) {
@@ -175,7 +175,7 @@ class AlsaOutput final : public SoundOutput {
     }
   }
 
-  /// It begins to play once its buffer is full, so that it never begins with a gap.
+  /// Playing begins once the buffer is full, so that it never begins with a gap.
   void choose_buffer() {
     snd_pcm_sw_params_t* software = nullptr;
     snd_pcm_sw_params_alloca(&software);
@@ -208,8 +208,8 @@ class AlsaOutput final : public SoundOutput {
         }
       }
       write_period();
-      // A file and the output `null` take everything at once: they are played to by the clock.
-      // A card's own clock is never so far ahead of the machine's.
+      // A file and the output `null` accept everything at once, so the machine's clock paces
+      // them. A card's own clock is never so far ahead of the machine's clock.
       num_written += static_cast<std::int64_t>(period_);
       const std::int64_t played_ns = to_ns(num_written - frames_waiting());
       const std::int64_t since_ns = monotonic_ns() - begun_ns;
@@ -221,13 +221,13 @@ class AlsaOutput final : public SoundOutput {
     if (error_ == 0) (void)snd_pcm_drop(pcm_);
   }
 
-  /// Also of days.
+  /// The computation does not overflow, even after days.
   [[nodiscard]] std::int64_t to_ns(std::int64_t frames) const noexcept {
     const auto rate = static_cast<std::int64_t>(rate_);
     return frames / rate * core::kNsPerS + frames % rate * core::kNsPerS / rate;
   }
 
-  /// Written and not heard yet.
+  /// Returns the frames that are written and not heard yet.
   [[nodiscard]] snd_pcm_sframes_t frames_waiting() noexcept {
     snd_pcm_sframes_t delay = 0;
     return snd_pcm_delay(pcm_, &delay) < 0 ? 0 : std::max<snd_pcm_sframes_t>(0, delay);
@@ -253,12 +253,12 @@ class AlsaOutput final : public SoundOutput {
     }
   }
 
-  /// After a gap, or a machine that was asleep: it goes on. Whatever else it is ends it.
+  /// Continues after a gap, or after the machine slept. Any other error ends the output.
   void recover(int error) noexcept {
     if (error == -EINTR || error == -EAGAIN) return;
     if (error == -EPIPE || error == -ESTRPIPE) ++num_underruns_;
     if (error == -ESTRPIPE) {
-      // Until the system has its cards again; `snd_pcm_recover` would wait without an end.
+      // Waits until the system has its cards again. `snd_pcm_recover` would wait for ever.
       for (int i = 0; i < 20 && snd_pcm_resume(pcm_) == -EAGAIN && !is_ending_; ++i) {
         std::this_thread::sleep_for(100ms);
       }
@@ -274,8 +274,8 @@ class AlsaOutput final : public SoundOutput {
   std::size_t sample_bytes_ = 2;
   unsigned rate_ = 0, channels_ = 0;
   snd_pcm_uframes_t period_ = 0, buffer_ = 0;
-  std::vector<float> samples_;         ///< Of a period.
-  std::vector<unsigned char> frames_;  ///< The same as the output takes it.
+  std::vector<float> samples_;         ///< Of one period.
+  std::vector<unsigned char> frames_;  ///< The same in the output's format.
   core::SoundSource* source_ = nullptr;
   std::atomic<bool> is_ending_{false};
   std::atomic<int> error_{0};
@@ -284,7 +284,7 @@ class AlsaOutput final : public SoundOutput {
   std::thread thread_;
 };
 
-/// ALSA's own plug-ins, which convert and mix and are no place to hear anything.
+/// Whether it is one of ALSA's own plug-ins, which convert and mix and are no outputs.
 bool is_plug_in(const std::string& name) {
   static const char* const kPlugIns[] = {
       "null",     "lavrate", "samplerate", "speexrate",   "speex",     "upmix",

@@ -12,7 +12,7 @@ namespace {
 
 using core::kNumContactPoints;
 
-/// Between two places where the motors hold best.
+/// Distance between two places where the motors hold best.
 constexpr double kCoggingPitch_m = 0.02;
 
 double at_resolution(double value_m, double resolution_m) noexcept {
@@ -47,7 +47,7 @@ TwinDevice::TwinDevice(const Parameters& parameters)
   require_not_negative(parameters.homing_sd_m, "homing_sd_m");
   require_positive(parameters.max_force_per_point_n, "max_force_per_point_n");
   require_positive(parameters.max_total_force_n, "max_total_force_n");
-  // As exactly as its steps tell it.
+  // The delay is rounded to the steps of the simulation.
   parameters_.delay_s = kStep_s * std::round(parameters.delay_s / kStep_s);
 }
 
@@ -85,7 +85,7 @@ bool TwinDevice::read(core::HapticState& state) noexcept {
   const auto own = [&](const Eigen::Vector3d& place_m) -> Eigen::Vector3d {
     return to_own * (place_m - parameters_.offset_m);
   };
-  // What encoders get wrong is the same at every point of a stiff hand.
+  // The error of the encoders is the same at every point of a stiff hand.
   const Eigen::Vector3d place_noise_m = noise(parameters_.position_sd_m);
   const Eigen::Vector3d told_m_per_s =
       to_own * velocity_m_per_s_ + noise(parameters_.velocity_sd_m_per_s);
@@ -166,7 +166,7 @@ void TwinDevice::move(const BenchState& done, const Eigen::Vector3d& force_n) no
       touched_m_ = Eigen::Vector3d(done.mark_m[0], done.mark_m[1], done.mark_m[2]) +
                    noise(parameters_.touch_sd_m) - lumped_hand_tips_m().front();
     }
-    // Carried there at a pace that nobody takes for a jump.
+    // The hand is carried to the mark at a pace that does not look like a jump.
     constexpr double kCarrying_m_per_s = 0.3;
     const Eigen::Vector3d way_m = touched_m_ - position_m_;
     const double way_now_m = std::min(way_m.norm(), kCarrying_m_per_s * kStep_s);
@@ -181,11 +181,11 @@ void TwinDevice::move(const BenchState& done, const Eigen::Vector3d& force_n) no
   constexpr double kGravity_m_per_s2 = 9.80665;
   Eigen::Vector3d whole_n = force_n + cogging_n();
   whole_n.z() -= parameters_.weight_n + kGravity_m_per_s2 * done.load_kg;
-  // A hand carries itself.
+  // A hand carries its own weight.
   if (done.has_hand) whole_n += arm_.arm().force_n(position_m_, velocity_m_per_s_);
 
-  // Damping by the trapezoidal rule, which leaves the mass what it is; then as much friction as
-  // there is, until it stands still.
+  // Damping follows the trapezoidal rule, which does not change the mass. Then friction is
+  // subtracted, at most until the mass stands still.
   const double damped = 0.5 * kStep_s * parameters_.damping_n_s_per_m / mass_kg;
   Eigen::Vector3d next_m_per_s =
       ((1.0 - damped) * velocity_m_per_s_ + (kStep_s / mass_kg) * whole_n) / (1.0 + damped);
@@ -198,7 +198,8 @@ void TwinDevice::move(const BenchState& done, const Eigen::Vector3d& force_n) no
   velocity_m_per_s_ = next_m_per_s;
 }
 
-/// What a hand gets to feel: the force that was given, and what the device opposes by itself.
+/// Adds up what a hand feels: the rendered force, and everything by which the device itself
+/// opposes it.
 void TwinDevice::feel(const Eigen::Vector3d& rendered_n) noexcept {
   const double speed_m_per_s = velocity_m_per_s_.norm();
   const double opposing_n =

@@ -12,7 +12,7 @@ namespace {
 
 using Parameters = TwinDevice::Parameters;
 
-/// Each number that can be set by its name.
+/// The numbers that can be set by name.
 constexpr struct {
   std::string_view key;
   double Parameters::*field;
@@ -30,15 +30,14 @@ constexpr struct {
                 {"touch_sd_m", &Parameters::touch_sd_m},
                 {"homing_sd_m", &Parameters::homing_sd_m}};
 
-/// What has changed of the device since somebody measured it: it is the same one, with the same
-/// serial.
+/// Changes since the device was measured. It stays the same device, with the same serial.
 constexpr struct {
   std::string_view key;
   void (*change)(Parameters& twin, double by);
 } kChanges[] = {{"drifted_gain_ratio", [](Parameters& twin, double by) { twin.gain *= by; }},
                 {"added_damping_n_s_per_m",
                  [](Parameters& twin, double by) { twin.damping_n_s_per_m += by; }},
-                // On its table.
+                // The device was turned on its table.
                 {"turned_rad", [](Parameters& twin, double by) {
                    twin.rotation =
                        Eigen::AngleAxisd(by, Eigen::Vector3d::UnitZ()) * twin.rotation;
@@ -55,7 +54,7 @@ Number number_in(std::string_view option, std::string_view text) {
   return number;
 }
 
-/// Every rotation equally likely (Shoemake 1992).
+/// Draws a rotation; all are equally likely (Shoemake 1992).
 Eigen::Matrix3d drawn_rotation(core::RandomStream& random) {
   const double u = random.uniform();
   const double first = 2.0 * std::numbers::pi * random.uniform();
@@ -132,7 +131,7 @@ Parameters twin_parameters(std::string_view options) {
     twin.*field = number_in<double>(key, text);
     changed += " " + std::string(option);
   }
-  // Another device is another serial: a profile belongs to one.
+  // Another device needs another serial, because a profile belongs to one device.
   if (!changed.empty()) twin.serial += changed;
   return twin;
 }

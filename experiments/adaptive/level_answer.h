@@ -2,10 +2,10 @@
 
 namespace jnd::experiments {
 
-/// One trial of an adaptive procedure: what was presented, and what was answered to it. They
-/// are one value, so that no list of levels can be shifted against a list of answers.
+/// One trial of an adaptive procedure: the level that was presented and the answer. They are
+/// one value, so that a list of levels cannot be shifted against a list of answers.
 struct LevelAnswer {
-  /// The level that was presented, unit of the quantity; it counts even where the procedure had
+  /// The presented level in the unit of the quantity. It counts even if the procedure had
   /// proposed another one.
   double level = 0.0;
   bool yes = false;

@@ -15,7 +15,7 @@ using core::require;
 constexpr SeriesDirection kAscending = SeriesDirection::kAscending;
 constexpr SeriesDirection kDescending = SeriesDirection::kDescending;
 
-/// How many levels a series can present.
+/// Returns how many levels a series can present.
 std::size_t length_of(const PlannedSeries& planned, std::size_t num_levels) noexcept {
   return planned.direction == kAscending ? num_levels - planned.start : planned.start + 1;
 }
@@ -64,7 +64,7 @@ LimitsSeries Limits::series_of(const PlannedSeries& planned,
   LimitsSeries series{.direction = planned.direction};
   const bool changed = (planned.direction == kAscending) == rule_.yes_is_above;
   const auto length = static_cast<int>(length_of(planned, rule_.levels.size()));
-  int num_changed = 0;  // In a row.
+  int num_changed = 0;  // Changed answers in a row.
   for (const auto& [level, yes] : answers) {
     require_level(rule_.scale, "limits.answers", level);
     ++series.num_trials;

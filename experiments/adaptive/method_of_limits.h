@@ -13,33 +13,36 @@ namespace jnd::experiments {
 
 enum class SeriesDirection { kAscending, kDescending };
 
-/// In which order ascending and descending series follow each other.
+/// The order in which ascending and descending series follow one another.
 enum class SeriesOrder {
-  kAscendingFirst,   ///< Alternating.
-  kDescendingFirst,  ///< Alternating.
-  kDrawnFirst,       ///< Alternating; the first is drawn.
-  kShuffled,         ///< As many of each, for an even number of them; in random order.
+  kAscendingFirst,   ///< They alternate.
+  kDescendingFirst,  ///< They alternate.
+  kDrawnFirst,       ///< They alternate, and the first direction is drawn.
+  kShuffled,         ///< Equally many of each, if their number is even, in random order.
 };
 
 /// How the method of limits is run.
 struct LimitsRule {
-  std::vector<double> levels;              ///< Ascending, two or more, unit of the quantity.
-  LevelScale scale = LevelScale::kLinear;  ///< The scale of midpoints and means.
+  /// Two or more, ascending, in the unit of the quantity.
+  std::vector<double> levels;
+  LevelScale scale = LevelScale::kLinear;  ///< Scale of midpoints and means.
   int num_series = 0;                      ///< >= 1; an even number balances the directions.
   SeriesOrder order = SeriesOrder::kDrawnFirst;
-  /// A series starts at its end of the levels, or up to so many levels further in, drawn, >= 0
-  /// and less than the number of levels minus one: so that answers cannot be counted out.
+  /// A series starts at its end of the levels, or a drawn number of levels further in. This is
+  /// the largest such number, >= 0 and below the number of levels minus one. It keeps
+  /// participants from counting trials.
   int max_start_offset = 0;
-  /// "Yes" is the answer to high levels, as when it is asked whether the test is felt.
+  /// "Yes" is the answer to high levels, for example to the question whether the test is felt.
   bool yes_is_above = true;
-  /// Changed answers that end a series, >= 1, fewer than any has levels; usually 1 or 2.
+  /// Number of changed answers that end a series, >= 1 and below the number of levels of the
+  /// shortest series; usually 1 or 2.
   int num_changed_in_a_row = 1;
 };
 
 /// A series as it was drawn.
 struct PlannedSeries {
   SeriesDirection direction = SeriesDirection::kAscending;
-  std::size_t start = 0;  ///< Index into the levels.
+  std::size_t start = 0;  ///< Index of its first level.
 
   bool operator==(const PlannedSeries&) const = default;
 };
@@ -47,8 +50,8 @@ struct PlannedSeries {
 enum class SeriesEnd {
   kRunning,
   kTransition,
-  kChangedAtStart,  ///< The answers were the changed ones from the start on: no midpoint.
-  kNeverChanged,    ///< Nor at the last level, or not often enough.
+  kChangedAtStart,  ///< The answers were changed ones from the start, so there is no midpoint.
+  kNeverChanged,    ///< The answer did not change up to the last level, or not often enough.
 };
 
 /// A series as far as it has been answered.
@@ -60,7 +63,7 @@ struct LimitsSeries {
   std::optional<double> transition;
 };
 
-/// What the answers so far come to.
+/// The state of the method after the answers so far.
 struct LimitsState {
   std::optional<double> next_level;  ///< Unit of the quantity; none when finished.
   std::vector<LimitsSeries> series;  ///< The series that were begun.
@@ -71,32 +74,34 @@ struct LimitsState {
   [[nodiscard]] bool is_finished() const noexcept { return !next_level.has_value(); }
 };
 
-/// Means are taken in the scale of the rule; levels have the unit of the quantity.
+/// The threshold. Means are taken in the scale of the rule; levels have the unit of the
+/// quantity.
 struct LimitsThreshold {
   std::optional<double> level;       ///< Mean of all transitions.
-  std::optional<double> ascending;   ///< Mean of those of ascending series.
-  std::optional<double> descending;  ///< Mean of those of descending series.
-  /// Constant error, ascending less descending, in the unit or in ln: above 0 people stay with
-  /// the answer they gave (habituation), below 0 they change it early (anticipation).
+  std::optional<double> ascending;   ///< Mean of the transitions of ascending series.
+  std::optional<double> descending;  ///< Mean of the transitions of descending series.
+  /// Constant error: the ascending mean minus the descending one, in the unit or in ln. Above 0
+  /// people keep the answer they gave (habituation), below 0 they change it early
+  /// (anticipation).
   std::optional<double> constant_error;
-  int num_ascending = 0;  ///< Transitions.
-  int num_descending =
-      0;  ///< Transitions. If the two differ, the constant error does not cancel.
+  int num_ascending = 0;   ///< Number of transitions.
+  int num_descending = 0;  ///< Number of transitions. If the two numbers differ, the constant
+                           ///< error does not cancel.
 };
 
 /// The method of limits (Fechner 1860; Gescheider 1997, ch. 3): levels rise, or fall, until the
-/// answer changes. Has no state of its own: an answer taken back is one that is not passed in.
-/// Not real time.
+/// answer changes. It has no state: to take an answer back, leave it out of the list. Not real
+/// time.
 class Limits {
  public:
   /// Throws `Error` naming the field of the rule that is wrong.
   explicit Limits(LimitsRule rule);
 
   [[nodiscard]] const LimitsRule& rule() const noexcept { return rule_; }
-  /// All series, drawn beforehand: the same for the same stream.
+  /// Draws all series in advance. The same stream gives the same series.
   [[nodiscard]] std::vector<PlannedSeries> drawn_series(core::RandomStream& stream) const;
-  /// All from the start; `plan` is what `drawn_series` gave. Throws `Error` if there is an
-  /// answer after the last series, or a level that is none.
+  /// Computes the state from the start. `plan` is the result of `drawn_series`. Throws `Error`
+  /// for an answer after the last series, and for an invalid level.
   [[nodiscard]] LimitsState after(const std::vector<PlannedSeries>& plan,
                                   const std::vector<LevelAnswer>& answers) const;
   /// The same where each answer is known to be of its series. One that a correction has left

@@ -14,10 +14,11 @@ namespace {
 
 using core::require;
 
-/// Information closer than this is alike; rounding is a thousand times less.
+/// Two amounts of information closer than this count as equal. Rounding errors are a thousand
+/// times smaller.
 constexpr double kAlikeBits = 1e-10;
 
-/// -p log2 p, 0 at 0.
+/// Returns -p log2 p, which is 0 at 0.
 double surprise_bits(double p) noexcept { return p > 0.0 ? -p * std::log2(p) : 0.0; }
 
 void require_rule(const QuestPlusRule& rule) {

@@ -12,7 +12,7 @@ double in_its_scale(const QuestPlusParameter& parameter, double value) noexcept 
   return parameter.is_ratio ? std::log(value) : value;
 }
 
-/// The first value up to which there is at least this probability.
+/// Returns the first value up to which the cumulative probability is at least this.
 double quantile(const std::vector<double>& values, const std::vector<double>& weights,
                 double probability) noexcept {
   double sum = 0.0;

@@ -8,29 +8,29 @@
 
 namespace jnd::experiments {
 
-/// What a marginal says of its parameter.
+/// The estimate of a parameter from its marginal.
 struct QuestPlusEstimate {
   std::string name;
-  double mean = 0.0;  ///< Posterior mean; of a ratio exp(mean of ln).
-  double sd = 0.0;    ///< Of the marginal; of a ratio in ln.
-  /// Values of the grid that cut off the same probability at either side at most; moved out to
-  /// the mean where so coarse a grid would leave it outside.
+  double mean = 0.0;  ///< Posterior mean; for a ratio exp(mean of ln).
+  double sd = 0.0;    ///< Standard deviation of the marginal; for a ratio in ln.
+  /// Grid values that cut off at most the same probability on either side. If the grid is so
+  /// coarse that the mean lies outside, the interval is extended to the mean.
   double low = 0.0, high = 0.0;
-  /// The ends of the grid that the posterior reaches: what lies beyond was ruled out before the
-  /// first answer, and where the grid ends decides about mean and interval.
+  /// Ends of the grid that the posterior reaches. Values beyond were excluded before the first
+  /// answer, so the end of the grid determines mean and interval.
   std::optional<double> reached_low, reached_high;
 
   [[nodiscard]] bool reaches_an_end() const noexcept { return reached_low || reached_high; }
 };
 
-/// The posterior reaches an end of its grid where it is at least exp(-z^2 / 2) as high there as
-/// at its highest, z the normal quantile of the interval's ends: a normal posterior is that
-/// high where the interval ends, so that at least as much of it lies beyond as is to lie
-/// outside on that side. That does not depend on how fine the grid is; so a value that alone
-/// has as much probability as is to lie outside is reached as well. A parameter of one value is
-/// known, and reaches nothing.
+/// The posterior reaches an end of its grid if it is at least exp(-z^2 / 2) times its maximum
+/// there, with z the normal quantile of the interval's ends. A normal posterior has this height
+/// at the end of the interval, so at least as much probability may lie beyond the grid as the
+/// interval leaves out on that side. This does not depend on how fine the grid is, so a single
+/// end value with that much probability counts as reached as well. A parameter with one value
+/// is known and reaches no end.
 ///
-/// `weights` of the grid's values sum to 1; `confidence` in (0, 1), of the interval.
+/// `weights` of the grid's values sum to 1. `confidence`, of the interval, is in (0, 1).
 [[nodiscard]] QuestPlusEstimate estimate_of(const QuestPlusParameter& parameter,
                                             const std::vector<double>& weights,
                                             double confidence);

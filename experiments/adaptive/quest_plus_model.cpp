@@ -41,12 +41,13 @@ std::vector<QuestPlusParameter> parameters_of(const ThresholdGrids& grids) {
   return parameters;
 }
 
-/// `tail` is F for "yes" and 1 - F for "no", so that neither loses its small values beside 1.
+/// `tail` is F for "yes" and 1 - F for "no", so that small values of either keep their
+/// precision.
 double with_rates(bool yes, double tail, double guess, double lapse) noexcept {
   return (yes ? guess : lapse) + (1.0 - guess - lapse) * tail;
 }
 
-/// Weights of a grid's values; they sum to 1.
+/// Returns the weights of a grid's values, which sum to 1.
 std::vector<double> weights_of(const QuestPlusParameter& parameter) {
   const ParameterGrid& grid = parameter.grid;
   std::vector<double> log_weights(grid.values.size(), 0.0);
@@ -56,7 +57,8 @@ std::vector<double> weights_of(const QuestPlusParameter& parameter) {
       log_weights[i] = -0.5 * z * z;
     }
   }
-  // From the largest on, so that a prior far off the grid does not vanish as a whole.
+  // The largest weight is factored out, so that a prior far off the grid does not underflow to
+  // zero everywhere.
   const double largest = *std::max_element(log_weights.begin(), log_weights.end());
   double sum = 0.0;
   std::vector<double> weights;

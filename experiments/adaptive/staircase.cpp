@@ -17,7 +17,7 @@ using core::require;
 void require_levels(const StaircaseRule& rule) {
   require_level(rule.scale, "staircase.lowest", rule.lowest);
   require_level(rule.scale, "staircase.highest", rule.highest);
-  // Words only where they are told: a rule is checked in every trial.
+  // The words are made only for an error, because a rule is checked in every trial.
   if (!(rule.highest > rule.lowest)) {
     require(false, "staircase.highest",
             "a level above the lowest (" + level_words(rule.lowest) + ")", rule.highest);
@@ -63,7 +63,8 @@ void require_counts(const StaircaseRule& rule) {
   }
 }
 
-/// Probability that `num_down` lowering answers in a row come before `num_up` raising ones.
+/// Returns the probability that `num_down` lowering answers in a row come before `num_up`
+/// raising ones.
 double down_before_up_probability(double p, int num_up, int num_down) {
   const double down = std::pow(p, num_down - 1);
   const double up = std::pow(1.0 - p, num_up - 1);
@@ -116,7 +117,7 @@ double Staircase::stepped(double level, bool down, std::size_t num_reversals) co
   const std::size_t here = nearest(rule_.grid, rule_.scale, level);
   const std::size_t there = nearest(rule_.grid, rule_.scale, wanted);
   if (there != here) return rule_.grid[there];
-  // A step shorter than half the way to the next level must not stand still.
+  // Even a step shorter than half the way to the next level moves by one level.
   if (down) return rule_.grid[here > 0 ? here - 1 : 0];
   return rule_.grid[std::min(here + 1, rule_.grid.size() - 1)];
 }
@@ -200,7 +201,8 @@ double staircase_target_probability(int num_up, int num_down, double down_per_up
           "staircase.down_per_up_ratio", "a ratio > 0", down_per_up_ratio);
   const double wanted = 1.0 / (1.0 + down_per_up_ratio);
   double low = 0.0, high = 1.0;
-  // Rises with p; halved until the two ends are neighbours.
+  // The probability rises with p. The interval is halved until its ends are neighbouring
+  // numbers.
   while (true) {
     const double p = 0.5 * (low + high);
     if (p <= low || p >= high) return p;

@@ -8,7 +8,7 @@
 
 namespace jnd::experiments {
 
-/// What was measured, with its 95 % confidence interval.
+/// A measured value with its 95 % confidence interval.
 struct MeasuredValue {
   double value = 0.0;
   std::array<double, 2> ci95{};  ///< Lower and upper end, around the value.
@@ -16,13 +16,13 @@ struct MeasuredValue {
   bool operator==(const MeasuredValue&) const = default;
 };
 
-// The parts of a profile. Units are in the names; what each field means exactly is said in
-// `device_profile_table`. What was not measured is absent.
+// The parts of a profile. Names end in units; `device_profile_table` says what each field means
+// exactly. Values that were not measured are absent.
 
-/// From the robot's own frame to the workspace:
-/// workspace position = rotation * robot position + offset.
+/// Transforms from the robot's frame to the workspace frame: workspace position = rotation *
+/// robot position + offset.
 struct ProfileFrame {
-  std::array<double, 9> rotation{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};  ///< By rows.
+  std::array<double, 9> rotation{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};  ///< Row by row.
   std::array<double, 3> offset_m{};
   std::optional<double> surface_above_origin_m{};  ///< Height of the fluid's surface.
   std::optional<double> rotation_ci95_rad{}, offset_ci95_m{};  ///< Half widths.
@@ -68,10 +68,11 @@ struct ProfileNoise {
   bool operator==(const ProfileNoise&) const = default;
 };
 
-/// The largest value of a ladder that was stable.
+/// The largest stable value among those that were tried, in ascending steps.
 struct StableUpTo {
   double value = 0.0;
-  bool is_beyond_ladder = false;  ///< The whole ladder was: the limit is this or more.
+  /// All values that were tried were stable, so the limit is this or more.
+  bool is_beyond_ladder = false;
 
   bool operator==(const StableUpTo&) const = default;
 };
@@ -85,11 +86,11 @@ struct ProfileStability {
   bool operator==(const ProfileStability&) const = default;
 };
 
-/// What was found; how it was judged is told by `passed` alone.
+/// Findings of a daily check. Only `passed` says how they were judged.
 struct DailyCheck {
   std::string checked_on;
   std::optional<MeasuredValue> gain{}, weight_n{}, damping_n_s_per_m{}, friction_n{};
-  /// Of the device's frame since the profile was measured, at the middle of the marks.
+  /// Change of the device's frame since the profile was measured, at the middle of the marks.
   std::optional<double> turned_rad{}, shifted_m{};
   std::optional<double> position_sd_m{}, velocity_sd_m_per_s{};
   bool passed = false;
@@ -99,14 +100,14 @@ struct DailyCheck {
 
 struct ProfiledModel {
   std::string model;
-  std::string serial, firmware;  ///< "": it does not say.
+  std::string serial, firmware;  ///< "" if the device does not report it.
 
   bool operator==(const ProfiledModel&) const = default;
 };
 
-/// What was measured of one device before a hand is in it: a file NAME.device.json. Everything
-/// that was not measured is absent. Units are in the names; what each field means exactly is
-/// said in `device_profile_table`.
+/// The measurements of one device before a hand is in it, as a file NAME.device.json. Values
+/// that were not measured are absent. Names end in units; `device_profile_table` says what each
+/// field means exactly.
 struct DeviceProfile {
   using Frame = ProfileFrame;
   using Limits = ProfileLimits;
@@ -119,16 +120,17 @@ struct DeviceProfile {
   using DailyCheck = experiments::DailyCheck;
   using Device = ProfiledModel;
 
-  std::string name;     ///< [a-z0-9_], of the file.
-  std::string comment;  ///< Of the whole file; comments of its parts are not kept.
+  std::string name;     ///< Name of the file, [a-z0-9_].
+  std::string comment;  ///< Comment of the whole file. Comments of its parts are not kept.
   Device device;
-  std::string measured_on;  ///< "2026-11-25", the last day of it.
-  std::string valid_until;  ///< The last day on which it holds.
+  std::string measured_on;  ///< "2026-11-25", the last day of the measurement.
+  std::string valid_until;  ///< The last day on which it is valid.
   std::string program_version;
-  bool simulated = false;  ///< Measured on a simulated device: of no use for a real one.
+  /// Measured on a simulated device, so it is not valid for a real one.
+  bool simulated = false;
   Frame frame;
-  Limits limits;           ///< What a session keeps to; people may narrow it.
-  Limits measured_limits;  ///< What was found.
+  Limits limits;           ///< Limits of sessions. People may narrow them.
+  Limits measured_limits;  ///< Limits as measured.
   Force force;
   Tool tool;
   Mechanics mechanics;
@@ -140,16 +142,16 @@ struct DeviceProfile {
   bool operator==(const DeviceProfile&) const = default;
 };
 
-/// How files of profiles end.
+/// The ending of profile files.
 inline constexpr std::string_view kDeviceProfileEnding = ".device.json";
 
-/// The day of the last daily check; of the measurement, where there was none.
+/// Returns the day of the last daily check, or of the measurement if there was none.
 [[nodiscard]] inline const std::string& last_checked_on(const DeviceProfile& profile) {
   return profile.checks.empty() ? profile.measured_on : profile.checks.back().checked_on;
 }
 
-/// Whether both stand for one measurement with the same limits: name, comment, `valid_until`
-/// and daily checks may differ.
+/// Whether both describe the same measurement with the same limits. Name, comment,
+/// `valid_until` and daily checks may differ.
 [[nodiscard]] inline bool is_same_measurement(DeviceProfile one, const DeviceProfile& other) {
   one.name = other.name;
   one.comment = other.comment;

@@ -7,19 +7,20 @@
 
 namespace jnd::experiments {
 
-/// The keys of a device profile. Reader, messages, schema and reference are made from it.
+/// The keys of a device profile. Reader, messages, schema and reference are made from this
+/// table.
 [[nodiscard]] const ParameterTable& device_profile_table();
 
-/// It and every table in it.
+/// Returns this table and every table in it.
 [[nodiscard]] std::vector<const ParameterTable*> device_profile_tables();
 
-/// What a profile calls the schema that lies beside the studies'.
+/// The name by which a profile refers to its schema, which lies in the same folder.
 inline constexpr const char* kDeviceProfileSchemaFileName = "device_profile.schema.json";
 
-/// JSON Schema (draft 7) of profiles; see `file_schema`. Not real time.
+/// Returns the JSON Schema (draft 7) of profiles; see `file_schema`. Not real time.
 [[nodiscard]] std::string device_profile_schema();
 
-/// Every key as a reference to read, in Markdown. Not real time.
+/// Returns a reference of every key, in Markdown. Not real time.
 [[nodiscard]] std::string device_profile_reference();
 
 }  // namespace jnd::experiments

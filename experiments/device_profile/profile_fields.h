@@ -7,13 +7,13 @@
 
 namespace jnd::experiments {
 
-// Which field of a profile stands under which key, for reader and writer alike, in the order in
-// which they are written. A test holds the keys against `device_profile_table`.
+// Assigns the fields of a profile to their keys, for reader and writer alike, in the order in
+// which they are written. A test compares the keys with `device_profile_table`.
 
 template <class T, class Of>
 concept IsA = std::same_as<std::remove_const_t<T>, Of>;
 
-/// Calls `visit(key, field)` for each of them.
+/// Calls `visit(key, field)` for each field.
 template <class T, class Visit>
 void each_field(T& it, const Visit& visit) {
   using P = DeviceProfile;

@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr const char* kProfileKind = "device profile";
 
-// Into each kind of field, out of JSON that was found sound.
+// These functions read each kind of field from JSON that has passed the checks.
 
 template <class T>
 requires std::is_arithmetic_v<T> || std::same_as<T, std::string>

@@ -10,15 +10,15 @@
 namespace jnd::experiments {
 
 /// Reads a device profile. Throws `ProtocolError` with every problem of the file, in the order
-/// in which they stand in it; that a measured number was changed is one of them. Whether it is
-/// valid today and for a device is another question. Not real time.
+/// in which they stand in it. One such problem is a measured number that was edited. It does
+/// not check whether the profile is valid today or for a particular device. Not real time.
 [[nodiscard]] DeviceProfile read_device_profile(const std::filesystem::path& file);
 
-/// From its text. `file_name` is for messages.
+/// Reads a profile from its text. `file_name` is for messages.
 [[nodiscard]] DeviceProfile read_device_profile_text(const std::string& text,
                                                      const std::string& file_name);
 
-/// Every problem, without throwing; empty for a sound profile.
+/// Return every problem without throwing; none for a valid profile.
 [[nodiscard]] std::vector<StudyProblem> device_profile_problems(
     const std::filesystem::path& file);
 [[nodiscard]] std::vector<StudyProblem> device_profile_text_problems(

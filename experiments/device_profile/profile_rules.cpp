@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// How far a rotation and a height may be off by rounding.
+/// Tolerance for the rounding of a rotation and a height.
 constexpr double kRounding = 1e-6;
 
 class ProfileRules : StudyCheck {
@@ -28,7 +28,7 @@ class ProfileRules : StudyCheck {
     check_surface();
     check_dates();
     check_limits();
-    // What a rule finds is not told a second time.
+    // Problems that a rule has found are not reported a second time.
     if (problems_.empty()) check_signature();
   }
 
@@ -108,7 +108,7 @@ class ProfileRules : StudyCheck {
                         ", see `measured_limits`), found " + plain_number(found));
   }
 
-  /// What is told of the origin is not told of all the parts that it goes into.
+  /// A wrong origin is reported once, and not for all the parts whose signature it enters.
   void check_signature() {
     const json& signature = root_["signature"];
     for (const std::string& part : signed_parts()) {

@@ -7,9 +7,9 @@
 
 namespace jnd::experiments {
 
-/// Rules across the keys of a profile whose structure is sound: a rotation that is one, dates
-/// in order, limits within what was measured, and numbers that are still those that were
-/// measured. Appends to `problems`. Not real time.
+/// Checks rules across the keys of a profile whose structure is correct: the rotation is a
+/// rotation, dates are in order, limits are within what was measured, and measured numbers are
+/// unchanged. Appends to `problems`. Not real time.
 void check_profile_rules(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
 }  // namespace jnd::experiments

@@ -9,10 +9,10 @@ using nlohmann::json;
 
 constexpr const char* kOrigin = "origin";
 
-/// The same however an editor writes it: no comments, keys in the order of the alphabet, and
-/// every number as the double that it is, in the fewest digits that say which (17 at most).
+/// Returns the same form however an editor writes the value: no comments, keys in alphabetical
+/// order, and every number as a double, with the fewest digits that identify it (17 at most).
 json canonical(const json& value) {
-  if (value.is_number()) return value.get<double>() + 0.0;  // No -0.
+  if (value.is_number()) return value.get<double>() + 0.0;  // Turns -0 into 0.
   if (value.is_array()) {
     json all = json::array();
     for (const json& one : value) all.push_back(canonical(one));

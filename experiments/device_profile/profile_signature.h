@@ -6,16 +6,17 @@
 
 namespace jnd::experiments {
 
-/// The parts of a profile that are signed: "origin", which is `device`, `measured_on`,
-/// `program_version` and `simulated`, and then keys of the whole file.
+/// Returns the names of the signed parts of a profile. The first is "origin", which stands for
+/// `device`, `measured_on`, `program_version` and `simulated`. The others are keys of the whole
+/// file.
 [[nodiscard]] const std::vector<std::string>& signed_parts();
 
-/// SHA-256 of a part of this profile, or "" where it has no such part. Comments do not count,
-/// nor does how a number is written; the origin goes into the signature of every other part, so
-/// that none can be taken over from another measurement. Not real time.
+/// Returns the SHA-256 of a part of this profile, or "" if it lacks the part. Comments and the
+/// notation of numbers do not matter. The origin enters the signature of every other part, so
+/// that none can be copied from another measurement. Not real time.
 [[nodiscard]] std::string signature_of(const nlohmann::json& profile, const std::string& part);
 
-/// The object for the key `signature`. Not real time.
+/// Returns the object for the key `signature`. Not real time.
 [[nodiscard]] nlohmann::ordered_json signature_of_all(const nlohmann::json& profile);
 
 }  // namespace jnd::experiments

@@ -24,7 +24,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Each kind of field as JSON; null where nothing was measured.
+// These functions turn each kind of field into JSON, or null if it was not measured.
 
 template <class T>
 requires std::is_arithmetic_v<T> || std::same_as<T, std::string> ordered_json
@@ -63,7 +63,7 @@ requires(std::is_class_v<T> && !std::same_as<T, std::string>) ordered_json
   return object;
 }
 
-/// Numbers of a list, and of what was measured, side by side: people read it.
+/// Numbers of a list, and a value with its interval, are printed on one line for human readers.
 void print(const ordered_json& value, std::size_t indent, std::string& text) {
   constexpr std::size_t kLongestLine = 100;
   if (!value.is_structured()) {
@@ -110,7 +110,7 @@ void print(const ordered_json& value, std::size_t indent, std::string& text) {
                     ": expected to write the device's profile, found: " + std::strerror(errno));
 }
 
-/// Writes and syncs a new file; false: there is one already.
+/// Writes and syncs a new file. Returns false if the file exists.
 bool write_new(const std::filesystem::path& file, const std::string& text) {
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (descriptor < 0) {
@@ -137,7 +137,7 @@ bool write_new(const std::filesystem::path& file, const std::string& text) {
   return true;
 }
 
-/// Of whoever changes a profile in this folder: the others wait.
+/// Holds a lock on the profiles of a folder. Other processes that want to change them wait.
 class ChangingProfiles {
  public:
   explicit ChangingProfiles(const std::filesystem::path& folder)
@@ -171,9 +171,10 @@ std::string device_profile_text(const DeviceProfile& profile) {
 std::filesystem::path write_device_profile(const DeviceProfile& profile,
                                            const std::filesystem::path& folder) {
   std::error_code ignored;
-  std::filesystem::create_directories(folder, ignored);  // If it fails, so does the file.
+  // If this fails, opening the file fails, too.
+  std::filesystem::create_directories(folder, ignored);
   const std::string text = device_profile_text(profile);
-  // For editors; one that is there already is as good.
+  // The schema is for editors. If there is one already, it serves as well.
   (void)write_new(folder / kDeviceProfileSchemaFileName, device_profile_schema());
   const std::string dated = profile.name + '-' + last_checked_on(profile);
   constexpr int kMostOfADay = 1000;
@@ -190,7 +191,7 @@ std::filesystem::path write_device_profile(const DeviceProfile& profile,
 }
 
 void add_daily_check(const std::filesystem::path& file, const DailyCheck& check) {
-  // Where it is a link, what it leads to is replaced.
+  // If the file is a link, its target is replaced.
   std::error_code problem;
   const std::filesystem::path whole = std::filesystem::canonical(file, problem);
   if (problem) {
@@ -198,12 +199,13 @@ void add_daily_check(const std::filesystem::path& file, const DailyCheck& check)
                       ": expected a device profile, found: " + problem.message());
   }
   const ChangingProfiles alone(whole.parent_path());
-  (void)read_device_profile(whole);  // Of an edited one the signature stays wrong.
+  // This refuses an edited profile, so that its signature stays wrong.
+  (void)read_device_profile(whole);
   std::ifstream stream(whole, std::ios::binary);
   ordered_json profile =
       ordered_json::parse(std::string{std::istreambuf_iterator<char>(stream), {}});
   if (!profile.contains("checks")) {
-    // Before the signature, where the writer has it.
+    // The checks go before the signature, where the writer puts them.
     ordered_json signature = std::move(profile["signature"]);
     profile.erase("signature");
     profile["checks"] = ordered_json::array();
@@ -219,7 +221,7 @@ void add_daily_check(const std::filesystem::path& file, const DailyCheck& check)
 
   std::filesystem::path fresh = whole;
   fresh += ".new";
-  std::filesystem::remove(fresh, problem);  // Of a program that died.
+  std::filesystem::remove(fresh, problem);  // Removes the remains of a program that died.
   if (!write_new(fresh, text)) fail_to_write(fresh);
   std::filesystem::permissions(fresh, std::filesystem::status(whole).permissions(), problem);
   if (::rename(fresh.c_str(), whole.c_str()) != 0) {

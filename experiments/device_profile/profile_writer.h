@@ -7,22 +7,23 @@
 
 namespace jnd::experiments {
 
-/// The profile as a file has it: keys in the order of the table, every number in the fewest
-/// digits that say it exactly (17 at most), signed, with a line end. Not real time.
+/// Returns the profile as a file: keys in the order of the table, every number in the fewest
+/// digits that identify it (17 at most), signed, and with a line end. Not real time.
 [[nodiscard]] std::string device_profile_text(const DeviceProfile& profile);
 
-/// Writes it into this folder, made if absent, as NAME.device.json; where that is there already
-/// as NAME-DATE.device.json, DATE being the last day of measurement or check, or with a number
-/// behind the date. The schema is put beside it. Nothing is ever overwritten. On disk when it
-/// returns the file. Throws `core::Error`. Not real time.
+/// Writes the profile into this folder as NAME.device.json and returns the file, which is on
+/// disk by then. The folder is made if it is missing. If the name is taken, the file is called
+/// NAME-DATE.device.json, where DATE is the last day of measurement or check, or gets a number
+/// after the date. The schema is put beside it. Nothing is ever overwritten. Throws
+/// `core::Error`. Not real time.
 std::filesystem::path write_device_profile(const DeviceProfile& profile,
                                            const std::filesystem::path& folder);
 
-/// Adds a check behind the others of the profile in this file, and signs them anew; everything
-/// else stays as it stands there, comments too. The file is replaced as a whole and is on disk
-/// when this returns; whatever happens, it is there with the check or without it. Two programs
-/// that add at once both do. Throws `core::Error`, or `ProtocolError` where the profile is not
-/// sound or would not be with this check. Not real time.
+/// Appends a check to those of the profile in this file and signs them again. Everything else
+/// stays as it is, including comments. The file is replaced as a whole and is on disk when the
+/// function returns. Whatever happens, the file exists, with the check or without it. If two
+/// programs add a check at once, both are added. Throws `core::Error`, or `ProtocolError` if
+/// the profile is invalid or would be with this check. Not real time.
 void add_daily_check(const std::filesystem::path& file, const DailyCheck& check);
 
 }  // namespace jnd::experiments

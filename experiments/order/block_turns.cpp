@@ -56,7 +56,7 @@ std::string turns_words(Turns turns) {
 std::size_t num_run_together(const std::vector<const Stage*>& stages, std::size_t first) {
   if (first >= stages.size() || !stages[first]->interleaving) return 1;
   std::size_t num = 1;
-  // A group that comes twice, one right after the other, is run twice.
+  // A group that comes twice in succession is run twice.
   while (first + num < stages.size() &&
          stages[first + num]->interleaving == stages[first]->interleaving &&
          stages[first + num]->name != stages[first]->name) {

@@ -29,7 +29,7 @@ OrderRows all_orders(std::size_t n) {
   return orders;
 }
 
-/// What a counterbalance can give, each as a list of arms.
+/// Returns what a counterbalance can assign, each as a list of arms.
 std::vector<Arms> alternatives(const Counterbalance& counterbalance) {
   std::vector<Arms> found;
   if (counterbalance.method == Counterbalance::Method::kOneOf) {
@@ -48,7 +48,7 @@ std::vector<Arms> alternatives(const Counterbalance& counterbalance) {
   return found;
 }
 
-/// A counterbalance, or the square of a block.
+/// Adds the factor of a counterbalance or of a block's square.
 void add_factor(const Stage& stage, std::vector<Factor>& factors) {
   if (const auto* counterbalance = std::get_if<Counterbalance>(&stage.content)) {
     factors.push_back({.name = stage.name,
@@ -90,7 +90,7 @@ std::vector<std::string> parted(const std::string& text, char divider) {
   return parts;
 }
 
-/// "`female` or `male`"
+/// Returns "`female` or `male`".
 std::string values_words(const ParticipantField& field) {
   std::vector<std::string> values;
   for (const Option& option : field.options) values.push_back(option.value);
@@ -167,7 +167,7 @@ FieldValues field_values(const Study& study, const Cell& cell) {
 std::string field_problem(const Study& study, const FieldValues& values) {
   std::vector<std::string> names;
   for (const ParticipantField& field : study.participant_fields) names.push_back(field.name);
-  // A misspelt name first: the field it was meant for is then without a value, too.
+  // A misspelt name is reported first, because the field that was meant lacks a value, too.
   for (const auto& [name, value] : values) {
     if (std::ranges::find(names, name) != names.end()) continue;
     return "expected a field of the study `" + study.name + "`, found `" + name + '`' +

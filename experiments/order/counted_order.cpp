@@ -12,14 +12,16 @@ namespace jnd::experiments {
 namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-/// A place is a level of recursion, and no session has as many trials.
+/// Each place is a level of recursion. No session has as many trials.
 constexpr int kMaxItems = 2000;
 
-/// Where an order stands, but for the names of the labels.
+/// The state of an order, without the names of the labels.
 struct State {
-  std::u16string free;    // Items left of each label that may come next, ascending, without 0.
-  std::u16string recent;  // Items left of each of the labels used last, the last one first.
-  int num_in_a_row = 0;   // Of the last one, if that is limited.
+  // For each label that may come next, how many of its items are left; ascending, without 0.
+  std::u16string free;
+  // For each of the labels used last, how many of its items are left; the latest label first.
+  std::u16string recent;
+  int num_in_a_row = 0;  // How often the last label came in a row, if that is limited.
 
   [[nodiscard]] std::u16string key() const {
     std::u16string text = free;
@@ -48,7 +50,7 @@ class Counting {
 
   [[nodiscard]] bool gave_up() const noexcept { return known_.size() > max_states_; }
 
-  /// The state once an item of a free label, of which `count` are left, has been used.
+  /// Returns the state after an item of a free label, of which `count` are left, was used.
   [[nodiscard]] State after_free(const State& state, char16_t count) const {
     State next = state;
     next.free.erase(next.free.find(count), 1);
@@ -71,8 +73,8 @@ class Counting {
     return next;
   }
 
-  /// ln of the share of the orders of all items left that meet the constraints. In ln, for it
-  /// can be less than the smallest number.
+  /// Returns ln of the share of all orders of the remaining items that meet the constraints.
+  /// The share itself can be smaller than the smallest number.
   [[nodiscard]] double ln_share(const State& state) {
     const auto num_left = [](const std::u16string& counts) {
       return std::accumulate(counts.begin(), counts.end(), 0);
@@ -107,11 +109,11 @@ class Counting {
  private:
   std::size_t max_states_;
   std::size_t num_recent_ = 0;
-  int max_in_a_row_ = 0;  // 0 is without limit.
+  int max_in_a_row_ = 0;  // 0 means no limit.
   std::unordered_map<std::u16string, double> known_;
 };
 
-/// What may come next, by name.
+/// A label that may come next.
 struct Choice {
   int label = 0;
   double ln_weight = 0.0;
@@ -145,7 +147,7 @@ LabelOrder counted_order(const LabelProblem& problem, int max_states,
   if (problem.num_items() > kMaxItems) return {};
   Counting counting(problem, max_states);
   std::vector<int> left = problem.counts;
-  std::vector<int> recent;  // Labels, the last one first.
+  std::vector<int> recent;  // Labels used last, the latest first.
   State state;
   for (const int count : left) insert_sorted(state.free, static_cast<char16_t>(count));
   LabelOrder order{.outcome = Outcome::kFound};

@@ -13,11 +13,11 @@ namespace {
 
 using Arms = std::vector<std::string>;
 
-/// How many completed sessions had what a participant with these values might get.
+/// Counts how many completed sessions had what a participant with these values might get.
 class Filling {
  public:
-  /// Of the whole cell; of its arms and orders, each by itself; of the cell whatever the
-  /// participant brought. The first counts most.
+  /// Counts for the whole cell, for its arms and orders each by itself, and for the cell
+  /// whatever the participant's fields are. Earlier counts matter more.
   using Crowding = std::tuple<int, int, int>;
 
   Filling(const Study& study, const std::vector<std::string>& completed,
@@ -43,7 +43,7 @@ class Filling {
     const auto found = counts.find(key);
     return found == counts.end() ? 0 : found->second;
   }
-  /// The part of a cell that nobody brings.
+  /// Returns the assigned part of a cell, without the participant's fields.
   [[nodiscard]] std::string assigned(const Cell& cell) const {
     Cell part;
     for (std::size_t i = 0; i < cell.size(); ++i) {
@@ -66,10 +66,10 @@ class Filling {
 
   std::vector<Factor> factors_;
   std::map<std::string, int> whole_, assigned_;
-  std::vector<std::map<Arms, int>> alone_;  ///< Of each factor.
+  std::vector<std::map<Arms, int>> alone_;  ///< One map for each factor.
 };
 
-/// Builds a participant's list, so that the recursion does not carry four arguments along.
+/// Builds a participant's list of stages. As a class it spares the recursion four arguments.
 class Flattening {
  public:
   explicit Flattening(const Cell& cell) : cell_(cell) {}

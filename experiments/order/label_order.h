@@ -7,8 +7,9 @@
 
 namespace jnd::experiments {
 
-/// How many items of each label there are to be put in order, and under which constraints;
-/// labels are indices. For `mixed_order`, which words and checks it.
+/// The task of ordering items by labels: how many items each label has, and the constraints.
+/// Labels are indices. It is for `mixed_order`, which checks the constraints and words the
+/// errors.
 struct LabelProblem {
   std::vector<int> counts;         ///< One for each label, >= 1.
   std::vector<bool> may_be_first;  ///< One for each label.
@@ -18,28 +19,29 @@ struct LabelProblem {
   [[nodiscard]] int num_items() const noexcept;
 };
 
-/// A label for each place, or why there is none.
+/// A label for each place, or why there is no order.
 struct LabelOrder {
   enum class Outcome {
     kFound,
-    kInfeasible,  ///< Proven: there is none.
-    kGaveUp,      ///< Before it was found or proven.
+    kInfeasible,  ///< It is proven that no order exists.
+    kGaveUp,      ///< The limit came before an order was found or proven impossible.
   };
   Outcome outcome = Outcome::kGaveUp;
   std::vector<int> labels;
 };
 
-/// An order drawn with the same probability as a shuffle of the items that turned out to meet
-/// the constraints: place by place, each label weighed by the number of ways to go on from it.
-/// The numbers are found by recursion over states that differ in what matters alone: how many
-/// items are left of each label, whatever its name, and which were used last. So whether there
-/// is an order at all is decided as well. Gives up beyond `max_states`. Not real time.
+/// Draws an order with the same probability as shuffling the items until they meet the
+/// constraints. It goes place by place and weighs each label by the number of ways to continue.
+/// It counts these by recursion over states that contain only what matters: how many items are
+/// left of each label, whatever its name, and which labels were used last. So it also decides
+/// whether an order exists. It gives up beyond `max_states`. Not real time.
 [[nodiscard]] LabelOrder counted_order(const LabelProblem& problem, int max_states,
                                        core::RandomStream& stream);
 
-/// An order built place by place, each label drawn by how many of it are left, among those that
-/// leave room for the rest; where there is none, the last place is taken back. Not uniform.
-/// Begins anew after a twentieth of `max_steps`, gives up after all of them. Not real time.
+/// Builds an order place by place. Each label is drawn in proportion to its remaining items,
+/// among those that leave room for the rest. If none does, the last place is taken back. The
+/// orders are not equally likely. It starts again after a twentieth of `max_steps` and gives up
+/// after all of them. Not real time.
 [[nodiscard]] LabelOrder searched_order(const LabelProblem& problem, int max_steps,
                                         core::RandomStream& stream);
 

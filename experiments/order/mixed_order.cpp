@@ -36,10 +36,10 @@ void require_constraints(const std::vector<std::string>& labels,
 /// Places of each label, by its name.
 using Places = std::map<std::string, std::vector<std::size_t>>;
 
-/// Throws what can be told by counting places. A label that stands c times at distance d takes
-/// (c - 1) d + 1 places; where several stand as often as the most frequent, each of them needs
-/// a place of its own after the last full distance. In rows of r it needs the others between
-/// them.
+/// Throws `Error` for what follows from counting places. A label that occurs c times at
+/// distance d takes (c - 1) d + 1 places. If several labels are the most frequent ones, each of
+/// them needs another place after the last full distance. In rows of r a label needs the others
+/// in between.
 void require_room(const Places& places_of, std::size_t num_items,
                   const OrderConstraints& constraints) {
   std::size_t most = 0, num_most_frequent = 0;
@@ -85,7 +85,7 @@ LabelProblem problem_of(const Places& places_of, const OrderConstraints& constra
   return problem;
 }
 
-/// Items in the order of their labels, those of a label in random order.
+/// Returns items in the order of their labels. Items of the same label are in random order.
 std::vector<std::size_t> items_of(const std::vector<int>& label_order, const Places& places_of,
                                   core::RandomStream& stream) {
   std::vector<std::vector<std::size_t>> left;

@@ -33,9 +33,10 @@ class Building {
     ++left_[label];
   }
 
-  /// Labels that may come next; those with many items left tend to stand last.
+  /// Returns the labels that may come next. Those with many remaining items tend to come last.
   [[nodiscard]] std::vector<int> drawn_candidates(core::RandomStream& stream) const {
-    // Of exponential waiting times, the shortest is each label's with the odds of its rate.
+    // Of exponential waiting times, each label's is the shortest with a probability in
+    // proportion to its rate.
     std::vector<std::pair<double, int>> waiting;
     for (int label = 0; label < static_cast<int>(left_.size()); ++label) {
       if (left_[label] == 0 || !may_come(label)) continue;
@@ -47,7 +48,8 @@ class Building {
     return candidates;
   }
 
-  /// Whether each label by itself has room for its items; without it there is no way to go on.
+  /// Whether each label by itself has room for its items. Without that the order cannot be
+  /// completed.
   [[nodiscard]] bool has_room() const noexcept {
     const int num_left = num_items_ - num_placed();
     for (int label = 0; label < static_cast<int>(left_.size()); ++label) {
@@ -84,7 +86,7 @@ class Building {
   int num_items_;
   std::vector<int> left_;
   std::vector<int> labels_;
-  std::vector<std::vector<int>> places_;  // Of each label, ascending.
+  std::vector<std::vector<int>> places_;  // For each label, ascending.
 };
 
 }  // namespace
@@ -94,7 +96,7 @@ LabelOrder searched_order(const LabelProblem& problem, int max_steps,
   using Outcome = LabelOrder::Outcome;
   for (int start = 0; start < kNumStarts; ++start) {
     Building building(problem);
-    // Labels still to be tried, for each place so far.
+    // The labels that are still to be tried, for each place so far.
     std::vector<std::vector<int>> untried = {building.drawn_candidates(stream)};
     for (int step = 0; step < max_steps / kNumStarts; ++step) {
       if (building.is_whole()) return {Outcome::kFound, building.labels()};

@@ -3,7 +3,8 @@
 namespace jnd::experiments {
 namespace {
 
-/// The first row, and every further one with one added to every place of the one before.
+/// Returns the first row, and further rows in each of which every number is one more than in
+/// the row before.
 OrderRows turned(const std::vector<std::size_t>& first) {
   const std::size_t n = first.size();
   OrderRows rows;
@@ -23,7 +24,7 @@ OrderRows latin_rows(std::size_t n) {
 }
 
 OrderRows williams_rows(std::size_t n) {
-  // The first row runs 0, 1, n-1, 2, n-2 ...
+  // The first row is 0, 1, n-1, 2, n-2 and so on.
   std::vector<std::size_t> first = {0};
   for (std::size_t low = 1, high = n - 1; first.size() < n; ++low, --high) {
     first.push_back(low);

@@ -25,13 +25,13 @@ bool may_be_first(const StimulusOrder& order, double stimulus) {
          order.not_first.end();
 }
 
-/// Every order in which no stimulus comes sooner than `distance` trials after its place in the
-/// order before, with the same probability.
+/// Draws an order in which no stimulus comes sooner than `distance` trials after its place in
+/// the order before. All such orders are equally likely.
 Order spaced_after(const Order& before, std::size_t distance, core::RandomStream& stream) {
   const std::size_t n = before.size();
-  Order order(n, n);  // n: still free.
-  // Who stood last has the fewest places to choose from, and all of them are also open to the
-  // others: so whatever it takes, the number of ways to go on is the same.
+  Order order(n, n);  // n marks a free place.
+  // The stimulus that came last has the fewest places to choose from, and all of them are open
+  // to the others as well. So the number of ways to continue does not depend on its choice.
   for (std::size_t place = n; place-- > 0;) {
     Order free;
     for (std::size_t next = std::max(place + distance, n) - n; next < n; ++next) {

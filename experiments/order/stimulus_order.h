@@ -8,19 +8,19 @@
 
 namespace jnd::experiments {
 
-/// How many rows the square of an order has, one of which a participant begins with; 0 for an
-/// order without a square.
+/// Returns how many rows the square of an order has. A participant begins with one of them.
+/// Returns 0 for an order without a square.
 [[nodiscard]] std::size_t num_square_rows(const StimulusOrder& order, std::size_t num_stimuli);
 
-/// Which stimulus comes in each trial of a block, as indices into `stimuli`: every one of them
+/// Returns the stimulus of each trial of a block, as indices of `stimuli`: each comes
 /// `num_repetitions` times. The order depends on the stream alone.
 ///
-/// Shuffled repetitions that keep a distance are drawn one after the other, each place among
-/// those that the repetition before leaves: every order of the block that keeps to the
-/// constraints is equally likely. Mixed ones are drawn by `mixed_order`. A square is
-/// not drawn: repetition r takes the row r after the participant's first.
+/// Shuffled repetitions that keep a distance are drawn one after another, each place among
+/// those that the repetition before allows. All orders of the block that meet the constraints
+/// are equally likely. Mixed orders are drawn by `mixed_order`. A square is not drawn:
+/// repetition r takes the r-th row after the participant's first.
 ///
-/// Throws `Error` if no order can keep to the constraints. Not real time.
+/// Throws `Error` if no order can meet the constraints. Not real time.
 [[nodiscard]] std::vector<std::size_t> stimulus_order(const StimulusOrder& order,
                                                       const std::vector<double>& stimuli,
                                                       int num_repetitions,

@@ -21,7 +21,7 @@
 namespace jnd::experiments {
 namespace {
 
-/// One participant in one block.
+/// Plays one participant in one block.
 class BlockPlayer {
  public:
   BlockPlayer(const Laboratory& laboratory, const core::ForceMap* map,
@@ -43,7 +43,8 @@ class BlockPlayer {
         deadline_s_(block.answer_deadline_s.value_or(kNoEnd)),
         perceiver_(participant.perceiver(block)) {}
 
-  /// The response to a trial, none for "cannot tell". `answered`: those before it in the block.
+  /// Returns the response to a trial; none means "cannot tell". `answered` are the trials
+  /// before it in the block.
   std::optional<double> respond(const PlannedTrial& planned, std::int64_t trial,
                                 const std::vector<AnsweredTrial>& answered) {
     for (int attempt = 1;; ++attempt) {
@@ -55,7 +56,7 @@ class BlockPlayer {
       const std::optional<double> answer = respond_once(planned, answered);
       const double before_question_s = (num_stimuli(planned) - 1) * presentation_s_;
       if (felt_s_ - felt_before_s - before_question_s < deadline_s_) return answer;
-      // It was not felt any longer.
+      // The stimulus was not felt after the deadline.
       felt_s_ = felt_before_s + before_question_s + deadline_s_;
       if (hurries()) return answer;
     }
@@ -66,10 +67,10 @@ class BlockPlayer {
  private:
   static constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 
-  /// Whose answer missed the deadline is in time when the trial comes again.
+  /// A participant who missed the deadline answers in time when the trial is repeated.
   [[nodiscard]] bool hurries() const noexcept { return moment_.attempt > 1; }
 
-  /// Before which it cannot be answered.
+  /// Returns how many stimuli come before the trial can be answered.
   [[nodiscard]] int num_stimuli(const PlannedTrial& planned) const {
     if (form_.order_is_drawn) return form_.num_intervals;
     return form_.has_reference && planned.reference_intensity ? 2 : 1;
@@ -84,7 +85,7 @@ class BlockPlayer {
     return estimate(planned, answered);
   }
 
-  /// What the next presentation feels like, in ln(N s/m), of a solid in ln(N/m).
+  /// Returns the reading of the next presentation in ln(N s/m), or for a solid in ln(N/m).
   double present(const char* interval, double intensity) {
     ++moment_.presentation;
     felt_s_ += presentation_s_;
@@ -105,7 +106,8 @@ class BlockPlayer {
                : reading_ln;
   }
 
-  /// Mean of this presentation's strokes, each a little faster or slower.
+  /// Returns the mean of this presentation's strokes, each of which is a little faster or
+  /// slower.
   [[nodiscard]] double drawn_speed_m_per_s() const {
     core::RandomStream random(seed_, "calculated stroke",
                               {moment_.trial, moment_.attempt, moment_.presentation});
@@ -117,7 +119,7 @@ class BlockPlayer {
     return stroking_.max_speed_m_per_s * sum / strokes_.num_strokes;
   }
 
-  /// As far as the block lets anybody go back to each stimulus.
+  /// Whether the participant returns to a stimulus, within what the block allows.
   [[nodiscard]] bool looks_again() const {
     if (block_.max_returns && moment_.presentation > *block_.max_returns) return false;
     if (hurries()) return false;
@@ -150,7 +152,7 @@ class BlockPlayer {
         counting_of(laboratory_, participant_, block_, felt_standard_ln, map_));
   }
 
-  /// Whether anything is there, against free space as it is remembered.
+  /// Answers whether anything is there, compared with the remembered free space.
   std::optional<double> detect(const PlannedTrial& planned) {
     double test_ln = 0.0;
     int looks = 0;
@@ -230,7 +232,7 @@ class BlockPlayer {
                        }));
   }
 
-  /// What a step is to do, of a production or of a matching.
+  /// Returns what a step shall do in a production or a matching.
   [[nodiscard]] Perceiver::Wish wish(const PlannedTrial& planned, double reading_ln,
                                      double first_ln, double standard_ln) const {
     if (form_.has_reference) {
@@ -241,7 +243,8 @@ class BlockPlayer {
 
   double adjust(const PlannedTrial& planned) {
     using Wish = Perceiver::Wish;
-    constexpr int kMaxSteps = 60;  // Then a person gives up and takes what there is.
+    // After this many steps a person gives up and accepts the setting.
+    constexpr int kMaxSteps = 60;
     double standard_ln = 0.0;
     int standard_looks = 0;
     const auto feel_standard = [&] {
@@ -252,7 +255,7 @@ class BlockPlayer {
     const double start = planned.starting_intensity.value();
     double set = start, noise_ln = 0.0;
     int looks = 0;
-    // The noise of all looks at this trial averaged, as in a session.
+    // The noise of all looks at this trial is averaged, as in a session.
     const auto look = [&] {
       const double reading_ln = present("test", set);
       const double felt_ln = std::log(std::max(felt_, 1e-6));
@@ -271,7 +274,7 @@ class BlockPlayer {
         reading_ln = look();
         continue;
       }
-      // Back and forth over the target by the smallest step: it does not get closer.
+      // The setting alternates about the target by the smallest step, so it gets no closer.
       if ((last_wish == Wish::kRaiseFine && next == Wish::kLowerFine) ||
           (last_wish == Wish::kLowerFine && next == Wish::kRaiseFine)) {
         break;
@@ -295,7 +298,8 @@ class BlockPlayer {
   const Block& block_;
   TrialForm form_;
   StrokeIntent strokes_;
-  StrokeIntent stroking_;  ///< Through a fluid, where `strokes_` press.
+  /// Strokes through a fluid. In a block of presses, `strokes_` are the presses.
+  StrokeIntent stroking_;
   double presentation_s_;
   double deadline_s_;
   const Perceiver perceiver_;
@@ -304,7 +308,8 @@ class BlockPlayer {
   double felt_s_ = 0.0;
 };
 
-/// A form of answer that no simulated person knows is refused before any is asked.
+/// Throws `Error` for a form of answer that no simulated person can give, before any question
+/// is asked.
 void require_answerable(const Stage& stage) {
   const auto* block = std::get_if<Block>(&stage.content);
   if (block == nullptr) return;
@@ -334,7 +339,8 @@ AnswerSimulator::AnswerSimulator(const Study& study, const Laboratory& laborator
 std::vector<AnsweredBlock> AnswerSimulator::answers(const std::vector<StageInstance>& stages,
                                                     std::uint64_t session_seed) const {
   const SimulatedParticipant participant(laboratory_, session_seed);
-  // Interleaved blocks, too, one after the other: nobody carries anything from one to another.
+  // Interleaved blocks are run one after another, because these participants carry nothing over
+  // from one block to another.
   std::vector<AnsweredBlock> blocks;
   std::int64_t trial = 0;  // Running number in the session.
   for (std::size_t index = 0; index < stages.size(); ++index) {
@@ -344,7 +350,7 @@ std::vector<AnsweredBlock> AnswerSimulator::answers(const std::vector<StageInsta
     BlockPlayer player(laboratory_, map_.get(), participant, session_seed, block, device_);
     std::vector<AnsweredTrial> answered;
     while (true) {
-      // The key of a session's draw.
+      // This is the key of a session's draw.
       core::RandomStream stream(
           session_seed, "order",
           {static_cast<std::int64_t>(index), static_cast<std::int64_t>(answered.size())});

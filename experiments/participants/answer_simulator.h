@@ -15,23 +15,23 @@ namespace jnd::experiments {
 /// A block with the answers of one simulated participant.
 struct AnsweredBlock {
   const Stage* stage = nullptr;
-  std::vector<AnsweredTrial> trials;  ///< In their order; the response as a session stores it.
-  double felt_s = 0.0;  ///< In all presentations: no less than this do the trials take.
+  std::vector<AnsweredTrial> trials;  ///< In order, with responses as a session stores them.
+  double felt_s = 0.0;  ///< Duration of all presentations. The trials take at least this long.
 };
 
-/// Answers of simulated participants without a device: the procedures draw, and the perceiver
-/// reads, with the random numbers that a session of the same seed uses; but what a presentation
-/// delivers is calculated (`calculated_stroke`). So where the force limiter keeps out of the
-/// way, the same person gives nearly the same answers as in a whole simulated session. Some
-/// microseconds a trial. Not real time; safe from several threads.
+/// Computes the answers of simulated participants without a device. The procedures draw and the
+/// perceiver reads with the random numbers of a session with the same seed, but what a
+/// presentation delivers is calculated (`calculated_stroke`). So while the force limiter does
+/// not act, a person gives nearly the same answers as in a complete simulated session. A trial
+/// takes some microseconds. Not real time; several threads may call it.
 class AnswerSimulator {
  public:
-  /// Both must outlive the simulator. Throws `Error` for a study whose answers it has no
-  /// person for.
+  /// Both must outlive the simulator. Throws `Error` for a study whose questions its simulated
+  /// people cannot answer.
   AnswerSimulator(const Study& study, const Laboratory& laboratory);
 
-  /// Every block of a participant's own list of stages, in its order. `session_seed` as in
-  /// `session_seed` of experiments/session/session.h.
+  /// Returns every block of a participant's own list of stages, in order. `session_seed` is as
+  /// in `session_seed` of experiments/session/session.h.
   [[nodiscard]] std::vector<AnsweredBlock> answers(const std::vector<StageInstance>& stages,
                                                    std::uint64_t session_seed) const;
 

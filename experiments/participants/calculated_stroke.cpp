@@ -10,7 +10,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// What is not linear in speed, averaged over a stroke.
+/// Forces that are not linear in speed, averaged over a stroke.
 struct Nonlinear {
   double damping_n_s_per_m = 0.0;    ///< c(V)
   double delivered_n_s_per_m = 0.0;  ///< Mean force over mean speed.
@@ -18,7 +18,7 @@ struct Nonlinear {
 
 Nonlinear averaged(const core::MediumAmounts& medium, const core::ForceMap* map,
                    double speed_m_per_s) {
-  // By the midpoints of a quarter of a stroke, which is like all others.
+  // The average uses the midpoints of a quarter of a stroke, because the quarters are alike.
   constexpr int kNumPhases = 8;
   static const std::array<double, kNumPhases> kSines = [] {
     std::array<double, kNumPhases> sines{};
@@ -53,7 +53,7 @@ CalculatedStroke calculated_stroke(const Laboratory& laboratory, double amplitud
   const double spring = laboratory.arm.stiffness_n_per_m;
   const double pull = std::abs(std::complex(spring, laboratory.arm.damping_n_s_per_m * omega));
   const double elastic = spring - device.mass_kg * omega * omega;
-  // What opposes the hand rises with its speed, so that halving finds the one balance.
+  // The force against the hand grows with its speed, so bisection finds the only balance.
   double low = 0.0, high = max_speed_m_per_s * (1.0 + 10.0 * pull / (1.0 + std::fabs(elastic)));
   Nonlinear nonlinear;
   constexpr int kMostSteps = 60;
@@ -67,7 +67,8 @@ CalculatedStroke calculated_stroke(const Laboratory& laboratory, double amplitud
         max_speed_m_per_s * pull / std::abs(std::complex(elastic, damping * omega));
     if (std::fabs(follows - speed) < 1e-9 * max_speed_m_per_s) break;
     (follows > speed ? low : high) = speed;
-    // The mean of both is close where drag grows with speed; halving where it leads outside.
+    // The mean of both values is a good guess if drag grows with speed. If it leaves the
+    // interval, bisection takes over.
     speed = 0.5 * (speed + follows);
     if (!(speed > low && speed < high)) speed = 0.5 * (low + high);
   }

@@ -5,10 +5,10 @@
 
 namespace jnd::experiments {
 
-/// How the numbers of an estimation count for this person in this trial. `felt_standard_ln`:
-/// the mean reading of the standard where it was felt in the trial; elsewhere it is remembered
-/// as what it is, without noise: its calculated stroke (`calculated_stroke`) and the
-/// laboratory's mechanical viscosity, or a solid's stiffness.
+/// Returns how the numbers of an estimation count for this person in this trial.
+/// `felt_standard_ln` is the mean reading of the standard if it was felt in the trial.
+/// Otherwise the standard is remembered without noise: as its calculated stroke
+/// (`calculated_stroke`) plus the laboratory's mechanical viscosity, or as a solid's stiffness.
 [[nodiscard]] Counting counting_of(const Laboratory& laboratory,
                                    const SimulatedParticipant& participant, const Block& block,
                                    std::optional<double> felt_standard_ln,

@@ -27,7 +27,8 @@ bool applies(const Laboratory::Effect& effect, const Levels& levels) {
   });
 }
 
-/// An amount, its spread between people, and what they are where an effect does not say them.
+/// An amount of an effect, its spread between people, and the value of an effect that does not
+/// have it.
 struct Amount {
   const char *key, *spread_key;
   double Laboratory::Effect::*value;
@@ -57,7 +58,7 @@ std::vector<std::string> amount_names() {
   return names;
 }
 
-/// What an effect says that is not nothing.
+/// Returns the amounts of an effect that change anything.
 std::vector<std::string> told_amounts(const Laboratory::Effect& effect) {
   std::vector<std::string> names;
   for (const Amount& amount : kAmounts) {
@@ -67,7 +68,7 @@ std::vector<std::string> told_amounts(const Laboratory::Effect& effect) {
   return names;
 }
 
-/// Whether the answers follow an amount, by its key.
+/// Whether the answers depend on an amount, which is given by its key.
 bool acts_on(const std::string& key, const Block& block) {
   const Measure measures = procedure_named(block.procedure).measures(block);
   if (key == "weber_fraction_factor") return true;
@@ -78,7 +79,8 @@ bool acts_on(const std::string& key, const Block& block) {
   const bool says_numbers =
       measures == Measure::kMagnitude || measures == Measure::kProducedMagnitude;
   if (key == "exponent_difference") return says_numbers;
-  // Numbers that count in a standard are as much larger as its own is.
+  // Numbers in units of a standard do not change, because the standard changes in the same
+  // ratio.
   return says_numbers && modulus_of(block) != Modulus::kStandard;
 }
 
@@ -89,7 +91,7 @@ bool acts_on(const std::string& key, const Block& block) {
       written + "`, " + found);
 }
 
-/// "a=b,c=d" as pairs.
+/// Splits "a=b,c=d" into pairs.
 std::vector<std::pair<std::string, std::string>> pairs_of(const std::string& text,
                                                           const std::string& written) {
   std::vector<std::pair<std::string, std::string>> pairs;
@@ -160,7 +162,8 @@ std::string with_effects(const std::string& laboratory_text,
                          const std::vector<std::string>& effects) {
   if (effects.empty()) return laboratory_text;
   auto file = nlohmann::ordered_json::parse(laboratory_text, nullptr, false);
-  if (!file.is_object()) return laboratory_text;  // Whoever reads it says so.
+  // The function that reads the text reports the problem.
+  if (!file.is_object()) return laboratory_text;
   for (const std::string& written : effects) {
     const std::size_t colon = written.find(':');
     if (colon == std::string::npos) refuse(written, "which has no colon");
@@ -193,7 +196,7 @@ std::vector<std::string> amounts_that_act_on(const Block& block) {
 
 namespace {
 
-/// "`fluid=thin,priming=primed`"
+/// Returns "`fluid=thin,priming=primed`".
 std::string effect_words(const Levels& levels) {
   std::string words;
   for (const auto& [factor, level] : levels) {
@@ -202,7 +205,7 @@ std::string effect_words(const Levels& levels) {
   return '`' + shown_text(words) + '`';
 }
 
-/// Throws where no block is any different for it.
+/// Throws `Error` if the effect changes no block.
 void require_that_it_acts(const Laboratory::Effect& effect, const Laboratory& laboratory,
                           const Study& study) {
   std::vector<std::string> blocks;

@@ -15,16 +15,16 @@ namespace {
 
 using nlohmann::json;
 
-/// A value as a message shows it: short, whatever it is.
+/// Returns a value as a message shows it: short, whatever it is.
 std::string in_words(const json& value) {
   return value.is_string() ? '"' + shown_text(value.get<std::string>()) + '"'
                            : found_words(value);
 }
 
-/// Reads one object key by key and collects what is wrong with it.
+/// Reads one object key by key and collects its problems.
 class Section {
  public:
-  /// The object at `key`; `path` is where messages say it is.
+  /// Reads the object at `key`. `path` is its place in messages.
   Section(const json& parent, const std::string& key, const std::string& path,
           std::vector<std::string>& problems)
       : path_(path), problems_(problems) {
@@ -35,7 +35,7 @@ class Section {
     }
   }
 
-  /// The object at this place of a list.
+  /// Reads the object at this index of a list.
   Section(const json& list, std::size_t index, const std::string& path,
           std::vector<std::string>& problems)
       : path_(path), problems_(problems) {
@@ -46,7 +46,7 @@ class Section {
     }
   }
 
-  /// The same as `number` of a key that may be absent.
+  /// Like `number`, for a key that may be absent.
   void optional_number(const char* key, double& value, double low, double high) {
     if (has(key)) {
       number(key, value, low, high);
@@ -55,7 +55,7 @@ class Section {
     }
   }
 
-  /// An object of names to names, at least one.
+  /// Reads an object that assigns names to names, with at least one of them.
   void words(const char* key, std::map<std::string, std::string>& words) {
     known_.insert(key);
     if (object_ == nullptr) return;
@@ -72,7 +72,8 @@ class Section {
                         (has(key) ? in_words(object_->at(key)) : "none"));
   }
 
-  /// A number, or {"value": number, "basis": ..., "source": ...}, with low <= value <= high.
+  /// Reads a number, or {"value": number, "basis": ..., "source": ...}, with low <= value <=
+  /// high.
   void number(const char* key, double& value, double low, double high) {
     known_.insert(key);
     if (object_ == nullptr) return;
@@ -246,7 +247,7 @@ void read_perceiver(const json& file, Laboratory::Perceiver& perceiver,
   in.finish();
 }
 
-/// An older laboratory has none.
+/// Older laboratories do not have this part.
 void read_pressing(const json& file, std::optional<Laboratory::Pressing>& pressing,
                    std::vector<std::string>& problems) {
   if (!file.contains("pressing")) return;
@@ -303,7 +304,7 @@ void read_effects(const json& file, std::vector<Laboratory::Effect>& effects,
   }
 }
 
-/// A laboratory need not know of any.
+/// A laboratory may have no questions.
 void read_questions(const json& file, std::map<std::string, Laboratory::Question>& questions,
                     std::vector<std::string>& problems) {
   if (!file.contains("questions")) return;
@@ -321,7 +322,7 @@ void read_questions(const json& file, std::map<std::string, Laboratory::Question
   }
 }
 
-/// A list of names of estimates, empty if there is none.
+/// Reads a list of names of estimates, which is empty if the key is absent.
 void read_names(const json& file, const char* key, std::vector<std::string>& names,
                 std::vector<std::string>& problems) {
   if (!file.contains(key)) return;

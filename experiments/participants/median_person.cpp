@@ -32,7 +32,7 @@ Laboratory without_noise(Laboratory laboratory) {
 
 namespace {
 
-/// What the median person feels in a block of fluids.
+/// Computes what the median person feels in a block of fluids.
 class Felt {
  public:
   Felt(const Laboratory& laboratory, const Block& block, const core::ForceMap* map)
@@ -42,7 +42,7 @@ class Felt {
     }
   }
 
-  /// N s/m, that of the device included.
+  /// Returns the felt damping in N s/m, including that of the device.
   double operator()(double intensity) const {
     return laboratory_.device.mechanical_viscosity_n_s_per_m +
            calculated_stroke(laboratory_, laboratory_.strokes_for(block_.procedure).amplitude_m,
@@ -51,7 +51,8 @@ class Felt {
                .delivered_damping_n_s_per_m;
   }
 
-  /// Where that much is felt, between these two, of which the first feels less.
+  /// Returns the intensity between these two that feels like `wanted`. The first of them must
+  /// feel weaker.
   [[nodiscard]] double intensity_at(double wanted, double low, double high) const {
     for (int halving = 0; halving < 100; ++halving) {
       const double middle = 0.5 * (low + high);

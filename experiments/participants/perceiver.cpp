@@ -11,15 +11,15 @@ namespace {
 
 using core::RandomStream;
 
-/// Standard deviation 1 and mean 0, of the chosen family.
+/// Returns noise with mean 0 and standard deviation 1 from the chosen family.
 double unit_noise(const std::string& family, RandomStream& stream) {
   if (family != "weibull") return stream.normal();
-  // ln of a Weibull variable is a Gumbel variable: mean -0.5772, sd pi / sqrt 6.
+  // The ln of a Weibull variable is a Gumbel variable, with mean -0.5772 and sd pi / sqrt 6.
   const double gumbel = std::log(-std::log(1.0 - stream.uniform()));
   return (gumbel + std::numbers::egamma) * std::sqrt(6.0) / std::numbers::pi;
 }
 
-/// People answer in steps of 5, 10, 25, 50: finer where the number is small.
+/// Rounds to steps of 5, 10, 25 and 50, as people do, with finer steps for smaller numbers.
 double rounded_percent(double percent) {
   double step = 5.0;
   if (percent >= 50.0) step = 10.0;
@@ -39,7 +39,8 @@ double to_two_digits(double number) {
 Person draw_person(const Laboratory& laboratory, std::uint64_t session_seed) {
   const Laboratory::Perceiver& p = laboratory.perceiver;
   const Laboratory::Movement& m = laboratory.movement;
-  // One stream a trait: giving the population another spread in one leaves the others alone.
+  // Each trait has a stream of its own, so that another spread of one trait in the population
+  // does not change the others.
   const auto z = [&](const char* trait) {
     return RandomStream(session_seed, std::string("person/") + trait).normal();
   };
@@ -115,7 +116,7 @@ double Perceiver::criterion_ln(const Moment& moment) const {
 }
 
 bool Perceiver::says_thicker(double test_ln, double reference_ln, const Moment& moment) const {
-  // A lapse is a guess, so half of them happen to be right: the curve ends at lapse_rate.
+  // A lapse is a guess, and half of the guesses are right, so the curve ends at lapse_rate.
   if (lapses(moment)) return guesses_yes(moment);
   return test_ln - reference_ln > criterion_ln(moment);
 }
@@ -216,10 +217,10 @@ double Perceiver::estimate_percent(double reading_ln, const Moment& moment,
 double Perceiver::estimate_number(double reading_ln, const Moment& moment,
                                   std::optional<double> previous,
                                   const Counting& counting) const {
-  // What is hardly felt gets some small number, since 0 is none.
+  // A stimulus that is hardly felt gets a small number, because 0 means nothing.
   constexpr double kLeastRatio = 0.01;
   double unit_ln = counting.standard_ln ? magnitude_ln(*counting.standard_ln) : 0.0;
-  if (!std::isfinite(unit_ln)) unit_ln = 0.0;  // A standard that was not felt at all.
+  if (!std::isfinite(unit_ln)) unit_ln = 0.0;  // The standard was not felt at all.
   if (previous) *previous /= counting.number;
   const std::optional<double> ratio_ln = answer_ln(reading_ln, unit_ln, moment, previous);
   const double ratio = ratio_ln ? std::max(kLeastRatio, std::exp(*ratio_ln)) : kLeastRatio;

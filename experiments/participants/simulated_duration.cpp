@@ -9,7 +9,7 @@
 
 namespace jnd::experiments {
 
-/// Practice goes where it is easy, and no threshold comes of it.
+/// Practice does not count, because it uses easy stimuli and gives no threshold.
 static void count_ends(const Block& block, const std::vector<AnsweredTrial>& trials,
                        SimulatedBlock& done) {
   if (block.practice) return;

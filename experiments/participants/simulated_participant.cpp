@@ -12,7 +12,7 @@
 namespace jnd::experiments {
 namespace {
 
-/// Fixed notation with two decimals, whatever the locale.
+/// Formats with two decimals, whatever the locale.
 std::string two_decimals(double value) {
   char digits[32];
   char* const end =
@@ -73,8 +73,8 @@ StrokeIntent SimulatedParticipant::presses(const std::string& procedure,
                       ": expected /pressing for a solid, found none");
   }
   const Laboratory::Pressing& habit = *laboratory_.pressing;
-  // The way down and the way up are each half a stroke: mid-way between the two the hand is as
-  // high as both.
+  // The way down and the way up are each half a stroke. Their midpoint is half way between the
+  // upper and the lower end.
   return {.amplitude_m = habit.sideways_m,
           .max_speed_m_per_s = 2.0 * std::numbers::pi * habit.sideways_m / habit.period_s,
           .height_m = surface_m + 0.5 * (habit.lift_m - habit.depth_m),

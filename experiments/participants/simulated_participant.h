@@ -12,57 +12,59 @@
 
 namespace jnd::experiments {
 
-/// How a person is about to stroke through one presentation.
+/// How a person will stroke in one presentation.
 struct StrokeIntent {
   double amplitude_m = 0.0;
   double max_speed_m_per_s = 0.0;
-  double height_m = 0.0;  ///< Workspace frame: below the surface is negative.
-  int num_strokes = 1;    ///< Whole ones, before the person has felt enough.
-  double period_s = 0.0;  ///< How long one stroke takes.
-  /// Lower by this in mid-stroke forward, higher on the way back; none: as the person tends to.
+  double height_m = 0.0;  ///< In the workspace frame; below the surface is negative.
+  int num_strokes = 1;    ///< Whole strokes until the person has felt enough.
+  double period_s = 0.0;  ///< Duration of one stroke.
+  /// The hand is lower by this in the middle of a stroke forward, and higher on the way back.
+  /// None means the person's own habit.
   std::optional<double> lift_m{};
 
-  /// Until the hand, which trails behind the arm, has visibly turned after the last stroke.
+  /// Returns the time until the hand, which trails behind the arm, has visibly turned after the
+  /// last stroke.
   [[nodiscard]] double turning_s() const noexcept { return 0.2 + 0.1 * period_s; }
-  /// All of them, with the turn.
+  /// Returns the duration of all strokes, with the turn.
   [[nodiscard]] double duration_s() const noexcept {
     return num_strokes * period_s + turning_s();
   }
 };
 
-/// A simulated person in a session: moves, feels, answers. Everything is a function of
-/// laboratory, session seed and what was felt in this trial, so a resumed session goes on as it
-/// would have.
+/// A simulated person in a session, who moves, feels and answers. Everything is a function of
+/// the laboratory, the session seed and what was felt in this trial, so a resumed session
+/// continues as it would have.
 class SimulatedParticipant {
  public:
   /// The laboratory must outlive the participant.
   SimulatedParticipant(const Laboratory& laboratory, std::uint64_t session_seed);
 
   [[nodiscard]] const Person& person() const noexcept { return person_; }
-  /// In this block: of a solid what is felt is its stiffness, else a damping.
-  /// The laboratory's effects of the block's levels are in it.
+  /// Returns the perceiver for this block, which feels the stiffness of a solid and otherwise a
+  /// damping. It contains the laboratory's effects of the block's levels.
   [[nodiscard]] Perceiver perceiver(const Block& block,
                                     std::string_view interval = "test") const;
-  /// A reading of the standard as one of the test: what feels as strong, where one of them is
-  /// pressed and the other is stroked through; else the reading itself.
+  /// Converts a reading of the standard to an equally strong one of the test, if one of them is
+  /// pressed and the other is stroked through. Otherwise returns the reading itself.
   [[nodiscard]] double standard_as_test_ln(const Block& block, double standard_ln) const;
 
-  /// Where the hand rests, workspace frame.
+  /// Returns where the hand rests, in the workspace frame.
   [[nodiscard]] double home_height_m() const;
-  /// For a presentation under this procedure; "" outside of any.
+  /// Returns the strokes of a presentation in this procedure; "" is for outside of any.
   [[nodiscard]] StrokeIntent strokes(const std::string& procedure) const;
-  /// The same on a solid whose surface is at this height: the hand hardly moves along it, but
-  /// down into it and up again, once a stroke. Throws `Error` where the laboratory has no
-  /// numbers for it.
+  /// Returns the presses of a solid whose surface is at this height. Each stroke goes down into
+  /// it and up again, with little movement along it. Throws `Error` if the laboratory has no
+  /// numbers for pressing.
   [[nodiscard]] StrokeIntent presses(const std::string& procedure, double surface_m) const;
-  /// To and fro above that surface, from where it is entered by pressing.
+  /// Returns strokes to and fro above that surface, from which a press begins.
   [[nodiscard]] StrokeIntent hover(double surface_m) const;
 
-  /// Answers to questions on paper.
+  /// Answers questions of questionnaires.
   [[nodiscard]] std::string answer(const QuestionnaireItem& item) const;
   [[nodiscard]] std::string answer(const PostExperimentItem& item) const;
-  /// To a question after a trial that was felt so, as the laboratory's `Question` of its name
-  /// has it: the share of the way from its least to its greatest answer.
+  /// Answers a question after a trial that felt like this, by the laboratory's `Question` of
+  /// that name: the share of the way from the question's least to its greatest answer.
   [[nodiscard]] std::string answer(const QuestionnaireItem& item,
                                    const TrialFeeling& feeling) const;
 

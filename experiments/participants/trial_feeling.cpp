@@ -13,7 +13,7 @@
 namespace jnd::experiments {
 namespace {
 
-/// Readings of one stimulus in a trial.
+/// Sums the readings of one stimulus in a trial.
 struct MeanReading {
   double sum_ln = 0.0;
   int num = 0;
@@ -31,7 +31,8 @@ class TrialSenses {
               const Block& block, const core::ForceMap* map)
       : laboratory_(laboratory), participant_(participant), block_(block), map_(map) {}
 
-  /// What a stimulus feels like, without noise: a damping in N s/m, of a solid N/m.
+  /// Returns what a stimulus feels like without noise: a damping in N s/m, or for a solid a
+  /// stiffness in N/m.
   [[nodiscard]] double felt(const std::string& interval, double intensity,
                             const std::optional<double>& delivered) const {
     if (block_.is_pressed()) return intensity;
@@ -39,7 +40,7 @@ class TrialSenses {
            laboratory_.device.mechanical_viscosity_n_s_per_m;
   }
 
-  /// Of a stimulus of the block, as it is remembered of the whole range.
+  /// Returns the remembered reading of a stimulus in the block's range.
   [[nodiscard]] double remembered_ln(double intensity) const {
     return std::log(std::max(felt("test", intensity, std::nullopt), 1e-6));
   }

@@ -7,26 +7,29 @@
 
 namespace jnd::experiments {
 
-// What procedures have in common that draw one trial when the one before is answered.
+// Common functions of procedures that draw one trial after each answer.
 
-/// The next trial of a block, at this level of this series (from 1; 0 where there is but one);
-/// or a catch trial in its place, as often as the block says. Draws whether it is one, and the
-/// order of its intervals; nothing in a block that has neither.
+/// Returns the next trial of a block, at this level of this series (from 1; 0 if there is only
+/// one), or a catch trial in its place, as often as the block says. It draws whether the trial
+/// is a catch trial, and the order of its intervals. It draws nothing in a block without
+/// either.
 [[nodiscard]] PlannedTrial adaptive_trial(const Block& block,
                                           const std::vector<AnsweredTrial>& answered,
                                           double level, int series, core::RandomStream& stream);
 
-/// Levels and answers of one series, or of all trials for series 0; catch trials left out.
+/// Returns levels and answers of one series, or of all trials for series 0. Catch trials are
+/// left out.
 [[nodiscard]] std::vector<LevelAnswer> level_answers(const std::vector<AnsweredTrial>& answered,
                                                      int series = 0);
 
-/// So many trials with the catch trials among them.
+/// Returns the number of trials including the expected catch trials.
 [[nodiscard]] int with_catch_trials(const Block& block, int num_trials) noexcept;
 
-/// Their keys that are the same to all: task, reference, catch trials, labels of the answers.
+/// Returns the keys that all of these procedures have: task, reference, catch trials, labels of
+/// the answers.
 [[nodiscard]] std::vector<BlockKey> adaptive_keys();
 
-/// Which end of the levels a "yes" belongs to, and in which scale levels are stepped.
+/// Returns the key that says in which scale levels are stepped.
 [[nodiscard]] BlockKey scale_key();
 
 }  // namespace jnd::experiments

@@ -7,8 +7,9 @@
 
 namespace jnd::experiments {
 
-/// The decimal number that is meant: 8.6, where 28 - 194 * 0.1 comes to 8.599999999999998.
-/// Nine digits finer than the fine step; what is too large to have them is left as it is.
+/// Returns the decimal number that is meant, such as 8.6 if 28 - 194 * 0.1 gives
+/// 8.599999999999998. It rounds to nine digits beyond the fine step, and leaves numbers as they
+/// are that are too large for that.
 [[nodiscard]] inline double as_meant(double intensity, double fine_step) noexcept {
   constexpr double kLargestWhole = 4503599627370496.0;  // 2^52
   const double digits = 9.0 - std::floor(std::log10(fine_step));
@@ -17,11 +18,11 @@ namespace jnd::experiments {
   return std::abs(scaled) < kLargestWhole ? std::round(scaled) / scale : intensity;
 }
 
-/// Where a step (signed, unit of the quantity) leads from the intensity that is set now, in a
-/// trial that began at `start_intensity`: whole multiples of the fine step away from there, so
-/// that 0.1 + 0.2 does not drift and a start between two stays so, within 0 and the block's
-/// end. A match stays above 0, where there is nothing to be matched: it stops at one fine step,
-/// or at the start if that is less.
+/// Returns where a step (signed, in the unit of the quantity) leads from the current intensity,
+/// in a trial that began at `start_intensity`. The result is a whole number of fine steps away
+/// from the start. So 0.1 + 0.2 does not drift, and a start between two steps stays between
+/// them. It is within 0 and the block's end. A matching stays above 0, where nothing could be
+/// matched: it stops at one fine step, or at the start if that is less.
 [[nodiscard]] inline double stepped_intensity(const Block& block, double start_intensity,
                                               double set_intensity, double step) noexcept {
   double target = set_intensity + step;

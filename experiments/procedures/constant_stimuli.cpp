@@ -19,7 +19,7 @@ PlannedTrial catch_trial(const Block& block) {
   return trial;
 }
 
-/// The catch trials of every repetition at random places of it.
+/// Inserts the catch trials of every repetition at random places of it.
 std::vector<PlannedTrial> with_catch_trials(const Block& block, std::vector<PlannedTrial> tests,
                                             core::RandomStream& stream) {
   const int num_catch = num_catch_trials(block);
@@ -45,8 +45,8 @@ std::vector<PlannedTrial> with_catch_trials(const Block& block, std::vector<Plan
   return trials;
 }
 
-/// Every stimulus, and the catch trials, have each order of three intervals equally often, or
-/// once more.
+/// Draws orders so that every stimulus, and the catch trials, have each order of three
+/// intervals equally often, or once more.
 void draw_interval_orders(Task task, std::vector<PlannedTrial>& trials,
                           core::RandomStream& stream) {
   std::map<std::pair<bool, double>, std::vector<PlannedTrial*>> by_stimulus;
@@ -64,7 +64,8 @@ void draw_interval_orders(Task task, std::vector<PlannedTrial>& trials,
   }
 }
 
-/// Balanced: every stimulus, and the catch trials, have the test first as often as second.
+/// With a balanced order, every stimulus, and the catch trials, have the test first as often as
+/// second.
 void draw_test_intervals(const Block& block, std::vector<PlannedTrial>& trials,
                          core::RandomStream& stream) {
   const Task task = task_of(block);
@@ -89,8 +90,8 @@ void draw_test_intervals(const Block& block, std::vector<PlannedTrial>& trials,
   }
 }
 
-/// One trial of those that the repetition under way has not had: nobody knows which will be
-/// the last.
+/// Draws one trial of those that the repetition under way still needs, because it is unknown
+/// which trial of a practice will be the last.
 std::vector<PlannedTrial> practice_trial(const Block& block,
                                          const std::vector<AnsweredTrial>& answered,
                                          core::RandomStream& stream) {

@@ -5,9 +5,9 @@
 namespace jnd::experiments {
 
 /// Method of constant stimuli, with free switching between the stimuli of a trial. In a
-/// reminder task the reference comes first, then the test, with a yes/no question about it
-/// (which is no 2AFC, as the order is fixed); see `Task` for the others. Each repetition shows
-/// every test once in random order, and its catch trials anywhere among them.
+/// reminder task the reference comes first, then the test, with a yes/no question about it.
+/// (This is no 2AFC, because the order is fixed.) `Task` describes the others. Each repetition
+/// shows every test once in random order, with its catch trials at random places.
 class ConstantStimuli final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "constant_stimuli"; }

@@ -15,7 +15,7 @@ namespace {
 
 using Weights = std::map<std::string, double>;
 
-/// Above 0 they add up to 1, below 0 to -1.
+/// Scales the weights so that those above 0 add up to 1 and those below 0 to -1.
 Weights scaled(Weights weights) {
   double above = 0.0, below = 0.0;
   for (const auto& [level, weight] : weights) (weight > 0.0 ? above : below) += weight;
@@ -23,7 +23,7 @@ Weights scaled(Weights weights) {
   return weights;
 }
 
-/// A block of the study, and its levels, its own name as that of `block`.
+/// A block of the study with its levels. Its own name is its level of `block`.
 struct LevelledBlock {
   std::string name;
   Levels levels;
@@ -66,7 +66,8 @@ bool measures_a(const Block& block, ContrastMeasure measure) {
   return false;
 }
 
-/// "`a`, `b` and `c`", of very many the first and how many more there are.
+/// Returns "`a`, `b` and `c`". Of very many it names the first and says how many more there
+/// are.
 std::string and_words(const std::vector<std::string>& words) {
   constexpr std::size_t kMost = 6;
   const std::size_t num_told = words.size() > kMost ? kMost - 1 : words.size();
@@ -81,7 +82,8 @@ std::string and_words(const std::vector<std::string>& words) {
   return all;
 }
 
-/// "have the measure `x`", "ask the question `y`": what the blocks of a contrast have to.
+/// Returns "have the measure `x`" or "ask the question `y`", which the blocks of a contrast
+/// must do.
 std::string wanted_words(const PlannedContrast& contrast) {
   if (contrast.measure != ContrastMeasure::kQuestion) {
     return "have the measure `" + to_string(contrast.measure) + "`";
@@ -89,7 +91,8 @@ std::string wanted_words(const PlannedContrast& contrast) {
   return "ask the question `" + contrast.question + "` (a `scale`, a `number` or `yes_no`)";
 }
 
-/// What all of these blocks can be compared in but for `other`: "`response_time` alone".
+/// Returns the measures apart from `other` in which all of these blocks can be compared:
+/// "`response_time` alone".
 std::string measures_words(const std::vector<LevelledBlock>& blocks, ContrastMeasure other) {
   std::vector<std::string> names;
   for (const ContrastMeasure measure : contrast_measures()) {
@@ -101,7 +104,8 @@ std::string measures_words(const std::vector<LevelledBlock>& blocks, ContrastMea
   return names.size() == 1 ? and_words(names) + " alone" : and_words(names);
 }
 
-/// "`one` and `two` have `response_time` alone": why blocks that are there cannot be compared.
+/// Returns why existing blocks cannot be compared: "`one` and `two` have `response_time`
+/// alone".
 std::string lack_words(const std::vector<LevelledBlock>& blocks, ContrastMeasure measure) {
   std::vector<LevelledBlock> data;
   std::vector<std::string> names, practice;
@@ -117,7 +121,8 @@ std::string lack_words(const std::vector<LevelledBlock>& blocks, ContrastMeasure
          measures_words(data, measure);
 }
 
-/// The weight that a factor gives what has these levels: 0 for what has none of its levels.
+/// Returns the weight that a factor gives to something with these levels, which is 0 without a
+/// level of the factor.
 double weight_of(const std::string& factor, const Weights& weights, const Levels& levels) {
   const auto level = levels.find(factor);
   if (level == levels.end()) return 0.0;
@@ -131,7 +136,7 @@ std::string name_of(const Levels& levels, const std::string& blocks) {
   return name.empty() ? blocks : name;
 }
 
-/// Everything that the factors of people can be together.
+/// Returns every combination of levels of the factors of people.
 std::vector<ContrastGroup> groups_of(const std::vector<const DesignFactor*>& factors) {
   std::vector<ContrastGroup> groups = {{}};
   for (const DesignFactor* factor : factors) {
@@ -148,7 +153,7 @@ std::vector<ContrastGroup> groups_of(const std::vector<const DesignFactor*>& fac
   return groups;
 }
 
-/// Every combination of levels with a weight, of the factors that blocks differ in.
+/// Returns every combination of levels with a weight, of the factors within people.
 std::vector<Levels> wanted_levels(const Study& study,
                                   const std::map<std::string, Weights>& by_factor) {
   std::vector<Levels> wanted = {{}};
@@ -167,7 +172,7 @@ std::vector<Levels> wanted_levels(const Study& study,
   return wanted;
 }
 
-/// "`fluid` `thin` and `vision` `on`".
+/// Returns "`fluid` `thin` and `vision` `on`".
 std::string levels_words(const Levels& levels) {
   std::string words;
   for (const auto& [factor, level] : levels) {
@@ -220,11 +225,12 @@ ContrastConditions contrast_conditions(const Study& study, const PlannedContrast
   }
   const bool by_block = contrast.weights.contains(kBlockFactor);
 
-  // Blocks that have any weight, taken together by their levels.
+  // Blocks with any weight are grouped by their levels.
   std::map<Levels, std::size_t> place_of;
   std::vector<Levels> levels_of;
   std::vector<double> condition_weights;
-  std::map<Levels, std::vector<LevelledBlock>> without;  // The measure, by their levels.
+  // Blocks that lack the measure, by their levels.
+  std::map<Levels, std::vector<LevelledBlock>> without;
   for (const LevelledBlock& block : blocks_of(study)) {
     double weight = 1.0;
     Levels own, named;
@@ -266,14 +272,14 @@ ContrastConditions contrast_conditions(const Study& study, const PlannedContrast
                            "blocks");
     return found;
   }
-  // What is not named is averaged: conditions that the named levels do not tell apart share
-  // their weight.
+  // Factors that the contrast does not name are averaged: conditions with the same named levels
+  // share their weight.
   std::map<Levels, int> num_alike;
   for (const Levels& named : levels_of) ++num_alike[named];
   for (std::size_t i = 0; i < condition_weights.size(); ++i) {
     condition_weights[i] /= num_alike[levels_of[i]];
   }
-  // Every combination of the levels that have a weight has to be there.
+  // Every combination of the levels that have a weight must exist.
   std::vector<Levels> missing = wanted_levels(study, by_factor);
   const std::size_t num_wanted = missing.size();
   std::erase_if(missing, [&](const Levels& levels) { return num_alike.contains(levels); });

@@ -41,7 +41,9 @@ double expected_duration_s(const Stage& stage, const ExpectedTimes& times) {
         } else if constexpr (std::is_same_v<Content, Questionnaire>) {
           return times.questionnaire_item_s * static_cast<double>(content.items.size());
         } else {
-          return 0.0;  // A counterbalance is resolved before anything takes time.
+          // A counterbalance takes no time itself, because participants' lists have its stages
+          // instead.
+          return 0.0;
         }
       },
       stage.content);

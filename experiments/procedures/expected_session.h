@@ -7,7 +7,7 @@
 
 namespace jnd::experiments {
 
-/// Rough times for what a study gives none for. Only for planning the length of a session.
+/// Rough times for what a study gives none for, to plan the length of a session.
 struct ExpectedTimes {
   double checklist_item_s = 20.0;
   double consent_paragraph_s = 30.0;
@@ -15,22 +15,22 @@ struct ExpectedTimes {
   double post_experiment_item_s = 45.0;
 };
 
-/// How long this stage is expected to take, in seconds.
+/// Returns how long this stage is expected to take, in seconds.
 [[nodiscard]] double expected_duration_s(const Stage& stage, const ExpectedTimes& times = {});
-/// The same of a stage whose block has all trials that it can have.
+/// Returns the same if the block of the stage has as many trials as possible.
 [[nodiscard]] double longest_duration_s(const Stage& stage, const ExpectedTimes& times = {});
 
-/// The most trials that somebody does from one `break` to the next, or to an end of the
-/// session.
+/// The largest number of trials from one `break` to the next, or to an end of the session.
 struct Stretch {
-  int num_trials = 0;                  ///< To be expected.
-  std::vector<const Stage*> blocks{};  ///< That they are of.
+  int num_trials = 0;                  ///< Expected number.
+  std::vector<const Stage*> blocks{};  ///< Blocks of these trials.
 };
 
-/// Of a participant's own list of stages; the first of those that are equally long.
+/// Returns the longest stretch of a participant's own list of stages; the first one if several
+/// are equally long.
 [[nodiscard]] Stretch longest_stretch(const std::vector<StageInstance>& stages);
 
-/// How long a participant's own list of stages is expected to take, in seconds.
+/// Returns how long a participant's own list of stages is expected to take, in seconds.
 [[nodiscard]] double expected_session_s(const std::vector<StageInstance>& stages);
 
 }  // namespace jnd::experiments

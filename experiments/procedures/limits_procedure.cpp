@@ -13,14 +13,14 @@ SeriesDirection other(SeriesDirection direction) {
                                                   : SeriesDirection::kAscending;
 }
 
-/// The first one as the block has it, or drawn.
+/// Returns the first direction as the block says, or draws it.
 SeriesDirection first_direction(const Block& block, core::RandomStream& stream) {
   const std::string& first = block.settings.word("first_series");
   const bool ascending = first == "drawn" ? stream.with_probability(0.5) : first == "ascending";
   return ascending ? SeriesDirection::kAscending : SeriesDirection::kDescending;
 }
 
-/// Where a series begins, counted from its own end of the levels.
+/// Returns the index at which a series begins, counted from its own end of the levels.
 std::size_t start_of(const LimitsRule& rule, SeriesDirection direction, std::size_t offset) {
   return direction == SeriesDirection::kAscending ? offset : rule.levels.size() - 1 - offset;
 }
@@ -30,8 +30,9 @@ std::size_t index_of(const LimitsRule& rule, double level) {
                                   rule.levels.begin());
 }
 
-/// The series begun, from the levels that they began at, and the next one, which is drawn. A
-/// series begins in its own half of the levels, so that the first trial tells its direction.
+/// Returns the series that have begun, as told by their first levels, and the next one, which
+/// is drawn. A series begins in its own half of the levels, so its first trial tells its
+/// direction.
 std::vector<PlannedSeries> planned_series(const Block& block, const LimitsRule& rule,
                                           const std::vector<AnsweredTrial>& answered,
                                           core::RandomStream& stream) {
@@ -171,7 +172,7 @@ int LimitsProcedure::most_trials(const Block& block) const noexcept {
 }
 
 int LimitsProcedure::expected_trials(const Block& block) const {
-  // The answer changes about half way.
+  // The answer is expected to change about half way.
   return with_catch_trials(
       block, block.settings.integer("num_series") *
                  std::max<int>(1, static_cast<int>(block.intensities.size()) / 2));

@@ -5,8 +5,8 @@
 
 namespace jnd::experiments {
 
-/// Method of limits (Fechner 1860): the level rises, or falls, until the answer changes; series
-/// of both directions follow each other.
+/// Method of limits (Fechner 1860): the level rises, or falls, until the answer changes.
+/// Ascending and descending series alternate.
 class LimitsProcedure final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "limits"; }
@@ -35,7 +35,7 @@ class LimitsProcedure final : public Procedure {
   [[nodiscard]] int most_trials(const Block& block) const noexcept override;
 };
 
-/// Throws `Error` naming what does not fit together.
+/// Throws `Error` naming the keys that do not fit together.
 [[nodiscard]] LimitsRule limits_rule_of(const Block& block);
 
 }  // namespace jnd::experiments

@@ -4,20 +4,20 @@
 
 namespace jnd::experiments {
 
-/// What the numbers of a magnitude estimation count in.
+/// The unit of the numbers in a magnitude estimation.
 enum class Modulus {
-  kWater,     ///< Percent of real water, as it is remembered.
+  kWater,     ///< Percent of real water as it is remembered.
   kStandard,  ///< A standard that is felt counts as `modulus_value`.
-  kFree,      ///< Everybody's own.
+  kFree,      ///< Each participant's own modulus.
 };
 
-/// What the numbers of a block of magnitude estimation count in.
+/// Returns the modulus of a block of magnitude estimation.
 [[nodiscard]] Modulus modulus_of(const Block& block);
 
-/// Magnitude estimation (Stevens 1957): a stimulus, a number for how strong it feels. Each
-/// repetition shows every intensity once in random order. A standard is felt before the first
-/// trial's stimulus and before that of every `standard_every_trials`-th after it; those trials
-/// have it as their reference.
+/// Magnitude estimation (Stevens 1957): a stimulus, and a number for how strong it feels. Each
+/// repetition shows every intensity once in random order. A standard is felt before the
+/// stimulus of the first trial and of every `standard_every_trials`-th trial after it. Those
+/// trials have it as their reference.
 class MagnitudeEstimation final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override {

@@ -5,9 +5,9 @@
 namespace jnd::experiments {
 
 /// Magnitude production (Stevens 1957): the participant has the intensity raised and lowered,
-/// step by step, until it feels like the target. One repetition for each target, in the study's
-/// order; in it every starting value once, in random order. Steps may leave the range of
-/// starting values.
+/// step by step, until it feels like the target. There is one repetition for each target, in
+/// the study's order. It has every starting value once, in random order. Steps may leave the
+/// range of starting values.
 class MagnitudeProduction final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override {

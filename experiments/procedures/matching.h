@@ -4,12 +4,12 @@
 
 namespace jnd::experiments {
 
-/// Method of adjustment: the standard is felt first, then the comparison, which the participant
+/// Method of adjustment. The standard is felt first, then the comparison, which the participant
 /// has raised and lowered step by step until both feel alike, with free switching back and
-/// forth. The standard is a medium of its own, or another amount of the block's. Each
-/// repetition pairs every standard with every starting value once, in random order. Stored as
-/// reference_intensity in the unit of the standard's medium; the response is the comparison's
-/// intensity. Steps may leave the range of starting values.
+/// forth. The standard is a medium of its own, or another amount of the block's medium. Each
+/// repetition pairs every standard with every starting value once, in random order. The
+/// standard is stored as reference_intensity in the unit of its medium; the response is the
+/// comparison's intensity. Steps may leave the range of starting values.
 class Matching final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "matching"; }

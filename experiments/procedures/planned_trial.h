@@ -10,26 +10,27 @@ namespace jnd::experiments {
 
 /// One trial as it was drawn. Which fields are set depends on the procedure.
 struct PlannedTrial {
-  int repetition = 1;                         ///< From 1.
-  int position = 1;                           ///< Within the repetition, from 1.
-  std::optional<double> intensity;            ///< Of the test stimulus, unit of the quantity.
-  std::optional<double> reference_intensity;  ///< Unit of the quantity.
-  std::optional<double> starting_intensity;   ///< Production.
-  std::optional<double> target_percent;       ///< Production.
-  std::optional<int> series;                  ///< Staircase or series it is of, from 1.
-  std::optional<int> test_interval;           ///< 1 or 2, where the order is drawn.
-  bool is_catch = false;                      ///< Nothing is there to be found.
-  /// Of three intervals what each holds, as in "rtr": 'r' the reference, 't' the test. Else "".
+  int repetition = 1;                         ///< Counted from 1.
+  int position = 1;                           ///< Position within the repetition, from 1.
+  std::optional<double> intensity;            ///< Test stimulus, in the unit of the quantity.
+  std::optional<double> reference_intensity;  ///< In the unit of the quantity.
+  std::optional<double> starting_intensity;   ///< For production and matching.
+  std::optional<double> target_percent;       ///< For production.
+  std::optional<int> series;                  ///< Staircase or series of the trial, from 1.
+  std::optional<int> test_interval;           ///< 1 or 2, if the order is drawn.
+  bool is_catch = false;                      ///< A catch trial: there is nothing to find.
+  /// What each of three intervals holds, as in "rtr": 'r' the reference, 't' the test.
+  /// Otherwise "".
   std::string intervals{};
-  std::optional<int> right_interval{};  ///< Of three intervals the right answer, from 1.
+  std::optional<int> right_interval{};  ///< The right one of three intervals, from 1.
 };
 
 }  // namespace jnd::experiments
 
 namespace jnd::core {
 
-/// The keys of a drawn trial in events. `DesignRow` and `TrialRow` have columns of these names,
-/// which are copied by name.
+/// The keys of a drawn trial in events. `DesignRow` and `TrialRow` have columns with these
+/// names, which are copied by name.
 template <>
 inline constexpr auto kColumns<experiments::PlannedTrial> = [] {
   using experiments::PlannedTrial;

@@ -9,7 +9,7 @@ namespace jnd::experiments {
 namespace {
 
 int num_correct_needed(const Practice& practice) {
-  constexpr double kRounding = 1e-9;  // 0.7 of 10 is 7, whatever the product's last digit.
+  constexpr double kRounding = 1e-9;  // 0.7 of 10 is 7, whatever the last digit of the product.
   return static_cast<int>(
       std::ceil(practice.min_correct_ratio * practice.num_trials_judged - kRounding));
 }

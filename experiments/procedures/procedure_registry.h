@@ -7,10 +7,11 @@
 
 namespace jnd::experiments {
 
-/// Every procedure, one line each in the source file; they live as long as the program.
+/// Returns every procedure; each has a line in the source file. They live as long as the
+/// program.
 [[nodiscard]] const std::vector<const Procedure*>& procedures();
 
-/// The procedure of that name. Throws `Error` naming those that exist.
+/// Returns the procedure with this name. Throws `Error` that lists the existing ones.
 [[nodiscard]] const Procedure& procedure_named(std::string_view name);
 
 }  // namespace jnd::experiments

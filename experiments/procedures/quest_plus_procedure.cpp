@@ -16,11 +16,11 @@
 namespace jnd::experiments {
 namespace {
 
-/// Of which the curve is a comparison's.
+/// Tasks whose curve is that of a comparison.
 std::vector<std::string> comparisons() { return {"reminder", "two_interval"}; }
-/// Of which it is that of an absolute threshold.
+/// Tasks whose curve is that of an absolute threshold.
 std::vector<std::string> detections() { return {"yes_no"}; }
-/// Of which it rises from a guess.
+/// Tasks whose curve rises from guessing.
 std::vector<std::string> identifications() {
   return {"three_interval", "oddity", "abx", "match_to_sample"};
 }
@@ -30,7 +30,8 @@ std::vector<std::string> joined(std::vector<std::string> first,
   return first;
 }
 
-/// The values that a parameter of the curve may have: the ends of a grid, evenly in ln.
+/// Returns a key for the values of a parameter of the curve: the ends of a grid that is even in
+/// ln.
 BlockKey grid(const char* key, const char* meaning, const std::vector<std::string>& tasks,
               bool of_quantity, const std::string& default_json) {
   BlockKey made{.parameter = {.key = key,
@@ -75,7 +76,7 @@ std::string range_words(const ParameterGrid& grid) {
                           : plain_number(least) + " to " + plain_number(largest);
 }
 
-/// `shown`: the largest fraction that there is a stimulus for.
+/// `shown` is the largest fraction for which there is a stimulus.
 void check_fraction(const Block& block, double shown, const std::string& tests) {
   const ParameterGrid fraction = grid_of(block, "weber_fraction");
   constexpr double kShortest = 1000.0;
@@ -88,7 +89,8 @@ void check_fraction(const Block& block, double shown, const std::string& tests) 
                     range_words(fraction));
 }
 
-/// A grid that leaves out what the block asks for ends at its edge, whatever is answered.
+/// If a grid excludes what the block asks for, the estimate ends at the grid's edge, whatever
+/// the answers are.
 void check_grids(const Block& block, double lowest, double highest) {
   const std::string tests = plain_number(lowest) + " to " + plain_number(highest);
   if (!block.reference_intensity) {
@@ -218,8 +220,8 @@ QuestPlusRule quest_plus_rule_of(const Block& block) {
   return rule;
 }
 
-/// Of a block's rule: its tables take longer to make than to use, and every trial needs them.
-/// Each thread keeps those of the blocks that it has drawn from last.
+/// Returns the QUEST+ of a block's rule. Its tables take longer to make than to use, and every
+/// trial needs them. So each thread keeps those of the blocks from which it drew last.
 static std::shared_ptr<const QuestPlus> quest_of(const Block& block) {
   struct Known {
     std::vector<double> intensities;

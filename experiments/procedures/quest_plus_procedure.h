@@ -5,10 +5,10 @@
 
 namespace jnd::experiments {
 
-/// QUEST+ (Watson 2017): each trial shows the stimulus whose answer is expected to tell most of
-/// point of subjective equality and Weber fraction, or, in a yes-no task, of threshold and
-/// slope. Grids that leave out what is asked for are refused: a pse away from the reference,
-/// fractions or thresholds that no stimulus shows.
+/// QUEST+ (Watson 2017): each trial shows the stimulus whose answer is expected to tell most
+/// about point of subjective equality and Weber fraction, or, in a yes-no task, about threshold
+/// and slope. Grids that exclude what is asked for are refused: a pse away from the reference,
+/// or fractions or thresholds that no stimulus shows.
 class QuestPlusProcedure final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "quest_plus"; }
@@ -38,11 +38,11 @@ class QuestPlusProcedure final : public Procedure {
   [[nodiscard]] int expected_trials(const Block& block) const override;
 };
 
-/// Throws `Error` naming what does not fit together.
+/// Throws `Error` naming the keys that do not fit together.
 [[nodiscard]] QuestPlusRule quest_plus_rule_of(const Block& block);
 
-/// The ends of grids that the posterior reaches, each with its key: "the lower end of
-/// `pse_viscosity_pa_s` (12)". Estimates of one block.
+/// Returns the ends of grids that the posterior reaches, each with its key: "the lower end of
+/// `pse_viscosity_pa_s` (12)". The estimates are those of one block.
 [[nodiscard]] std::vector<std::string> reached_ends(
     const Block& block, const std::vector<QuestPlusEstimate>& estimates);
 

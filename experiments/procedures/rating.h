@@ -4,9 +4,9 @@
 
 namespace jnd::experiments {
 
-/// Category rating: each stimulus is put on a step of a scale whose ends have labels. There is
-/// no standard and no modulus; every stimulus comes once in each repetition. The response is
-/// the step, from 1.
+/// Category rating: each stimulus is assigned to a step of a scale whose ends have labels.
+/// There is no standard and no modulus. Every stimulus comes once in each repetition. The
+/// response is the step, from 1.
 class Rating final : public Procedure {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "rating"; }
@@ -27,7 +27,7 @@ class Rating final : public Procedure {
   [[nodiscard]] int expected_trials(const Block& block) const override;
 };
 
-/// The last step of the scale of a block that rates.
+/// Returns the last step of the scale of a rating block.
 [[nodiscard]] int num_steps_of(const Block& block);
 
 }  // namespace jnd::experiments

@@ -9,9 +9,10 @@
 
 namespace jnd::experiments {
 
-/// Every stimulus of the block `num_repetitions` times, in the block's order; `make` turns
-/// (repetition from 1, intensity) into a trial, whose repetition and position are filled in
-/// here. Where repetitions are mixed, one is as many trials as there are stimuli.
+/// Returns trials with every stimulus of the block `num_repetitions` times, in the block's
+/// order. `make` turns (repetition from 1, intensity) into a trial, and this function sets its
+/// repetition and position. If repetitions are mixed, a repetition is as many trials as there
+/// are stimuli.
 template <typename Make>
 [[nodiscard]] std::vector<PlannedTrial> ordered_repetitions(const Block& block,
                                                             int num_repetitions,

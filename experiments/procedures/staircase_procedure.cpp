@@ -31,7 +31,8 @@ std::vector<BlockKey> step_size_keys() {
   return {linear, ratio};
 }
 
-/// Of so many reversals: each turns between a run of `num_up` and one of `num_down` trials.
+/// Returns the smallest number of trials for this many reversals. Each reversal is a turn
+/// between a run of `num_up` and a run of `num_down` trials.
 int least_trials(int num_up, int num_down, int num_reversals) {
   const int num_pairs = (num_reversals + 1) / 2;
   const int rest = num_reversals % 2 == 0 ? std::min(num_up, num_down) : 0;
@@ -42,7 +43,7 @@ std::string up_down_words(const StaircaseRule& rule) {
   return std::to_string(rule.num_up) + " up and " + std::to_string(rule.num_down) + " down";
 }
 
-/// The levels have to be where the rule aims, seen from the reference.
+/// Throws `Error` unless the levels lie on the side of the reference at which the rule aims.
 void check_side(double target, double reference, const StaircaseRule& rule) {
   constexpr double kRounding = 1e-9;
   const auto refuse = [&](const char* key, const char* side, double found) {
@@ -60,8 +61,8 @@ void check_side(double target, double reference, const StaircaseRule& rule) {
   }
 }
 
-/// Where the right one is found by guessing as well, a rule has to aim higher than that, and
-/// a higher level has to be an easier one.
+/// Throws `Error` unless the rule aims above the share of right answers by guessing, and higher
+/// levels are easier ones.
 void check_identification(double target, double reference, const StaircaseRule& rule,
                           int num_choices) {
   constexpr double kRounding = 1e-9;
@@ -81,14 +82,16 @@ void check_identification(double target, double reference, const StaircaseRule& 
   }
 }
 
-/// Whom the number of trials is reckoned with.
+/// The observer for whom the number of trials is computed.
 struct Observer {
-  double threshold = 0.0;  ///< Where half of the answers are "yes", unit of the quantity.
-  double spread = 0.0;     ///< Of the curve, in the scale of the block.
+  /// Level at which half of the answers are "yes", in the unit of the quantity.
+  double threshold = 0.0;
+  double spread = 0.0;  ///< Spread of the curve, in the scale of the block.
 };
 
-/// Compares with a Weber fraction of 0.3. Where nothing is compared, nobody knows the threshold
-/// before: the middle of the levels, and a curve that rises over a factor of e.
+/// Returns an observer who compares with a Weber fraction of 0.3. Without a comparison the
+/// threshold is unknown in advance, so the observer has it in the middle of the levels, with a
+/// curve that rises over a factor of e.
 Observer usual_observer(const Block& block) {
   constexpr double kSpreadOfComparisonLn = 0.3;
   constexpr double kSpreadOfDetectionLn = 1.0;

@@ -34,8 +34,8 @@ class StaircaseProcedure final : public Procedure {
   [[nodiscard]] int most_trials(const Block& block) const noexcept override;
 };
 
-/// The rule of the staircase that starts at the block's `series`-th starting level, from 1.
-/// Throws `Error` naming what does not fit together.
+/// Returns the rule of the staircase that starts at the block's `series`-th starting level,
+/// from 1. Throws `Error` naming the keys that do not fit together.
 [[nodiscard]] StaircaseRule staircase_rule_of(const Block& block, int series);
 
 }  // namespace jnd::experiments

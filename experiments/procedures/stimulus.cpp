@@ -24,7 +24,7 @@ core::MediumAmounts amounts_of(const MediumSetting& setting) {
 }
 
 MediumSetting setting_of(const Block& block, const std::string& interval, double intensity) {
-  // In a catch trial of a yes-no task nothing is there.
+  // A catch trial of a yes-no task presents nothing.
   const bool is_nothing =
       intensity == 0.0 && block.settings.has("task") && task_of(block) == Task::kYesNo;
   if (interval == "free_space" || is_nothing)
@@ -38,7 +38,7 @@ MediumSetting setting_of(const Block& block, const std::string& interval, double
 
 core::MediumAmounts surroundings_of(const DeviceNeeds& needs) {
   if (needs.wall_stiffness_n_per_m == 0.0) return core::free_space();
-  // As passive as a surface, see `media`.
+  // This damping makes the wall as passive as a surface; see `media`.
   return core::container({.stiffness_n_per_m = needs.wall_stiffness_n_per_m,
                           .damping_n_s_per_m = 0.001 * needs.wall_stiffness_n_per_m,
                           .friction_ratio = needs.wall_friction_ratio});

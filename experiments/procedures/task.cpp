@@ -89,7 +89,7 @@ IntervalChoice chosen_interval(Task task, std::span<const double> readings) {
     return {static_cast<int>(largest - readings.begin()) + 1, ascending[2] - ascending[1]};
   }
   if (task == Task::kOddity) {
-    // How far apart the other two are, were this the odd one.
+    // For each interval, the distance between the other two.
     const double others[] = {distance(1, 2), distance(0, 2), distance(0, 1)};
     const auto* const odd = std::ranges::min_element(others);
     double next = std::numeric_limits<double>::infinity();

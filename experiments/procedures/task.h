@@ -12,7 +12,8 @@
 
 namespace jnd::experiments {
 
-/// How a trial asks about its test stimulus (Macmillan and Creelman 2005). A key of blocks.
+/// How a trial asks about its test stimulus (Macmillan and Creelman 2005). It is a key of
+/// blocks.
 enum class Task {
   kReminder,       ///< The reference, then the test: is the test more?
   kYesNo,          ///< The test alone: is anything there?
@@ -24,66 +25,67 @@ enum class Task {
   kMatchToSample,  ///< One of them, then both in drawn order: which of the two was it?
 };
 
-/// As the block names it; without a name a reminder, or yes-no where there is no reference.
+/// Returns the task that the block names. Without a name it is a reminder, or yes-no if there
+/// is no reference.
 [[nodiscard]] Task task_of(const Block& block);
 [[nodiscard]] TrialForm form_of(Task task) noexcept;
-/// What the answers to such a question are about.
+/// Returns what the answers to such a question are about.
 [[nodiscard]] Measure measure_of(Task task) noexcept;
 
-/// Among how many intervals an answer chooses, so that the share of right answers is one in so
-/// many where nothing is felt; 0 where no interval is chosen, or more is chosen and not right.
+/// Returns among how many intervals an answer chooses, so that one in this many answers is
+/// right by guessing. Returns 0 if no interval is chosen, or if the interval with more is
+/// chosen and not the right one.
 [[nodiscard]] int num_choices_to_guess(Task task) noexcept;
 
-/// What the intervals of a trial may hold, a letter each: 'r' the reference, 't' the test; all
-/// orders of tasks with three intervals, none of others.
+/// Returns all orders of intervals for a task with three intervals, one letter for each
+/// interval: 'r' the reference, 't' the test. Returns none for other tasks.
 [[nodiscard]] std::vector<std::string> interval_orders(Task task);
-/// The interval, from 1, that is the right answer to these.
+/// Returns the interval, from 1, that is the right answer to these.
 [[nodiscard]] int right_interval(Task task, std::string_view intervals);
 
-/// The interval that an observer chooses who felt them so, as readings of one scale in their
-/// order: three intervals, the largest; oddity, the one that is not of the two which lie
-/// closest together; ABX and match to sample, the one that lies closer to the third or to the
-/// first (differencing rules, Macmillan and Creelman 2005, chapter 9). Also by how much another
-/// choice would have been farther off.
+/// Returns the interval that an observer chooses by these readings, which are in order and on
+/// one scale. Three intervals: the largest. Oddity: the one that is not among the two closest
+/// to each other. ABX and match to sample: the one closer to the third or to the first
+/// (differencing rules, Macmillan and Creelman 2005, chapter 9). The margin is by how much
+/// another choice would have been farther off.
 struct IntervalChoice {
   int interval = 1;
   double margin = 0.0;  ///< >= 0, in the scale of the readings.
 };
 [[nodiscard]] IntervalChoice chosen_interval(Task task, std::span<const double> readings);
 
-/// The response that is right, as stored: the test is more, is there, is different from the
-/// reference, the right interval was chosen. None where two stimuli are compared that are
-/// equal.
+/// Returns the right response, as stored: the test is more, is there or is different from the
+/// reference, or the right interval was chosen. None if two equal stimuli are compared.
 [[nodiscard]] std::optional<double> right_response(Task task, const PlannedTrial& trial);
 
-/// The response that feedback calls right. Where equal stimuli are compared there has to be
-/// one, too, for a trial without feedback would be told from the others: "not more", which is
-/// true, in a reminder task; of intervals the one that was drawn for the answer, so that
-/// each is called right equally often. No result judges an answer by it.
+/// Returns the response that feedback calls right. There is one for equal stimuli, too, because
+/// a trial without feedback would stand out. In a reminder task it is "not more", which is
+/// true. Of intervals it is the one that was drawn, so that each is called right equally often.
+/// Results never use it to judge an answer.
 [[nodiscard]] std::optional<double> feedback_response(Task task, const PlannedTrial& trial);
 
-/// What is stored for an answer as it was given: an interval becomes 1 where it is the right
-/// one, or of two the one that holds the test, and else 0. Other answers are stored as they
-/// are.
+/// Returns what is stored for an answer as given. An interval becomes 1 if it is the right one,
+/// or of two the one with the test, and otherwise 0. Other answers are stored as they are.
 [[nodiscard]] double response_of(AnswerKind kind, const PlannedTrial& trial, double answer);
 /// The same; none, "cannot tell", stays none.
 [[nodiscard]] std::optional<double> response_of(AnswerKind kind, const PlannedTrial& trial,
                                                 const std::optional<double>& answer);
-/// And back. `chosen`: the interval, where it was stored.
+/// The inverse of `response_of`. `chosen` is the interval, if it was stored.
 [[nodiscard]] double answer_of(AnswerKind kind, const PlannedTrial& trial, double response,
                                std::optional<std::int64_t> chosen = std::nullopt);
 
-/// The trial turned into a catch trial: in a yes-no task nothing is there, otherwise the test
-/// equals the reference. It is of no series.
+/// Turns the trial into a catch trial: in a yes-no task nothing is there, otherwise the test
+/// equals the reference. The trial then belongs to no series.
 void make_catch_trial(PlannedTrial& trial, Task task);
 
-/// In a repetition; by default none, or half of its trials where the same is told from the
-/// different.
+/// Returns the number of catch trials in a repetition. The default is none, or half of the
+/// trials if the task is to tell same from different.
 [[nodiscard]] int num_catch_trials(const Block& block);
 
-/// Puts the stimuli of the trial after `answered` into intervals, where their order is drawn.
-/// Of two, a balanced order has, of every two trials, the test first in one. Of three every
-/// order comes twice in as many trials as that makes, so that nobody can know the next.
+/// Assigns the stimuli of the trial after `answered` to intervals, if their order is drawn.
+/// With two intervals, a balanced order has the test first in one of every two trials. With
+/// three intervals, every order comes twice in a cycle of trials, so that nobody can know the
+/// next.
 void draw_intervals(PlannedTrial& trial, const Block& block,
                     const std::vector<AnsweredTrial>& answered, core::RandomStream& stream);
 

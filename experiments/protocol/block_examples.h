@@ -5,14 +5,14 @@
 
 namespace jnd::experiments {
 
-/// A block that the reader takes as it stands, in English.
+/// A block that the reader accepts as it is, in English.
 struct BlockExample {
   std::string procedure;
   std::string json;
 };
 
-/// One or more for each procedure: schema, snippets of editors and reference documentation show
-/// them.
+/// Returns one or more for each procedure. Schema, snippets of editors and reference
+/// documentation show them.
 [[nodiscard]] const std::vector<BlockExample>& block_examples();
 
 }  // namespace jnd::experiments

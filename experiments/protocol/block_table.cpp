@@ -9,7 +9,7 @@
 namespace jnd::experiments {
 namespace {
 
-/// What a block can vary: anything but free space.
+/// Returns what a block can vary: every medium but free space.
 std::vector<Medium> block_media() {
   std::vector<Medium> found;
   for (const Medium& one : media()) {
@@ -38,7 +38,7 @@ Parameter medium_parameter() {
   return parameter;
 }
 
-/// The condition's words, where `parameters` has this key already; else nullptr.
+/// Returns the values of the condition if `parameters` has this key, or nullptr.
 std::vector<std::string>* words_of(std::vector<Parameter>& parameters, const std::string& key,
                                    std::size_t condition) {
   const auto known = std::ranges::find(parameters, key, &Parameter::key);
@@ -49,8 +49,9 @@ void add_word(std::vector<std::string>& words, const std::string& word) {
   if (std::ranges::find(words, word) == words.end()) words.push_back(word);
 }
 
-/// The key as blocks of this medium have it, or blocks with this standard; where another
-/// procedure or a medium of the same quantity has it already, it is theirs, too.
+/// Adds the key as blocks of this medium, or with this standard, have it. If another procedure
+/// or a medium of the same quantity already has the key, it becomes valid for these blocks as
+/// well.
 void add_key(std::vector<Parameter>& parameters, const BlockKey& key,
              const std::string& procedure, const Medium& medium) {
   const std::string name = key.name_for(medium.quantity);
@@ -74,7 +75,7 @@ void add_key(std::vector<Parameter>& parameters, const BlockKey& key,
   parameters.push_back(std::move(parameter));
 }
 
-/// Keys that name a quantity first, quantity by quantity.
+/// Keys that name a quantity come first, quantity by quantity.
 std::vector<Parameter> procedure_parameters() {
   std::vector<Parameter> of_quantities, others;
   for (const Medium& medium : block_media()) {

@@ -11,11 +11,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Far more than anybody writes; what is known of each value takes memory.
+/// Far larger than any real file. The limit matters because what is stored for each value takes
+/// memory.
 constexpr std::size_t kLargestText = std::size_t{4} << 20;
 
-/// As much of a stream as a file may have, and a byte more if there is more: also of what has
-/// no end, such as a device or a pipe.
+/// Reads as much of a stream as a file may have, and a byte more if there is more. So it also
+/// ends for a device or a pipe, which has no end.
 std::string text_of(std::istream& stream) {
   std::string text(kLargestText + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));

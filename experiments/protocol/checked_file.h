@@ -9,19 +9,19 @@
 
 namespace jnd::experiments {
 
-// What reading a file of people's has in common, whatever is in it.
+// Functions for reading any file that people write.
 
-/// The whole file, or a problem in words. `kind`: what it should be, "study file". Not real
-/// time.
+/// Returns the whole file, or adds a problem. `kind` is what it should be, such as "study
+/// file". Not real time.
 [[nodiscard]] std::optional<std::string> text_of_file(const std::filesystem::path& file,
                                                       const std::string& kind,
                                                       std::vector<StudyProblem>& problems);
 
-/// Whether the text is not far more than anybody writes; else that is a problem.
+/// Whether the text is of a reasonable size; if not, adds a problem.
 [[nodiscard]] bool is_of_a_size(const std::string& text, const std::string& file_name,
                                 const std::string& kind, std::vector<StudyProblem>& problems);
 
-/// In the order in which they stand in the file, and not too many.
+/// Sorts the problems by their place in the file and limits their number.
 void arrange(std::vector<StudyProblem>& problems, const std::string& file_name);
 
 }  // namespace jnd::experiments

@@ -48,7 +48,7 @@ class DesignRules : StudyCheck {
   }
 
  private:
-  /// What people differ in, by name, with what it can be.
+  /// Collects the factors between people, by name, with their levels.
   void collect() {
     for (const json& field : list(file_.root(), "participant_fields")) {
       if (!field.is_object()) continue;
@@ -303,12 +303,13 @@ class DesignRules : StudyCheck {
     return found == levels_.end() ? nullptr : &found->second;
   }
 
-  std::map<std::string, Names> of_people_;  ///< What people differ in, and what they can be.
-  std::map<std::string, Names> levels_;     ///< Of the study's factors.
-  Names within_;                            ///< Of these, those that blocks differ in.
+  std::map<std::string, Names> of_people_;  ///< Factors between people, with their levels.
+  std::map<std::string, Names> levels_;     ///< Levels of the study's factors.
+  Names within_;                            ///< Those of the factors that are within people.
   Names blocks_;
-  Names questions_;  ///< That any block asks after its trials.
-  std::set<std::pair<std::string, std::string>> used_;  ///< Levels that some block has.
+  Names questions_;  ///< Questions that any block asks after its trials.
+  /// Factors and levels that some block has.
+  std::set<std::pair<std::string, std::string>> used_;
 };
 
 class ContrastRules : StudyCheck {
@@ -339,7 +340,7 @@ class ContrastRules : StudyCheck {
  private:
   using Blocks = std::map<std::string, const Block*>;
 
-  /// Answers that are taken together have to be about the same.
+  /// Blocks whose answers are combined must be alike.
   void check_alike(const ContrastCondition& condition, const Blocks& blocks,
                    const std::string& at) {
     const auto told = [](const Block& block) {
@@ -362,7 +363,8 @@ class ContrastRules : StudyCheck {
     return block.settings.has("task") ? block.settings.word("task") : "";
   }
 
-  /// A ratio of viscosity and of stiffness is no effect; times and pure numbers have no medium.
+  /// A ratio of a viscosity and a stiffness has no meaning. Times and pure numbers do not
+  /// depend on the medium.
   void check_one_quantity(const PlannedContrast& contrast, const ContrastConditions& found,
                           const Blocks& blocks, const std::string& at) {
     if (contrast.measure != ContrastMeasure::kMatch) return;
@@ -377,7 +379,7 @@ class ContrastRules : StudyCheck {
     }
   }
 
-  /// Steps of different scales, and numbers in different units, have no difference.
+  /// Steps of different scales, and numbers in different units, cannot be subtracted.
   void check_one_scale(const PlannedContrast& contrast, const ContrastConditions& found,
                        const Blocks& blocks, const std::string& at) {
     if (contrast.measure != ContrastMeasure::kRating &&
@@ -398,7 +400,7 @@ class ContrastRules : StudyCheck {
     }
   }
 
-  /// "7 steps", "a number in s", "yes or no".
+  /// Returns "7 steps", "a number in s" or "yes or no".
   static std::string scale_words(const PlannedContrast& contrast, const Block& block) {
     if (contrast.measure == ContrastMeasure::kRating) {
       return std::to_string(num_steps_of(block)) + " steps";

@@ -13,7 +13,7 @@ namespace jnd::experiments {
 void check_design_rules(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
 /// Checks that every contrast has blocks to compare, and that blocks with the same levels are
-/// alike. For a study that is sound otherwise. Not real time.
+/// alike. The study must be valid otherwise. Not real time.
 void check_contrasts(const LocatedJson& file, const Study& study,
                      std::vector<StudyProblem>& problems);
 

@@ -4,11 +4,11 @@
 
 namespace jnd::experiments {
 
-/// What a study varies on purpose.
+/// A factor: something that a study varies on purpose.
 [[nodiscard]] const ParameterTable& factor_table();
 /// A comparison of conditions that is planned before anybody takes part.
 [[nodiscard]] const ParameterTable& contrast_table();
-/// Looks at a study before all have taken part.
+/// Planned looks at the data before all have taken part.
 [[nodiscard]] const ParameterTable& sequential_table();
 /// The levels of a block.
 [[nodiscard]] Parameter levels_parameter();

@@ -43,8 +43,8 @@ class Drawing : StudyCheck {
     }
   }
 
-  /// "staircase.start: expected ...", at the key that has this name, with its quantity or
-  /// without.
+  /// Reports "staircase.start: expected ..." at the key of that name, with or without its
+  /// quantity.
   void tell(const json& written, const std::string& pointer, const std::string& words) {
     const std::size_t colon = words.find(": ");
     const std::size_t dot = words.find('.');

@@ -8,9 +8,9 @@
 
 namespace jnd::experiments {
 
-/// Has every block draw its first trial, and tells at its key what the procedure then misses,
-/// so that no session finds it out with a participant in the device; `with_check`: and what a
-/// block that can be drawn cannot come to (`Procedure::check`). For a study that is sound
+/// Draws the first trial of every block and reports, at the key, what the procedure lacks. So
+/// no session finds it out with a participant in the device. `with_check` also reports blocks
+/// that can be drawn but cannot reach their goal (`Procedure::check`). The study must be valid
 /// otherwise. Not real time.
 void check_drawing(const LocatedJson& file, const Study& study,
                    std::vector<StudyProblem>& problems, bool with_check = true);

@@ -18,14 +18,14 @@ constexpr std::string_view kHeader =
     "angle_of_attack_rad,speed_m_per_s,drag_coefficient,lift_coefficient";
 constexpr std::array<std::string_view, 4> kColumns = {"angle_of_attack_rad", "speed_m_per_s",
                                                       "drag_coefficient", "lift_coefficient"};
-// Far more than a measurement has; each one costs memory that is locked for the loop.
+// Far more than a measurement has. Each row costs memory that is locked for the loop.
 constexpr std::size_t kMostRows = 20'000;
 
 [[noreturn]] void refuse(const std::string& file_name, int line, const std::string& message) {
   throw core::Error(file_name + ": line " + std::to_string(line) + ": " + message);
 }
 
-/// The next piece of `text` up to `separator`, which is taken off.
+/// Takes the next piece, up to `separator`, off `text` and returns it.
 std::string_view next_piece(std::string_view& text, char separator) {
   const std::size_t end = text.find(separator);
   const std::string_view piece = text.substr(0, end);
@@ -98,7 +98,7 @@ core::ForceMap parse_force_map(std::string_view text, const std::string& file_na
 core::ForceMap read_force_map(const std::filesystem::path& file) {
   std::error_code ignored;
   std::ifstream stream(file, std::ios::binary);
-  // To read a folder would throw something else.
+  // Reading a folder would throw something else.
   if (!stream.is_open() || std::filesystem::is_directory(file, ignored)) {
     throw core::Error(file.string() +
                       ": expected a force map that can be read, found none; check its name");

@@ -8,12 +8,12 @@
 
 namespace jnd::experiments {
 
-/// Reads a table of `angle_of_attack_rad,speed_m_per_s,drag_coefficient,lift_coefficient`, with
-/// these words as its first line; lines that begin with `#` are comments. Throws `core::Error`
-/// that tells file, line and what is wrong. Not real time.
+/// Reads a table whose first line is
+/// `angle_of_attack_rad,speed_m_per_s,drag_coefficient,lift_coefficient`. Lines that begin with
+/// `#` are comments. Throws `core::Error` naming file, line and problem. Not real time.
 [[nodiscard]] core::ForceMap read_force_map(const std::filesystem::path& file);
 
-/// The same for a text; `file_name` is for messages.
+/// Does the same for a text. `file_name` is for messages.
 [[nodiscard]] core::ForceMap parse_force_map(std::string_view text,
                                              const std::string& file_name);
 

@@ -26,7 +26,7 @@ class InterleavedRules : StudyCheck {
  private:
   void check_group(const json& group, const std::string& at) {
     const json& blocks = list(group, "blocks");
-    const json* first = nullptr;  // Of those whose medium is known.
+    const json* first = nullptr;  // First of the blocks whose medium is known.
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       if (!blocks[i].is_object() || word(blocks[i], "kind") != "block") continue;
       const std::string here = at + std::to_string(i);
@@ -56,7 +56,8 @@ class InterleavedRules : StudyCheck {
     }
   }
 
-  /// Nobody should have to be told before every trial how to move.
+  /// Refuses a mixture of pressing and stroking, because participants would have to be told
+  /// before every trial how to move.
   void check_movement(const json& first, const json& block, const std::string& here) {
     const std::string medium = word(block, "medium"), other = word(first, "medium");
     if (is_pressed(medium) == is_pressed(other)) return;

@@ -7,7 +7,8 @@
 
 namespace jnd::experiments {
 
-/// Rules of blocks whose trials are mixed: what cannot be had among the trials of others.
+/// Checks blocks whose trials are mixed: they cannot have what is impossible among the trials
+/// of other blocks.
 void check_interleaved_rules(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
 }  // namespace jnd::experiments

@@ -54,7 +54,7 @@ class LabelRules : StudyCheck {
     add(labels, object_at(object, second), pointer + '/' + second);
   }
 
-  /// Language and words to the pointer of the label that has them.
+  /// Language and words, with the pointer of the label that has them.
   using Labels = std::map<std::pair<std::string, std::string>, std::string>;
 
   void add(Labels& labels, const json& text, const std::string& pointer) {

@@ -7,8 +7,8 @@
 
 namespace jnd::experiments {
 
-/// Checks that answers which a participant has to tell apart do not read the same: the two of a
-/// block, the options of a choice, the ends of a scale. Not real time.
+/// Checks that answers which a participant has to tell apart have different words: the two
+/// answers of a block, the options of a choice, the ends of a scale. Not real time.
 void check_label_rules(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
 }  // namespace jnd::experiments

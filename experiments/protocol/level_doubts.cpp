@@ -43,7 +43,7 @@ class LevelDoubts : StudyCheck {
                       example_of(levels) + "; if the list is meant so, nothing is wrong");
   }
 
-  /// As it stands in the file.
+  /// Returns the list as it stands in the file.
   [[nodiscard]] std::string text_of(const json& levels, const std::string& place) const {
     const std::size_t begin = file_.value_position(place).byte;
     const std::string last = place + '/' + std::to_string(levels.size() - 1);
@@ -71,7 +71,7 @@ class LevelDoubts : StudyCheck {
     return any_tight && any_loose;
   }
 
-  /// "6.5" of the first two whole numbers that may have been one.
+  /// Returns "6.5" for the first two whole numbers that may have been meant as one.
   static std::string example_of(const json& levels) {
     for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
       const bool could_be_one = levels[i].is_number_integer() &&

@@ -13,7 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Line and column of a byte of `text`; bytes that continue a UTF-8 character have no column.
+/// Returns line and column of a byte of `text`. Bytes that continue a UTF-8 character do not
+/// count as columns.
 TextPosition position_of(std::string_view text, std::size_t byte) {
   TextPosition position = {.byte = byte};
   for (std::size_t i = 0; i < byte && i < text.size(); ++i) {
@@ -35,7 +36,7 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
   return text;
 }
 
-/// The run of characters around a byte that a person would call a word: `NaN`, `'none'`, `//`.
+/// Returns what a person would call the word around a byte: `NaN`, `'none'`, `//`.
 std::string_view word_at(std::string_view text, std::size_t& byte) {
   constexpr std::string_view kEnds = " \t\r\n,:[]{}\"";
   byte = std::min(byte, text.size());
@@ -43,7 +44,7 @@ std::string_view word_at(std::string_view text, std::size_t& byte) {
   return text.substr(byte, std::min(text.find_first_of(kEnds, byte), text.size()) - byte);
 }
 
-/// One of the library's words for a token, in ours.
+/// Translates the library's name of a token into ours.
 std::string token_words(const std::string& token) {
   static const std::map<std::string, std::string> kWords = {
       {"'[', '{', or a literal", "a value"},
@@ -63,10 +64,10 @@ std::string token_words(const std::string& token) {
   return found == kWords.end() ? token : found->second;
 }
 
-/// Where a message of the library speaks of a key, its pointer is that of the object.
+/// Whether a message of the library is about a key. Its pointer is then that of the object.
 bool wants_key(std::string_view what) { return what.ends_with("; expected string literal"); }
 
-/// What an author who wrote this word, which is no JSON, most likely has to know.
+/// Returns a hint to an author who wrote this word, which is no JSON.
 std::string hint_for(std::string_view word, char before) {
   for (const char* mark : {"//", "/*", "#"}) {
     if (word.starts_with(mark)) return " (notes go into a key `comment`)";
@@ -78,7 +79,8 @@ std::string hint_for(std::string_view word, char before) {
   return did_you_mean(word, {"true", "false", "null"});
 }
 
-/// A word that is no JSON at all, for one of the library's words for what belongs there.
+/// Returns the message about a word that is no JSON, based on the library's name of what
+/// belongs there.
 std::string not_a_token(std::string_view what, const std::string& word, std::string hint) {
   const std::string found = ", found `" + word + '`' + std::move(hint);
   if (wants_key(what)) return "expected a key in double quotes" + found;
@@ -89,17 +91,19 @@ std::string not_a_token(std::string_view what, const std::string& word, std::str
   return "expected a value or a text in double quotes" + found;
 }
 
-/// "060", "-07": a number to whoever wrote it, several to JSON.
+/// Whether it is like "060" or "-07", which is one number to an author and several to JSON.
 bool has_leading_zero(std::string_view word) {
   if (word.starts_with('-')) word.remove_prefix(1);
   return word.size() > 1 && word[0] == '0' && word[1] >= '0' && word[1] <= '9';
 }
 
-/// A token of JSON where another one belongs; both in the library's words.
+/// Returns the message about a token of JSON in the place of another one. Both come in the
+/// library's words.
 std::string wrong_token(const std::string& found, const std::string& expected,
                         std::string_view word) {
   std::string wanted = token_words(expected);
-  if (wanted == "a text in quotes") wanted = "a key in quotes";  // It stands nowhere else.
+  // A text is expected alone only where a key belongs.
+  if (wanted == "a text in quotes") wanted = "a key in quotes";
   const bool is_close = found == "'}'" || found == "']'";
   const bool is_number = found == "number literal";
   std::string hint;
@@ -114,7 +118,8 @@ std::string wrong_token(const std::string& found, const std::string& expected,
   return "expected " + wanted + ", found " + token_words(found) + hint;
 }
 
-/// Just behind the value before the token that ends at `byte`: where a comma is missing.
+/// Returns the place just after the value before the token that ends at `byte`, where a comma
+/// is missing.
 std::size_t behind_value_before(std::string_view text, std::size_t byte) {
   if (text[byte] == '"') {
     do {
@@ -129,8 +134,9 @@ std::size_t behind_value_before(std::string_view text, std::size_t byte) {
   return last == std::string_view::npos ? byte : last + 1;
 }
 
-/// The key whose closing quote stands at `byte`: "the key `languages` in line 4", the line
-/// where it is not that of `from`. "" where no colon follows, so that it is no key.
+/// Returns words for the key whose closing quote is at `byte`: "the key `languages` in line 4".
+/// The line is left out if it is that of `from`. Returns "" if no colon follows, because then
+/// it is no key.
 std::string key_words(std::string_view text, std::size_t byte, std::size_t from) {
   const std::size_t next = text.find_first_not_of(" \t\r\n", byte + 1);
   std::size_t open = byte;
@@ -147,9 +153,10 @@ std::string key_words(std::string_view text, std::size_t byte, std::size_t from)
          (line == position_of(text, from).line ? "" : " in line " + std::to_string(line));
 }
 
-/// Where the innermost brace or bracket before this byte opens that nothing closes, in words:
-/// "; the `{` in line 3, column 5 is not closed". "" where all are closed, and before the end
-/// of the text for the outermost one, for then something else is closed too often.
+/// Returns where the innermost brace or bracket opens that nothing closes before this byte: ";
+/// the `{` in line 3, column 5 is not closed". Returns "" if all are closed. It also returns ""
+/// for the outermost one before the end of the text, because then something is closed too
+/// often.
 std::string open_words(std::string_view text, std::size_t byte, bool at_end) {
   std::vector<std::size_t> open;
   bool in_string = false;
@@ -170,11 +177,11 @@ std::string open_words(std::string_view text, std::size_t byte, bool at_end) {
          ", column " + std::to_string(at.column) + " is not closed";
 }
 
-/// What the library says went wrong, in the words of this program. `byte` is moved to where the
-/// author has to look.
+/// Turns the library's message into one of this program. `byte` is moved to where the author
+/// has to look.
 std::string worded(const std::string& what, std::string_view text, std::size_t& byte) {
   std::string not_utf8 = "expected UTF-8, found a byte that is not; save the file as UTF-8";
-  // Behind this are the author's own words.
+  // The rest of the message quotes the author's own words.
   const std::string said = what.substr(0, what.find("; last read: '"));
   if (said.find("ill-formed UTF-8") != std::string::npos) return not_utf8;
   std::size_t word_begin = byte;
@@ -184,9 +191,10 @@ std::string worded(const std::string& what, std::string_view text, std::size_t& 
   if (unexpected != std::string::npos && expected != std::string::npos) {
     const std::string found = said.substr(unexpected + 11, expected - unexpected - 11);
     const std::string wanted = said.substr(expected + 11);
-    const bool is_literal = found.ends_with(" literal");  // As texts and numbers are, too.
+    // Texts and numbers have this ending, too.
+    const bool is_literal = found.ends_with(" literal");
     const bool is_value = is_literal || found == "'{'" || found == "'['";
-    // "060" and "1true" are one word to whoever wrote them, not two values without a comma.
+    // To their author, "060" and "1true" are one word and not two values without a comma.
     const bool is_one_word =
         found == "number literal"
             ? has_leading_zero(word)
@@ -222,7 +230,7 @@ std::string worded(const std::string& what, std::string_view text, std::size_t& 
                      hint_for(word, word_begin == 0 ? '\0' : text[word_begin - 1]));
 }
 
-/// The byte of the first bracket or brace that opens one level too many; none: npos.
+/// Returns the byte of the first bracket or brace that exceeds the depth limit, or npos.
 std::size_t too_deep_at(std::string_view text) {
   int depth = 0;
   bool in_string = false;
@@ -240,7 +248,7 @@ std::size_t too_deep_at(std::string_view text) {
   return std::string_view::npos;
 }
 
-/// Listens to the parser only to know where in the document it stopped, and why.
+/// Listens to the parser only to learn where in the document it stopped, and why.
 class ErrorListener final : public nlohmann::json_sax<json> {
  public:
   explicit ErrorListener(std::string_view text) : text_(text) {}
@@ -309,7 +317,8 @@ class ErrorListener final : public nlohmann::json_sax<json> {
 
 }  // namespace
 
-/// Walks a text already known to be JSON of limited depth, noting where everything stands.
+/// Walks through a text that is known to be JSON of limited depth, and notes where everything
+/// stands.
 class PositionPass {
  public:
   PositionPass(std::string_view text, LocatedJson::Place& root) : text_(text) {
@@ -319,7 +328,7 @@ class PositionPass {
     value(root);
   }
 
-  /// Pointers of keys that stand a second time, no more than are told.
+  /// Pointers of keys that occur a second time, at most as many as are reported.
   std::vector<std::pair<std::string, TextPosition>> duplicates;
 
  private:
@@ -378,7 +387,7 @@ class PositionPass {
         duplicates.emplace_back(pointer(), child.key);
       }
       skip_space();
-      step();  // The colon.
+      step();  // Skips the colon.
       skip_space();
       value(child);
       if (text_[here_.byte] == ',') step();
@@ -398,8 +407,9 @@ class PositionPass {
     step();
     open_.pop_back();
   }
-  /// Of the last value of the innermost object or list. Only made where it is needed: a pointer
-  /// for every value would take the square of the text's memory.
+  /// Returns the pointer of the last value in the innermost object or list. It is made only if
+  /// needed, because a pointer for every value would take memory in proportion to the square of
+  /// the text.
   [[nodiscard]] std::string pointer() const {
     std::string pointer;
     for (const Place* place : open_) {
@@ -426,11 +436,11 @@ void LocatedJson::parse(std::string_view text, std::vector<StudyProblem>& proble
     add_problem(problems, {file_, position.line, position.column, std::move(pointer),
                            std::move(message)});
   };
-  // The parser takes a zero byte for the end of the text and does not look at what follows.
+  // The parser takes a zero byte for the end of the text and ignores what follows.
   if (const std::size_t byte = text.find('\0'); byte != std::string_view::npos) {
     return refuse(byte, "", "expected text, found a zero byte; save the file as UTF-8");
   }
-  // Then of all: nothing below has to cope with more levels than this.
+  // This check comes next, so that nothing below has to cope with more levels.
   if (const std::size_t byte = too_deep_at(text); byte != std::string_view::npos) {
     return refuse(byte, "",
                   "expected at most " + std::to_string(kMaxDepth) +
@@ -463,7 +473,7 @@ const LocatedJson::Place* LocatedJson::find(std::string_view pointer, bool exact
         child = &place->inner[index];
       }
     } else {
-      // The last of those that stand twice is the one that counts.
+      // If a key occurs twice, the last one counts.
       const auto found = std::find_if(place->inner.rbegin(), place->inner.rend(),
                                       [&](const Place& one) { return one.token == token; });
       if (found != place->inner.rend()) child = &*found;

@@ -26,7 +26,7 @@ class OrderRules : StudyCheck {
   }
 
  private:
-  /// What the order of a block is about; only of values that are sound by themselves.
+  /// What the order of a block is about. Only values that are valid by themselves are in it.
   struct Stimuli {
     std::string procedure, quantity;
     std::vector<double> values;
@@ -43,7 +43,7 @@ class OrderRules : StudyCheck {
                        .values = {}};
     const json& listed = list(block, stimuli.quantity);
     const Parameter* its = block_table().find(stimuli.quantity);
-    // A list that is too long is told of as a whole.
+    // A list that is too long is reported as a whole.
     if (its == nullptr || listed.size() > its->max_items) return stimuli;
     for (const json& value : listed) {
       if (value.is_number()) stimuli.values.push_back(value.get<double>());
@@ -71,7 +71,7 @@ class OrderRules : StudyCheck {
   }
 
   void check_mixed(const json& order, const Stimuli& stimuli, const std::string& pointer) {
-    // Beyond it, how many orders there are can no longer be counted; nobody does so many.
+    // Beyond this number, which no session reaches, orders can no longer be counted.
     constexpr double kMostTrials = 2000.0;
     if (stimuli.procedure == "magnitude_production") {
       report(pointer,

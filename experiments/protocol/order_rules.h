@@ -7,8 +7,8 @@
 
 namespace jnd::experiments {
 
-/// Orders that nobody can draw: constraints that no order of the stimuli keeps to, stimuli that
-/// a block has not, methods that a procedure has no use for. Not real time.
+/// Checks for orders that cannot be drawn: constraints that no order of the stimuli meets,
+/// stimuli that a block lacks, and methods that a procedure cannot use. Not real time.
 void check_order_rules(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
 }  // namespace jnd::experiments

@@ -79,10 +79,11 @@ class FieldRules : StudyCheck {
     }
   }
 
-  std::vector<std::string> names_;            ///< Of the fields.
-  std::set<std::string> used_;                ///< Fields that something is stratified by.
-  bool has_unknown_ = false;                  ///< One of them may have been meant.
-  std::map<std::string, std::string> taken_;  ///< Name to the pointer of what has it.
+  std::vector<std::string> names_;  ///< Names of the fields.
+  std::set<std::string> used_;      ///< Fields by which something is stratified.
+  /// A stratification names an unknown field, which may have been meant for one of these.
+  bool has_unknown_ = false;
+  std::map<std::string, std::string> taken_;  ///< Name, with the pointer of what has it.
 };
 
 }  // namespace

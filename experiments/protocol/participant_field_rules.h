@@ -7,8 +7,8 @@
 
 namespace jnd::experiments {
 
-/// Checks what participants bring: fields with a name of their own, counterbalances that are
-/// stratified by one of them, none that nothing is stratified by. Not real time.
+/// Checks participant fields: their names must be unique, counterbalances must be stratified by
+/// one of them, and every field must be used for stratification. Not real time.
 void check_participant_field_rules(const LocatedJson& file,
                                    std::vector<StudyProblem>& problems);
 

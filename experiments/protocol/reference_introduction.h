@@ -2,7 +2,7 @@
 
 namespace jnd::experiments {
 
-/// What stands above the tables of the reference: how a study is made, by hand.
+/// The text above the tables of the reference: how a study is written by hand.
 inline constexpr const char* kReferenceIntroduction = R"md(# Studies
 
 This page is made by `jnd schema --markdown` from the tables that the program reads studies with. Do not edit it.

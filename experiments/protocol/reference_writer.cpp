@@ -15,10 +15,10 @@
 namespace jnd::experiments {
 namespace {
 
-/// The key whose words part the keys of a block into those of one procedure each.
+/// The key by whose words the keys of a block are divided into those of each procedure.
 constexpr const char* kDivider = "procedure";
 
-/// A cell of a table: no line ends, no bars of its own.
+/// Returns a cell of a table, without line ends and with escaped bars.
 std::string cell(const std::string& text) {
   std::string shown;
   for (const char c : text) {
@@ -121,7 +121,7 @@ std::string condition_words(const Parameter& parameter, bool with_divider) {
   return words.empty() ? "" : words + '.';
 }
 
-/// The words to choose from, unless the meaning explains each of them already.
+/// Returns the allowed words, unless the meaning explains each of them already.
 std::string allowed_words(const Parameter& parameter) {
   const bool explained = std::all_of(
       parameter.allowed.begin(), parameter.allowed.end(), [&](const std::string& word) {
@@ -154,7 +154,7 @@ std::string written_table(const std::vector<WrittenColumn>& columns) {
   return text + '\n';
 }
 
-/// The words of the dividing key that this one is bound to; none: to all of them.
+/// Returns the condition of the dividing key, or nullptr for a key that every procedure has.
 const Condition* divider_of(const std::vector<Condition>& conditions) {
   for (const Condition& condition : conditions) {
     if (condition.key == kDivider) return &condition;
@@ -167,7 +167,7 @@ bool holds(const Condition* condition, const std::string& word) {
                                            word) != condition->values.end();
 }
 
-/// Writes each table once, below the first that uses it.
+/// Writes each table once, below the first one that uses it.
 class ReferenceWriter {
  public:
   [[nodiscard]] std::string text() && {

@@ -6,13 +6,13 @@
 
 namespace jnd::experiments {
 
-/// Reference of the study format in Markdown, made from the parameter tables: an introduction,
-/// then every key with type, unit, range, default and meaning, an example of every stage kind
-/// and procedure, and the data each of them writes. Written for somebody who designs studies
-/// and does not program. With a line end. Not real time.
+/// Returns the reference of the study format in Markdown, made from the parameter tables: an
+/// introduction, every key with type, unit, range, default and meaning, an example of every
+/// stage kind and procedure, and the data that each of them writes. It is for people who design
+/// studies and do not program. It ends in a line end. Not real time.
 [[nodiscard]] std::string study_reference();
 
-/// The same of another kind of file, the introduction given.
+/// Returns the same for another kind of file, with this introduction.
 [[nodiscard]] std::string file_reference(const ParameterTable& root,
                                          const std::string& introduction);
 

@@ -15,14 +15,14 @@
 namespace jnd::experiments {
 namespace {
 
-// Ordered, so that keys stand in the order of the tables.
+// Keys keep the order of the tables.
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kNamePattern = "^[a-z0-9_]{1,64}$";
 constexpr const char* kLanguagePattern = "^[a-z]{2,3}$";
 constexpr const char* kDatePattern = "^[0-9]{4}-[0-9]{2}-[0-9]{2}$";
 
-/// Words of which at least one character is seen.
+/// Returns a schema for words with at least one visible character.
 Json words_schema() { return {{"type", "string"}, {"pattern", "\\S"}}; }
 
 Json reference(const std::string& definition) {
@@ -49,7 +49,7 @@ Json list_schema(const Parameter& parameter, Json items) {
 
 Json table_schema(const ParameterTable& table);
 
-/// Factors, each with weights of its levels; a comment may stand among either.
+/// Returns a schema for factors, each with weights of its levels. A comment is allowed in both.
 Json weights_schema() {
   const Json levels = {{"type", "object"},
                        {"minProperties", 1},
@@ -113,7 +113,7 @@ Json value_schema(const Parameter& parameter) {
   return {};
 }
 
-/// "where `procedure` is `constant_stimuli` and `medium` is `water`"
+/// Returns "where `procedure` is `constant_stimuli` and `medium` is `water`".
 std::string condition_words(const std::vector<Condition>& conditions) {
   std::string words;
   for (const Condition& condition : conditions) {
@@ -133,7 +133,8 @@ std::string description(const Parameter& parameter) {
   return text;
 }
 
-/// What VS Code shows in place of the description: the same with what the author can do.
+/// Returns what VS Code shows instead of the description: the same, and what the author can
+/// write.
 std::string markdown_description(const Parameter& parameter) {
   std::string text = description(parameter) + "\n\nExpected: " + expectation(parameter);
   const bool has_range = parameter.range.high < std::numeric_limits<double>::infinity();
@@ -153,7 +154,7 @@ Json property_schema(const Parameter& parameter) {
   if (schema.contains("$ref")) schema = {{"allOf", Json::array({schema})}};
   Json described = {{"description", description(parameter)},
                     {"markdownDescription", markdown_description(parameter)}};
-  schema.erase("description");  // That of this key says more.
+  schema.erase("description");  // The description of this key says more.
   described.update(schema);
   if (!parameter.default_json.empty()) {
     described["default"] = Json::parse(parameter.default_json);
@@ -161,7 +162,7 @@ Json property_schema(const Parameter& parameter) {
   return described;
 }
 
-/// What an absent key stands for is one of the values.
+/// Whether the default of an absent key is one of the condition's values.
 bool holds_by_default(const ParameterTable& table, const Condition& condition) {
   const Parameter* decider = table.find(condition.key);
   if (decider == nullptr || decider->default_json.empty()) return false;
@@ -170,8 +171,9 @@ bool holds_by_default(const ParameterTable& table, const Condition& condition) {
          condition.values.end();
 }
 
-/// One if/then/else for each set of conditions: its keys are described and required where it
-/// holds and forbidden where it does not. So an editor offers only those that belong there.
+/// Returns one if/then/else for each set of conditions. Its keys are described and required if
+/// the conditions hold, and forbidden if they do not. So an editor offers only those that
+/// belong there.
 Json conditional_schemas(const ParameterTable& table) {
   std::vector<std::pair<std::string, Json>> rules;
   for (const Parameter& parameter : table.parameters) {
@@ -222,7 +224,7 @@ Json table_schema(const ParameterTable& table) {
   Json required = Json::array();
   Json properties = Json::object();
   for (const Parameter& parameter : table.parameters) {
-    // What belongs here only sometimes is described where it does; see below.
+    // A key that belongs here only under conditions is described by its conditional schema.
     properties[parameter.key] =
         parameter.only_where.empty() ? property_schema(parameter) : Json(true);
     if (parameter.required && parameter.only_where.empty()) required.push_back(parameter.key);
@@ -236,7 +238,7 @@ Json table_schema(const ParameterTable& table) {
   return schema;
 }
 
-/// Whole stages that VS Code offers to put in.
+/// Returns whole stages that VS Code offers to insert.
 Json stage_snippets() {
   Json snippets = Json::array();
   for (const ParameterTable* table : stage_tables()) {
@@ -277,7 +279,7 @@ Json stage_schema() {
 
 }  // namespace
 
-/// `definitions`: what the tables refer to besides one another.
+/// `definitions` are what the tables refer to besides each other.
 static std::string schema_text(const std::vector<const ParameterTable*>& tables,
                                const std::string& title, Json definitions) {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};

@@ -13,7 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-/// As of a contrast: those that name no family are in one with the others of their role.
+/// Returns the family of a contrast. Those that name none are in one family with the others of
+/// their role.
 std::string family_of(const json& contrast) {
   const std::string family = word(contrast, "family");
   return family.empty() ? word(contrast, "role") : family;

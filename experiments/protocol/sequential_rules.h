@@ -8,7 +8,7 @@
 namespace jnd::experiments {
 
 /// Checks the looks of a sequential study, and that the contrast that decides is a primary one
-/// which is alone in its family. Not real time.
+/// and alone in its family. Not real time.
 void check_sequential_rules(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
 }  // namespace jnd::experiments

@@ -13,7 +13,7 @@
 namespace jnd::experiments {
 namespace {
 
-/// "`practice` at most 40, `staircase` about 60".
+/// Returns "`practice` at most 40, `staircase` about 60".
 std::string words_of(const Stretch& stretch) {
   constexpr std::size_t kMost = 8;
   std::string words;

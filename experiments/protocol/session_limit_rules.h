@@ -8,8 +8,8 @@
 
 namespace jnd::experiments {
 
-/// Holds what participants are expected to do against the limits of their study: its duration,
-/// trials from break to break. For a study that is sound otherwise. Not real time.
+/// Compares what participants are expected to do with the limits of their study: the duration,
+/// and the trials from break to break. The study must be valid otherwise. Not real time.
 void check_session_limit_rules(const LocatedJson& file, const Study& study,
                                std::vector<StudyProblem>& problems);
 

@@ -18,22 +18,23 @@ namespace {
 
 using nlohmann::json;
 
-/// The arm that stages stand in; names are empty outside of a `one_of` counterbalance.
+/// The arm that contains the stages. The names are empty outside of a `one_of` counterbalance.
 struct Surroundings {
   std::string counterbalance, arm;
-  std::set<std::string> arms;  ///< All of the counterbalance.
+  std::set<std::string> arms;  ///< All arms of the counterbalance.
 };
 
 /// Longest durations of a part of the study, in seconds.
 struct Duration {
   double for_everyone_s = 0.0;
-  std::map<std::pair<std::string, std::string>, double> of_arm_s{};  ///< Of `one_of` arms.
+  /// Of arms of `one_of` counterbalances.
+  std::map<std::pair<std::string, std::string>, double> of_arm_s{};
 
   void add(const Duration& other) {
     for_everyone_s += other.for_everyone_s;
     for (const auto& [arm, duration_s] : other.of_arm_s) of_arm_s[arm] += duration_s;
   }
-  /// Of who gets the longest arm of every counterbalance.
+  /// Returns the duration of a participant who gets the longest arm of every counterbalance.
   [[nodiscard]] double longest_s() const {
     std::map<std::string, double> longest;
     for (const auto& [arm, duration_s] : of_arm_s) {
@@ -98,11 +99,12 @@ class SessionRules : StudyCheck {
     return names;
   }
 
-  /// A stage inside an arm runs for nobody if it is only for another arm of the same choice.
+  /// A stage in an arm runs for nobody if it is only for another arm of the same
+  /// counterbalance.
   void check_reached(const json& stage, const std::string& pointer,
                      const Surroundings& around) {
     const std::string wanted = word(object_at(stage, "only_for"), around.counterbalance);
-    // A name that no arm has is another rule's.
+    // Another rule reports names that no arm has.
     if (wanted.empty() || wanted == around.arm || !around.arms.contains(wanted)) return;
     report(pointer + "/only_for/" + pointer_token(around.counterbalance),
            "expected `" + shown_text(around.arm) +
@@ -120,13 +122,15 @@ class SessionRules : StudyCheck {
     for (const auto& [counterbalance, arm] : object_at(stage, "only_for").items()) {
       if (counterbalance == "comment" || !arm.is_string()) continue;
       duration.of_arm_s[{counterbalance, arm.get<std::string>()}] = duration_s;
-      return duration;  // Of several conditions one is enough: an upper bound.
+      // If a stage has several conditions, one is enough to give an upper bound.
+      return duration;
     }
     duration.for_everyone_s = duration_s;
     return duration;
   }
 
-  /// What the file says about it in seconds; questions and checklists count as nothing.
+  /// Returns the durations that the file states, in seconds. Questions and checklists count as
+  /// 0.
   double duration_s(const json& stage, const std::string& pointer) {
     const std::string kind = word(stage, "kind");
     double duration_s = 0.0;
@@ -151,7 +155,7 @@ class SessionRules : StudyCheck {
     const double trial_s = sound_number(table, block, "expected_trial_s", 0.0) +
                            sound_number(table, block, "free_space_between_s", 0.0);
     const json& levels = list(block, quantity_of(word(block, "medium")));
-    // A list that is too long is told of as a whole.
+    // A list that is too long is reported as a whole.
     const Parameter* its = block_table().find(quantity_of(word(block, "medium")));
     if (its != nullptr && levels.size() > its->max_items) return 0.0;
     return trial_s *

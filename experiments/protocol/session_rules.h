@@ -8,7 +8,7 @@
 namespace jnd::experiments {
 
 /// Checks a study as a session: stages that nobody would get, media shorter than their own
-/// ramp, a session longer than anyone can sit through. Not real time.
+/// ramp, and a session longer than anyone can endure. Not real time.
 void check_session_rules(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
 }  // namespace jnd::experiments

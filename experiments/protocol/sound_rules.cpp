@@ -15,7 +15,7 @@ using nlohmann::json;
 
 constexpr const char* kSoundKeys[] = {"masking_noise", "cues"};
 
-/// Without what is written for readers alone.
+/// Returns the value without comments.
 json without_comments(json value) {
   if (value.is_object()) value.erase("comment");
   for (json& inner : value) {
@@ -97,7 +97,8 @@ class SoundRules : StudyCheck {
                    const std::string& why) {
     for (const char* key : kSoundKeys) {
       if (heard(first, key) == heard(block, key)) continue;
-      // Told at what is written: the block's own, or that of the first.
+      // The problem is reported at the key in the file: the block's own, or that of the first
+      // block.
       report(block.contains(key) ? at + '/' + key : at,
              std::string("expected the same `") + key + "` as in `" +
                  shown_text(word(first, "name")) + "`, found other ones; " + why +

@@ -7,8 +7,8 @@
 
 namespace jnd::experiments {
 
-/// Rules of `masking_noise` and `cues`: one level each, a band that is one, a cue for a moment,
-/// and that what is heard tells nobody which block it is who should not know.
+/// Checks `masking_noise` and `cues`: each has one level, a band is valid, and each cue has a
+/// moment. What is heard must not tell participants which block it is if they should not know.
 void check_sound_rules(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
 }  // namespace jnd::experiments

@@ -4,11 +4,11 @@
 
 namespace jnd::experiments {
 
-/// Noise against what could be heard of a device.
+/// Noise that masks the sounds of a device.
 [[nodiscard]] const ParameterTable& masking_noise_table();
-/// A tone that tells of a moment.
+/// A tone that marks a moment.
 [[nodiscard]] const ParameterTable& cue_table();
-/// The keys of a study, and of a block that sounds otherwise.
+/// These are the keys of a study, or (`of_block`) of a block that replaces them.
 [[nodiscard]] Parameter masking_noise_parameter(bool of_block);
 [[nodiscard]] Parameter cues_parameter(bool of_block);
 

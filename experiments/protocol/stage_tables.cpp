@@ -236,7 +236,7 @@ std::vector<Parameter> stage_parameters(const std::string& kind, std::vector<Par
        .kind = ValueKind::kName,
        .meaning = "Name of the stage in the data, unique in the study."},
       text("title", "Heading of the stage for the experimenter.", false)};
-  // A counterbalance runs for everyone: its arms are the choice.
+  // A counterbalance runs for everyone, because its arms are the choice.
   if (kind != "counterbalance") {
     parameters.push_back(
         {.key = "only_for",

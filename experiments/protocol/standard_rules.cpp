@@ -83,8 +83,9 @@ class StandardRules : StudyCheck {
     }
   }
 
-  /// A solid is pressed and a fluid stroked through. How strong the one feels can be set to how
-  /// strong the other does; a number for the ratio of a stiffness to a damping means nothing.
+  /// A solid is pressed and a fluid is stroked through. A participant can set one to feel as
+  /// strong as the other, but a number for the ratio of a stiffness to a damping has no
+  /// meaning.
   void check_touch() {
     if (word(block_, "procedure") == "matching") return;
     const std::string medium = word(block_, "medium");

@@ -9,7 +9,7 @@
 
 namespace jnd::experiments {
 
-/// Rules about what a block has as its standard, which no key shows by itself. `pointer`: of
+/// Checks rules about the standard of a block that involve several keys. `pointer` is that of
 /// the block in the file. Appends to `problems`.
 void check_standard(const LocatedJson& file, const nlohmann::json& block,
                     const std::string& pointer, std::vector<StudyProblem>& problems);

@@ -153,7 +153,7 @@ std::string renamed_study(const std::string& text, const std::string& file_name,
   if (!problems.empty()) throw ProtocolError(std::move(problems));
   const LocatedJson file(text, file_name, problems);
   const std::size_t begin = file.value_position("/name").byte;
-  // A name has no quotes in it, whichever way it is escaped.
+  // A name contains no quotes, whichever way they are escaped.
   const std::size_t end = text.find('"', begin + 1) + 1;
   std::string renamed = text;
   return renamed.replace(begin, end - begin, '"' + name + '"');

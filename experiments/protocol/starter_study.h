@@ -4,12 +4,12 @@
 
 namespace jnd::experiments {
 
-/// A small sound study to begin from, with a comment at everything an author will want to
-/// change. `name` must be [a-z0-9_]+.
+/// Returns a small valid study to begin from, with a comment at everything that an author will
+/// want to change. `name` must be [a-z0-9_]+.
 [[nodiscard]] std::string starter_study(const std::string& name);
 
-/// The text of a sound study with another `name` and nothing else changed. Throws
-/// `ProtocolError` if the text is not a sound study; `file_name` is for its messages.
+/// Returns the text of a valid study with another `name` and no other change. Throws
+/// `ProtocolError` if the text is no valid study; `file_name` is for its messages.
 [[nodiscard]] std::string renamed_study(const std::string& text, const std::string& file_name,
                                         const std::string& name);
 

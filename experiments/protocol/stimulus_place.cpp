@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Pointer of the stage of this name; "" for none.
+/// Returns the pointer of the stage with this name, or "".
 std::string stage_pointer(const json& root, const std::string& name) {
   std::string found;
   for_each_written_stage(root, [&](const json& stage, const std::string& pointer) {
@@ -20,7 +20,7 @@ std::string stage_pointer(const json& root, const std::string& name) {
   return found;
 }
 
-/// Pointer of a number of this value at a key that names the quantity; "" for none.
+/// Returns the pointer of a number with this value at a key that names the quantity, or "".
 std::string number_pointer(const json& value, const std::string& pointer,
                            const MediumSetting& setting) {
   if (!value.is_structured()) return "";
@@ -31,8 +31,8 @@ std::string number_pointer(const json& value, const std::string& pointer,
   };
   for (const auto& [key, inner] : value.items()) {
     std::string here = pointer + '/' + pointer_token(key);
-    // `viscosity_pa_s`, `reference_viscosity_pa_s`, `max_viscosity_pa_s`; a step is no
-    // stimulus.
+    // Such keys are `viscosity_pa_s`, `reference_viscosity_pa_s` and `max_viscosity_pa_s`. A
+    // step is no stimulus.
     if (key.ends_with(setting.quantity) && key.find("_step_") == std::string::npos &&
         !is_other_medium(key)) {
       if (inner.is_number() && inner.get<double>() == setting.intensity) return here;

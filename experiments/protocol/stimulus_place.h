@@ -7,9 +7,10 @@
 
 namespace jnd::experiments {
 
-/// JSON pointer of the number that gives a stage this much of a medium, wherever it stands: a
-/// test stimulus, a reference, an end of an adjustment. That of the stage where no number does
-/// (free space), "" where there is no such stage. `root` is a sound study. Not real time.
+/// Returns the JSON pointer of the number that gives a stage this amount of a medium: a test
+/// stimulus, a reference, an end of an adjustment. If no number does (free space), it is the
+/// pointer of the stage. Returns "" if there is no such stage. `root` is a valid study. Not
+/// real time.
 [[nodiscard]] std::string stimulus_pointer(const nlohmann::json& root,
                                            const std::string& stage_name,
                                            const MediumSetting& setting);

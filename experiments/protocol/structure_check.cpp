@@ -15,7 +15,7 @@ using nlohmann::json;
 
 enum class Holds { kYes, kNo, kUnknown };
 
-/// The word at this key, or the one that an absent key stands for.
+/// Returns the word at this key, or the default of an absent key.
 std::optional<std::string> decided(const json& object, const std::string& key,
                                    const Parameter* parameter) {
   const auto found = object.find(key);
@@ -26,8 +26,8 @@ std::optional<std::string> decided(const json& object, const std::string& key,
   return json::parse(parameter->default_json).get<std::string>();
 }
 
-/// Whether a key belongs in this object. Unknown while the key it depends on is itself wrong:
-/// one mistake is told once.
+/// Whether a key belongs in this object. Unknown while the key on which it depends is itself
+/// wrong, so that one mistake is reported once.
 Holds belongs(const Parameter& parameter, const json& object, const ParameterTable& table) {
   Holds all = Holds::kYes;
   for (const Condition& condition : parameter.only_where) {
@@ -46,11 +46,11 @@ Holds belongs(const Parameter& parameter, const json& object, const ParameterTab
   return all;
 }
 
-/// Two keys for the same thing, of which each procedure has one.
+/// Two keys for the same purpose, of which each procedure has one.
 constexpr std::pair<const char*, const char*> kCounterparts[] = {
     {"catch_trials", "catch_probability"}, {"catch_probability", "catch_trials"}};
 
-/// What an author looks for who writes this key where it does not belong.
+/// Returns what the author probably wants who writes this key where it does not belong.
 std::string counterpart_hint(const std::string& key, const json& object,
                              const ParameterTable& table) {
   for (const auto& [of, counterpart] : kCounterparts) {
@@ -87,7 +87,8 @@ bool is_language(std::string_view code) {
          std::all_of(code.begin(), code.end(), [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
-/// A single one of what a list should hold: the author may not know how lists are written.
+/// Returns a hint for a single value in the place of a list, because the author may not know
+/// how lists are written.
 std::string list_hint(const json& value, const Parameter& parameter) {
   const ValueKind kind = parameter.kind;
   const bool is_one = (kind == ValueKind::kNumbers && value.is_number()) ||
@@ -98,7 +99,7 @@ std::string list_hint(const json& value, const Parameter& parameter) {
   return is_one ? "; put it in brackets: [...]" : "";
 }
 
-/// Whether this stands for a stage where an arm, which holds stages, is expected.
+/// Whether the value is a stage in the place of an arm, which contains stages.
 bool is_stage(const json& value) {
   return value.is_object() && value.contains("kind") && !value.contains("stages");
 }
@@ -137,7 +138,8 @@ void StructureCheck::run() {
   check_object(file_.root(), "", whole_file());
 }
 
-/// Somebody who names a file here expects it to be read; a study takes nothing from others.
+/// Returns a hint for the name of a file, because the author expects it to be read. A study
+/// takes nothing from other files.
 std::string StructureCheck::file_hint(const json& value) const {
   if (!value.is_string()) return "";
   const auto text = value.get<std::string>();
@@ -147,7 +149,7 @@ std::string StructureCheck::file_hint(const json& value) const {
   return "; a " + kind + " takes nothing from other files, write it here";
 }
 
-/// Where a key belongs that this table does not have: in the one other table that has it.
+/// Returns where a key belongs that this table lacks, if exactly one other table has it.
 std::string StructureCheck::home_hint(const std::string& key) const {
   const ParameterTable* home = nullptr;
   for (const ParameterTable* table : tables_) {
@@ -218,7 +220,7 @@ void StructureCheck::check_keys(const json& object, const std::string& pointer,
     if (belongs(parameter, object, table) == Holds::kNo) continue;
     (object.contains(parameter.key) ? present : candidates).push_back(parameter.key);
   }
-  // Whoever writes a key twice, once with a slip, has to learn which one is read.
+  // An author who writes a key twice, once misspelt, has to learn which one is read.
   const auto meant = [&](const std::string& key) {
     std::string hint = did_you_mean(key, candidates);
     if (!hint.empty()) return hint;

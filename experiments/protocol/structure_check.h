@@ -11,15 +11,15 @@
 namespace jnd::experiments {
 
 /// Checks a file against its parameter tables: unknown and missing keys, keys that do not
-/// belong together, types, ranges, allowed words, and every text in every language. Nothing is
-/// coerced: 5.0 is not a whole number and "5" is not a number. Not real time.
+/// belong together, types, ranges, allowed words, and every text in every language. Values are
+/// never converted: 5.0 is no integer and "5" is no number. Not real time.
 class StructureCheck : StudyCheck {
  public:
-  /// `tables`: those of this kind of file, that of the whole file first.
+  /// `tables` are those of this kind of file. The first is that of the whole file.
   StructureCheck(const LocatedJson& file, std::vector<StudyProblem>& problems,
                  std::vector<const ParameterTable*> tables)
       : StudyCheck(file, problems), tables_(std::move(tables)) {}
-  /// Of a study.
+  /// Checks a study.
   StructureCheck(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
   void run();
@@ -42,7 +42,7 @@ class StructureCheck : StudyCheck {
   void check_text(const nlohmann::json& value, const std::string& pointer);
   void check_list(const nlohmann::json& list, const std::string& pointer,
                   const Parameter& parameter);
-  /// `allowed`: the kinds that may stand there; none: any.
+  /// `allowed` are the kinds of stages that may stand there; empty allows any.
   void check_stage(const nlohmann::json& stage, const std::string& pointer,
                    const std::vector<std::string>& allowed);
   void check_arms(const nlohmann::json& arms, const std::string& pointer);
@@ -55,13 +55,15 @@ class StructureCheck : StudyCheck {
   void report_key(const std::string& pointer, std::string message);
 
   std::vector<const ParameterTable*> tables_;
-  std::vector<std::string> languages_;  ///< Empty where the file does not say them rightly.
+  std::vector<std::string> languages_;  ///< Empty if the file does not state them correctly.
 };
 
-/// A value as it is told to the author: "-1.5", "the text "x"", "a list of 3", "an object".
+/// Returns words for a value in a message to the author: "-1.5", "the text "x"", "a list of 3",
+/// "an object".
 [[nodiscard]] std::string found_words(const nlohmann::json& value);
 
-/// [a-z0-9_], 1 to 64 of them: a name is also that of a folder and stands in every row.
+/// Whether the text consists of 1 to 64 letters of [a-z0-9_]. A name is also the name of a
+/// folder and stands in every row.
 [[nodiscard]] bool is_name(std::string_view text) noexcept;
 
 }  // namespace jnd::experiments

@@ -18,8 +18,9 @@ namespace {
 
 using nlohmann::json;
 
-/// One object: values by key, defaults from the table. What is absent without a default is 0,
-/// false or empty; in a checked study that is nowhere but where it may be.
+/// Reads one object: values by key, with defaults from the table. A key that is absent without
+/// a default gives 0, false or empty. In a checked study this happens only to keys that may be
+/// absent.
 class ObjectReader {
  public:
   ObjectReader(const json& object, const ParameterTable& table)
@@ -65,7 +66,7 @@ class ObjectReader {
     return found;
   }
   [[nodiscard]] bool has(const std::string& key) const { return object_.contains(key); }
-  /// Nothing where it is absent and has no default, and for texts.
+  /// Returns nothing for texts, and for a key that is absent and has no default.
   [[nodiscard]] std::optional<Settings::Value> setting(const std::string& key) const {
     const json found = value(key);
     if (found.is_null()) return std::nullopt;
@@ -86,7 +87,7 @@ class ObjectReader {
     }
   }
 
-  /// Calls `read(object reader, index)` for every object of a list; none where it is absent.
+  /// Calls `read(object reader, index)` for every object of a list, or never if it is absent.
   template <typename Read>
   void each_object(const std::string& key, Read read) const {
     const auto found = object_.find(key);
@@ -118,7 +119,7 @@ class ObjectReader {
   }
   [[nodiscard]] const Parameter& parameter(const std::string& key) const {
     const Parameter* found = table_.find(key);
-    // Asking for a key without a table is a mistake of ours, not of the file.
+    // Asking for a key that is in no table is a mistake of the program, not of the file.
     if (found == nullptr) throw std::logic_error(table_.name + ": no parameter " + key);
     return *found;
   }
@@ -356,7 +357,7 @@ class StageBuilder {
   }
 
  private:
-  /// The blocks of a group, each of which knows that it is one.
+  /// Returns the blocks of a group, each of which knows its group.
   [[nodiscard]] std::vector<Stage> interleaved(const ObjectReader& in,
                                                const std::string& pointer) const {
     const Interleaving group = {
@@ -365,7 +366,8 @@ class StageBuilder {
         .turns = in.string("turns") == "random" ? Turns::kRandom : Turns::kRounds};
     std::vector<Stage> blocks = stages(in.list("blocks"), pointer + "/blocks");
     for (Stage& block : blocks) {
-      if (!std::holds_alternative<Block>(block.content)) continue;  // Of no sound study.
+      // Only in a study that is not valid.
+      if (!std::holds_alternative<Block>(block.content)) continue;
       block.interleaving = group;
       block.only_for = in.names("only_for");
     }

@@ -7,9 +7,9 @@
 
 namespace jnd::experiments {
 
-/// The `Study` of a file in which no problem was found. Absent optional keys get the default of
-/// their parameter table. Throws nlohmann's exceptions if the file was not checked. Not real
-/// time.
+/// Returns the `Study` of a file in which no problem was found. Absent optional keys get the
+/// default of their parameter table. Throws nlohmann's exceptions if the file was not checked.
+/// Not real time.
 [[nodiscard]] Study build_study(const LocatedJson& file, std::string text);
 
 }  // namespace jnd::experiments

@@ -9,14 +9,15 @@
 
 namespace jnd::experiments {
 
-/// What every check of a study file has: the file, and where it tells of problems.
+/// The base of all checks of a study file: the file, and the list to which they report
+/// problems.
 class StudyCheck {
  public:
   StudyCheck(const LocatedJson& file, std::vector<StudyProblem>& problems)
       : file_(file), problems_(problems) {}
 
  protected:
-  /// Of the value at this JSON pointer.
+  /// Reports a problem of the value at this JSON pointer.
   void report(const std::string& pointer, std::string message) {
     const TextPosition position = file_.value_position(pointer);
     add_problem(problems_,

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kKind = "study file";
 
-/// A study that is to be begun, or one that was.
+/// Whether sessions of the study have begun.
 enum class Begun { kNo, kYes };
 
 LocatedJson checked(const std::string& text, const std::string& file_name,

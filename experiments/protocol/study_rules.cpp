@@ -49,7 +49,7 @@ class Rules : StudyCheck {
   }
 
  private:
-  /// Reports a word that stands at another pointer of the same namespace already.
+  /// Reports a name that another pointer of the same namespace has already.
   void check_unique(std::map<std::string, std::string>& known, const std::string& name,
                     const std::string& pointer) {
     if (name.empty()) return;
@@ -94,7 +94,7 @@ class Rules : StudyCheck {
     }
   }
 
-  /// A wall stands where the fluid ends, and friction on a wall.
+  /// A wall needs a limit of the fluid, and friction needs a wall.
   void check_wall() {
     const json& immersion = object_at(object_at(file_.root(), "device"), "immersion");
     const std::string pointer = "/device/immersion/wall_";
@@ -111,7 +111,8 @@ class Rules : StudyCheck {
     }
   }
 
-  /// What one row alone cannot show: angles and speeds that make a grid, lift that has a side.
+  /// Checks what involves several rows: angles and speeds must form a grid, and lift must have
+  /// a side to point to.
   void check_force_map() {
     const std::string pointer = "/device/force_map";
     const json& listed = list(object_at(file_.root(), "device"), "force_map");
@@ -126,7 +127,7 @@ class Rules : StudyCheck {
       const json* speed = number(listed[i], "speed_m_per_s");
       const json* drag = number(listed[i], "drag_coefficient");
       const json* lift = number(listed[i], "lift_coefficient");
-      // What each row lacks is reported already, unless there was too much to report.
+      // Incomplete rows are reported already, unless there was too much to report.
       if (angle == nullptr || speed == nullptr || drag == nullptr) return;
       rows.push_back({.angle_of_attack_rad = angle->get<double>(),
                       .speed_m_per_s = speed->get<double>(),
@@ -141,24 +142,25 @@ class Rules : StudyCheck {
     }
   }
 
-  /// Who reads the recorder's channel tells the kinds apart.
+  /// The kinds of markers need different codes, so that the recorder's channel tells them
+  /// apart.
   void check_markers() {
     const json& markers = object_at(file_.root(), "markers");
-    std::map<double, std::string_view> known;  // Code to the kind that has it.
+    std::map<double, std::string_view> known;  // Codes, with the kind that has each.
     for (std::size_t kind = 0; kind < core::kNumMarkerKinds; ++kind) {
       const std::string name(core::kMarkerNames[kind]);
       const double code = number_or(markers, name.c_str(), core::MarkerCodes{}.codes[kind]);
       if (code == 0.0) continue;
       const auto [first, is_new] = known.emplace(code, core::kMarkerNames[kind]);
       if (is_new) continue;
-      // Of two the one that is written is told of; the other has its default.
+      // Of two equal codes, the one that the file states is reported; the other is a default.
       report("/markers/" + (markers.contains(name) ? name : std::string(first->second)),
              "expected a code of its own, found " + plain_number(code) + ", that of `" +
                  (markers.contains(name) ? std::string(first->second) : name) + "` already");
     }
   }
 
-  /// Far more than a person can do. A plan draws all of them, so there has to be an end.
+  /// Far more than a person can do. A plan draws all trials, so there must be a limit.
   void check_num_trials() {
     constexpr double kMostTrials = 50000.0;
     if (num_trials_ > kMostTrials) {
@@ -183,7 +185,7 @@ class Rules : StudyCheck {
     if (kind == "block") {
       check_block(stage, pointer);
       check_standard(file_, stage, pointer, problems_);
-      std::map<std::string, std::string> names;  // Another block may ask the same.
+      std::map<std::string, std::string> names;  // Another block may ask the same question.
       check_items(list(stage, "questions"), pointer + "/questions", names);
     }
     if (kind == "questionnaire" || kind == "post_experiment") {
@@ -253,7 +255,7 @@ class Rules : StudyCheck {
     }
   }
 
-  /// `names`: of the items that there were before, to their pointers.
+  /// `names` maps the names of earlier items to their pointers.
   void check_items(const json& items, const std::string& pointer,
                    std::map<std::string, std::string>& names) {
     for (std::size_t i = 0; i < items.size(); ++i) {
@@ -284,7 +286,7 @@ class Rules : StudyCheck {
     const std::string at = pointer + '/';
     std::map<double, std::size_t> seen;
     const json& values = list(block, quantity);
-    // A list that is too long is told of as a whole.
+    // A list that is too long is reported as a whole.
     if (const Parameter* levels = block_table().find(quantity);
         levels != nullptr && values.size() > levels->max_items) {
       return;
@@ -316,7 +318,7 @@ class Rules : StudyCheck {
     }
   }
 
-  /// Of the square that participants are given the rows of; 1 without one.
+  /// Returns the number of rows of the square that participants get; 1 without a square.
   static double num_rows(const std::string& method, std::size_t num_stimuli) {
     const double n = std::max(1.0, static_cast<double>(num_stimuli));
     if (method == "latin") return n;
@@ -358,10 +360,11 @@ class Rules : StudyCheck {
     }
   }
 
-  std::map<std::string, std::string> stage_names_, item_names_;  ///< Name to pointer.
+  /// Names, with their pointers.
+  std::map<std::string, std::string> stage_names_, item_names_;
   std::map<std::string, std::vector<std::string>> one_of_arms_;
   std::set<std::string> fields_;                ///< Names of the study's participant fields.
-  std::map<std::string, std::string> methods_;  ///< Of counterbalances, by their names.
+  std::map<std::string, std::string> methods_;  ///< Methods of counterbalances, by name.
   double num_cells_ = 1.0;
   double num_trials_ = 0.0;
 };

@@ -7,13 +7,13 @@
 
 namespace jnd::experiments {
 
-/// The whole file.
+/// Returns the table of the whole file.
 [[nodiscard]] const ParameterTable& study_table();
-/// One table for each stage kind, its `name` being the kind.
+/// Returns one table for each stage kind, whose `name` is the kind.
 [[nodiscard]] const std::vector<const ParameterTable*>& stage_tables();
-/// Null for an unknown kind.
+/// Returns null for an unknown kind.
 [[nodiscard]] const ParameterTable* stage_table(std::string_view kind) noexcept;
-/// Every table there is, each once.
+/// Returns every table, each once.
 [[nodiscard]] const std::vector<const ParameterTable*>& all_tables();
 
 }  // namespace jnd::experiments

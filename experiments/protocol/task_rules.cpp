@@ -12,7 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Among how many intervals the right one is chosen; 0 where that is not asked.
+/// Returns among how many intervals the right one is chosen, or 0 if the task does not ask for
+/// it.
 int num_choices_of(const std::string& task) {
   if (task == "three_interval" || task == "oddity") return 3;
   return task == "abx" || task == "match_to_sample" ? 2 : 0;
@@ -68,7 +69,7 @@ class TaskRules : StudyCheck {
     }
   }
 
-  /// Where the right one of three intervals is asked for, there has to be one.
+  /// If a task asks for the right one of three intervals, there must be a right one.
   void check_identification(const json& block, const std::string& at) {
     const std::string task = word(block, "task");
     if (word(block, "procedure") == "limits") {

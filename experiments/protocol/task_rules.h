@@ -9,12 +9,13 @@
 
 namespace jnd::experiments {
 
-/// Adds what is wrong with how blocks ask: tasks that a procedure cannot follow, trials that
-/// have to be the same and differ, feedback that would unblind, practice that cannot end.
-/// Values of the wrong type are another check's. Not real time.
+/// Checks how blocks ask: tasks that a procedure cannot follow, trials that would have to be
+/// both the same and different, feedback that would unblind, and practice that cannot end.
+/// Another check reports values of the wrong type. Not real time.
 void check_task_rules(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
-/// Catch trials of a repetition of a block with so many test stimuli, as it is written.
+/// Returns the catch trials in a repetition of a block with this many test stimuli, as the file
+/// states them.
 [[nodiscard]] double num_catch_trials(const nlohmann::json& block, std::size_t num_tests);
 
 }  // namespace jnd::experiments

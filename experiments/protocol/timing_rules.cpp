@@ -15,11 +15,12 @@ namespace {
 
 using nlohmann::json;
 
-/// How many stimuli a trial has before it can be answered, as far as the block's keys tell.
+/// Returns how many stimuli a trial has before it can be answered, as far as the block's keys
+/// tell.
 int num_stimuli_of(const json& block) {
   const std::string procedure = word(block, "procedure");
   if (procedure == "matching") return 2;
-  if (procedure == "magnitude_estimation") return 1;  // A standard need not be in each.
+  if (procedure == "magnitude_estimation") return 1;  // Some trials may have no standard.
   const std::string task = word(block, "task");
   if (task == "three_interval" || task == "oddity" || task == "abx" ||
       task == "match_to_sample") {

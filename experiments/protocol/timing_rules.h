@@ -7,9 +7,9 @@
 
 namespace jnd::experiments {
 
-/// Adds what is wrong with the times of a block's trials: a stimulus that would have to end
-/// before it may, a deadline before which nobody may answer, a trial that is expected to be
-/// shorter than its stimuli. Values of the wrong type are another check's. Not real time.
+/// Checks the times of a block's trials: a stimulus that would have to end before it may, a
+/// deadline before anybody may answer, and a trial that is expected to be shorter than its
+/// stimuli. Another check reports values of the wrong type. Not real time.
 void check_timing_rules(const LocatedJson& file, std::vector<StudyProblem>& problems);
 
 }  // namespace jnd::experiments

@@ -16,7 +16,7 @@ Columns answers(const std::string& item, const std::string& answer) {
   return {{"answers.csv", "item", "", item}, {"answers.csv", "answer", "", answer}};
 }
 
-/// A row of events.csv of kind `medium_explored` for each medium.
+/// Returns the columns of events.csv for events of kind `medium_explored`, one for each medium.
 Columns explored_media() {
   return {{"events.csv", "kind", "", "`medium_explored`, one row a medium"},
           {"events.csv", "intensity", "unit of the quantity", "How much of the medium"},

@@ -7,16 +7,17 @@
 
 namespace jnd::experiments {
 
-/// One column of the data that a stage writes, under the name it has in `jnd export csv`.
+/// One column of the data that a stage writes, by its name in `jnd export csv`.
 struct WrittenColumn {
   std::string file;  ///< "trials.csv".
   std::string column;
-  std::string unit;  ///< "" where there is none.
+  std::string unit;  ///< "" if it has no unit.
   std::string meaning;
-  std::vector<Condition> only_where{};  ///< Of the stage; empty otherwise.
+  /// Conditions on the stage; empty if the column is always written.
+  std::vector<Condition> only_where{};
 };
 
-/// What a stage of this kind writes, beside the identifying columns that every row has
+/// Returns what a stage of this kind writes, besides the identifying columns of every row
 /// (`session`, `participant`, `stage`). A procedure without columns of its own has the common
 /// ones of all blocks.
 [[nodiscard]] std::vector<WrittenColumn> written_columns(const ParameterTable& stage);

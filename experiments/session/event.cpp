@@ -40,10 +40,11 @@ core::Exposure exposure_from_json(const json& data) {
           .under_force_s = data.at("under_force_s").get<double>()};
 }
 
-/// Of the layout of `data`, for every kind.
+/// Version of the layout of `data`, for every kind.
 constexpr int kVersion = 1;
 
-/// A column that this kind of event has, of a size that the fold can count with.
+/// Returns a column that this kind of event has. Throws unless its size is one with which the
+/// fold can compute.
 template <typename Number>
 Number column(const std::optional<Number>& value, const char* name) {
   constexpr auto kLargest = static_cast<Number>(kLargestWhole);
@@ -96,7 +97,8 @@ std::vector<DurationBucket> buckets_from_json(const json& list) {
   return buckets;
 }
 
-/// One overload an event: what stands in columns goes to the row, the rest to `data`.
+/// Has one overload for each event. What is stored in columns goes to the row, the rest to
+/// `data`.
 struct Writer {
   core::EventRow& row;
   json& data;
@@ -315,7 +317,7 @@ struct Writer {
   }
 };
 
-/// The inverse of `Writer`, one overload an event.
+/// The inverse of `Writer`, with one overload for each event.
 struct Reader {
   const core::EventRow& row;
   const json& data;
@@ -567,7 +569,7 @@ struct Reader {
   }
 };
 
-/// The event of the kind at this index, with nothing in it yet.
+/// Returns an empty event of the kind at this index.
 template <std::size_t... kIndices>
 EventData empty_event(std::size_t index, std::index_sequence<kIndices...>) {
   EventData data;
@@ -596,7 +598,7 @@ Event event_from_row(const core::EventRow& row) {
                             std::to_string(row.sequence) + ": ";
   for (std::size_t index = 0; index < kKinds.size(); ++index) {
     if (row.kind != kKinds[index]) continue;
-    // The place to bring the data of an older version up to date, once there is one.
+    // Data of an older version would be brought up to date here, once there is one.
     if (row.version > kVersion) {
       throw core::Error(place + "expected version " + std::to_string(kVersion) + " of " +
                         row.kind + " or older, found " + std::to_string(row.version) +

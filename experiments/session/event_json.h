@@ -15,12 +15,14 @@
 
 namespace jnd::experiments {
 
-// Values in the data of events. What reads throws for what it does not find.
+// Reading and writing of values in the data of events. The reading functions throw if they do
+// not find a value.
 
-/// What JSON and SQL agree on.
+/// The largest integer on which JSON and SQL agree.
 inline constexpr std::int64_t kLargestWhole = std::int64_t{1} << 53;
 
-/// A whole number of the data. The library would cut 1.5 to 1 and 2^40 to an int.
+/// Returns a whole number of the data. The library itself would truncate 1.5 to 1, and 2^40 to
+/// an int.
 template <typename Whole = std::int64_t>
 [[nodiscard]] Whole whole_number(const nlohmann::json& value, const char* key) {
   constexpr std::int64_t kLargest =
@@ -33,7 +35,7 @@ template <typename Whole = std::int64_t>
                     std::to_string(kLargest) + ", found " + shown_text(value.dump()));
 }
 
-/// null where there is none.
+/// Returns null for a missing value.
 template <typename Value>
 [[nodiscard]] nlohmann::json json_of(const Value& value) {
   return value;
@@ -57,7 +59,7 @@ void read_json(const nlohmann::json& value, const char* key, std::optional<Value
   if (!value.is_null()) read_json(value, key, to.emplace());
 }
 
-/// The columns of a struct as keys of the data, as each column's `EventKey` says.
+/// Writes the columns of a struct as keys of the data, as each column's `EventKey` says.
 template <typename Part>
 void write_columns(const Part& part, nlohmann::json& data) {
   core::for_each_column<Part>([&](const auto& column, const auto& value_in) {
@@ -68,7 +70,7 @@ void write_columns(const Part& part, nlohmann::json& data) {
   });
 }
 
-/// The inverse. What the data may lack stays as it is.
+/// The inverse. Fields whose keys may be absent and are absent stay as they are.
 template <typename Part>
 void read_columns(const nlohmann::json& data, Part& part) {
   core::for_each_column<Part>([&](const auto& column, const auto& value_in) {

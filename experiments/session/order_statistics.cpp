@@ -12,7 +12,7 @@ namespace {
 
 using Counts = std::vector<std::vector<int>>;
 
-/// The counts on the diagonal, or all others.
+/// Returns the range of the counts on the diagonal, or of all others.
 CountRange range_of(const Counts& counts, bool (*is_counted)(std::size_t, std::size_t)) {
   std::optional<CountRange> range;
   for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -26,7 +26,7 @@ CountRange range_of(const Counts& counts, bool (*is_counted)(std::size_t, std::s
   return range.value_or(CountRange{});
 }
 
-/// What is matched is the stimulus, not where the adjustment starts.
+/// A matching has standards as stimuli, not the starting values of the adjustment.
 bool is_match(const PlannedTrial& trial) {
   return trial.starting_intensity && trial.reference_intensity;
 }
@@ -46,7 +46,7 @@ OrderStatistics nothing_counted(const PlannedBlock& planned) {
   return statistics;
 }
 
-/// Index of the trial's stimulus; none of a trial without.
+/// Returns the index of the trial's stimulus, or none for a trial without one.
 std::optional<std::size_t> stimulus_of(const OrderStatistics& statistics,
                                        const PlannedTrial& trial) {
   const std::optional<double> value = trial.intensity   ? trial.intensity

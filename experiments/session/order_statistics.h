@@ -7,29 +7,30 @@
 
 namespace jnd::experiments {
 
-/// How the stimuli of a block come, counted over the participants of a plan.
+/// Counts of how the stimuli of a block are ordered, over the participants of a plan.
 struct OrderStatistics {
-  std::string block;     ///< Name of its stage.
-  std::string quantity;  ///< What a stimulus is: "scale", "viscosity_pa_s".
-  /// In a production starting values.
-  std::vector<double> stimuli;  ///< Ascending; of a matching its standards.
-  /// Of each stimulus, how often it stands at each place of a repetition.
+  std::string block;     ///< Name of the block's stage.
+  std::string quantity;  ///< Quantity of a stimulus: "scale", "viscosity_pa_s".
+  /// The stimuli; in a production, the starting values.
+  std::vector<double> stimuli;  ///< Ascending; in a matching, the standards.
+  /// For each stimulus, how often it is at each place of a repetition.
   std::vector<std::vector<int>> at_place;
-  /// Of each stimulus, how often each one comes next, from repetition to repetition as well.
+  /// For each stimulus, how often each stimulus comes next, also from repetition to repetition.
   std::vector<std::vector<int>> followed_by;
 };
 
-/// Fewest and most of some counts.
+/// The smallest and the largest of some counts.
 struct CountRange {
   int fewest = 0, most = 0;
 };
 [[nodiscard]] CountRange places_range(const OrderStatistics& statistics);
-/// Of different stimuli; how often one follows itself is in `repeats_range`.
+/// Range over different stimuli; `repeats_range` is about stimuli that follow themselves.
 [[nodiscard]] CountRange followers_range(const OrderStatistics& statistics);
 [[nodiscard]] CountRange repeats_range(const OrderStatistics& statistics);
 
-/// For each block whose trials are all drawn when it begins, in the order in which the plan
-/// first has them. What a procedure draws answer by answer has no order beforehand.
+/// Returns statistics for each block whose trials are all drawn when it begins, in the order in
+/// which the plan first has them. A procedure that draws after each answer has no order in
+/// advance.
 [[nodiscard]] std::vector<OrderStatistics> order_statistics(
     const std::vector<ParticipantPlan>& plans);
 

@@ -19,7 +19,7 @@
 namespace jnd::experiments {
 namespace {
 
-/// The most that a hand feels at this speed, whichever way it is turned.
+/// Returns the largest force that a hand feels at this speed, over all angles of attack.
 double moving_force_n(const core::MediumAmounts& amounts, const core::ForceMap* map,
                       double speed_m_per_s) {
   constexpr int kNumAngles = 90;
@@ -37,7 +37,8 @@ double moving_force_n(const core::MediumAmounts& amounts, const core::ForceMap* 
   return most_n + amounts.ellipsoid_normal_n_s_per_m * speed_m_per_s;
 }
 
-/// The speed at which the moving hand feels `most_n`; none for a medium that resists no motion.
+/// Returns the speed at which the moving hand feels `most_n`, or none for a medium that does
+/// not resist motion.
 std::optional<double> fits_up_to_m_per_s(const core::MediumAmounts& amounts,
                                          const core::ForceMap* map, double most_n) {
   if (!(moving_force_n(amounts, map, 1.0) > 0.0)) return std::nullopt;
@@ -50,7 +51,7 @@ std::optional<double> fits_up_to_m_per_s(const core::MediumAmounts& amounts,
   return fits;
 }
 
-/// Collects the settings of a study's stages, arms included, each once for a stage.
+/// Collects the settings of a study's stages, including those in arms, each once for a stage.
 class RangeCollector {
  public:
   RangeCollector(const RangeLimits& limits, const core::ForceMap* map)
@@ -106,7 +107,8 @@ class RangeCollector {
   const core::ForceMap* map_;
 };
 
-/// The groups among a participant's stages, with their turns as the session will draw them.
+/// Returns the groups among a participant's stages, with their turns as the session will draw
+/// them.
 std::vector<PlannedGroup> planned_groups(const ParticipantPlan& plan, std::uint64_t seed) {
   std::vector<const Stage*> stages;
   for (const StageInstance& instance : plan.stages) stages.push_back(instance.stage);
@@ -154,7 +156,8 @@ std::vector<ParticipantPlan> plan_participants(const Study& study, const PlanReq
       const auto* block = std::get_if<Block>(&stage.content);
       if (block == nullptr) continue;
       const auto stage_index = static_cast<std::int64_t>(index);
-      // The key of the draw that a session makes on entering a block: 0 trials answered.
+      // This is the key of the draw that a session makes when it enters a block: 0 trials are
+      // answered.
       core::RandomStream stream(seed, "order", {stage_index, 0});
       plan.blocks.push_back(
           {&stage, stage_index, expected_trials(*block),

@@ -53,27 +53,27 @@ bool is_answer(AnswerKind kind, const Block& block, double value) {
   return std::isfinite(value) && (kind == AnswerKind::kNumber ? value > 0.0 : value >= 0.0);
 }
 
-/// Throws where this is no answer in the block; none is "cannot tell".
+/// Throws `Error` if this is no valid answer in the block. None means "cannot tell".
 void require_answer_of(AnswerKind kind, const Block& block, const std::optional<double>& value,
                        const char* act) {
   if (!value && !block.cannot_tell) cannot(act, "a block with `cannot_tell` for no choice");
   if (value && !is_answer(kind, block, *value)) cannot(act, what_an_answer_is(kind, block));
 }
 
-/// "first" is 1; 0 of what has no place in an order.
+/// Returns 1 for "first" and so on, or 0 for an interval that has no place in an order.
 int place_of(const std::string& interval) {
   if (interval == "first") return 1;
   if (interval == "second") return 2;
   return interval == "third" ? 3 : 0;
 }
 
-/// The same where there are three, whose places are stored; else 0.
+/// Returns the same for a trial of three intervals, whose places are stored, and otherwise 0.
 std::int64_t place_in(const std::string& interval, const PlannedTrial& trial) {
   return trial.intervals.empty() ? 0 : place_of(interval);
 }
 
-/// What an interval of the trial holds: "test" or "reference" for "first" and "second", where
-/// their order is drawn.
+/// Returns what an interval of the trial holds: "test" or "reference" for "first" and "second",
+/// if their order is drawn.
 std::string stimulus_in(const std::string& interval, const PlannedTrial& trial) {
   const int place = place_of(interval);
   if (place > 0 && place <= std::ssize(trial.intervals)) {
@@ -110,7 +110,7 @@ const Block& Session::current_block() const {
 
 TrialForm Session::current_form() const {
   TrialForm form = procedure_named(current_block().procedure).form(current_block());
-  // A standard may be felt every so many trials alone.
+  // A standard may be felt only in every n-th trial.
   if (const std::optional<std::int64_t> trial = state_.current_trial()) {
     form.has_reference =
         form.has_reference && state_.trial(*trial).planned.reference_intensity.has_value();
@@ -200,7 +200,7 @@ void Session::require_interval(const std::string& interval) const {
   if (state.under_way) require_return(state, interval);
 }
 
-/// Throws where the interval was presented before and the block allows no more of that.
+/// Throws `Error` if the interval was presented before and the block allows no further return.
 void Session::require_return(const TrialState& trial, const std::string& interval) const {
   const std::optional<int>& most = current_block().max_returns;
   if (!most || num_returns(trial) < *most) return;
@@ -252,7 +252,7 @@ void Session::end_presentation(std::int64_t last_tick, const PresentationSummary
          std::move(rows));
 }
 
-/// Where a step leads from the intensity of the trial under way.
+/// Returns where a step leads from the intensity of the trial under way.
 double Session::adjusted(Direction direction, StepSize size) const {
   const Block& block = current_block();
   const TrialState& trial = state_.trial(open_trial("adjust the intensity"));
@@ -301,7 +301,7 @@ core::TrialRow Session::answered_row(std::int64_t number,
   return row;
 }
 
-/// What is stored for a value that was answered.
+/// Returns what is stored for an answer.
 std::optional<double> Session::response_for(const std::optional<double>& value) const {
   const TrialState& trial = state_.trial(open_trial("take an answer"));
   const AnswerKind kind = current_form().answer;
@@ -311,7 +311,7 @@ std::optional<double> Session::response_for(const std::optional<double>& value) 
   return response_of(kind, trial.planned, answer);
 }
 
-/// What is told of a response in this block.
+/// Returns the feedback on a response in this block.
 std::optional<bool> Session::feedback(const PlannedTrial& trial,
                                       const std::optional<double>& response) const {
   const Block& block = current_block();
@@ -415,7 +415,7 @@ void Session::put_off(AttemptDiscarded discarded) {
   const std::vector<std::int64_t> later = state_.trials_after_current();
   if (!later.empty() && !procedure_named(current_block().procedure).adapts()) {
     core::RandomStream stream(parameters_.seed, "put off", {number, trial.attempt});
-    // Behind one that was put off itself: where that one stands.
+    // If the chosen trial was put off itself, the trial comes after the same trial as that one.
     const std::int64_t chosen = later[stream.below(later.size())];
     const std::int64_t after = state_.trial(chosen).again_after;
     discarded.again_after = after == 0 ? chosen : after;
@@ -498,7 +498,7 @@ void Session::restart_block(const std::string& reason) {
   if (const auto open = state_.current_trial(); open && state_.trial(*open).under_way) {
     discard_attempt(reason);
   }
-  // The latest first, as if undone one by one.
+  // The latest answer is undone first, as if they were undone one by one.
   for (auto number = static_cast<std::int64_t>(state_.trials.size()); number >= 1; --number) {
     const TrialState& trial = state_.trial(number);
     if (state_.is_under_way(trial.stage) && trial.is_answered) {
@@ -551,7 +551,8 @@ void Session::resume(const std::string& choice, std::int64_t lost_first_tick,
     restart_block("restarted after an interruption");
   }
   if (choice == "end") return end_early("ended after an interruption");
-  // Interrupted between entering the block, or its last answer, and the draw that follows.
+  // The session may have been interrupted between entering the block, or its last answer, and
+  // the draw that follows.
   draw_missing_trials();
 }
 
@@ -622,7 +623,7 @@ void Session::commit(EventData data, core::Commit rows) {
                     .time_ns = clock_.now_ns(),
                     .data = std::move(data)};
   rows.event = row_from_event(parameters_.session, event);
-  // What could not be read back must not be stored: the session would never open again.
+  // What cannot be read back must not be stored, or the session could never be opened again.
   (void)event_from_row(rows.event);
   log_.append(rows);
   apply(state_, event);

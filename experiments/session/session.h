@@ -15,8 +15,8 @@
 
 namespace jnd::experiments {
 
-/// Where a session puts its events. `append` returns once the commit is as safe as promised and
-/// throws `Error` if it is not; then the act did not happen.
+/// Where a session writes its events. `append` returns once the commit is as safe as promised.
+/// If it throws `Error`, the act did not happen.
 class EventLog {
  public:
   virtual ~EventLog() = default;
@@ -26,33 +26,35 @@ class EventLog {
 enum class Direction { kRaise, kLower };
 enum class StepSize { kCoarse, kFine };
 
-/// The seed of one participant's session. The study's name is part of it: P01 of one study is
-/// another person than P01 of the next.
+/// Returns the seed of one participant's session. It depends on the study's name, because P01
+/// of one study is another person than P01 of the next.
 [[nodiscard]] std::uint64_t session_seed(std::uint64_t seed, const std::string& study,
                                          const std::string& participant);
 
-/// A question after a trial that nobody has answered yet.
+/// A question after a trial that has not been answered yet.
 struct OpenQuestion {
   std::int64_t trial = 0;
-  const QuestionnaireItem* item = nullptr;  ///< Of the session's block, never null.
+  const QuestionnaireItem* item = nullptr;  ///< A question of the session's block, never null.
   int index = 1;                            ///< Place among the questions of the block, from 1.
 };
 
-/// One visit of one participant. Every act commits its event first and moves the state on
-/// after. An act that is not possible now throws `Error` and leaves everything as it was. Not
-/// real time.
+/// One visit of one participant. Every act commits its event first and then changes the state.
+/// An act that is not possible now throws `Error` and changes nothing. Not real time.
 class Session {
  public:
   struct Parameters {
     std::int64_t session = 0;
     std::uint64_t seed = 0;
-    std::vector<const Stage*> stages;  ///< The participant's own, counterbalance resolved.
-    Cell cell{};                       ///< The participant's, for the squares of blocks.
-    FieldValues fields{};              ///< What the participant brought; kept with the start.
-    SessionLimits limits{};            ///< Of exposure: no trial begins beyond them.
+    /// The participant's own stages, with counterbalances resolved.
+    std::vector<const Stage*> stages;
+    Cell cell{};  ///< The participant's cell, for the squares of blocks.
+    /// The participant's fields, which are stored with the start.
+    FieldValues fields{};
+    SessionLimits limits{};  ///< Limits of exposure; no trial begins beyond them.
   };
 
-  /// Replays `history`; empty for a new session. The references must outlive the session.
+  /// Replays `history`, which is empty for a new session. The references must outlive the
+  /// session.
   Session(Parameters parameters, const std::vector<core::EventRow>& history, EventLog& log,
           const core::Clock& clock);
 
@@ -63,24 +65,24 @@ class Session {
   [[nodiscard]] const std::vector<const Stage*>& stages() const noexcept {
     return parameters_.stages;
   }
-  /// The stage under way or next; null after the last one. Of interleaved blocks the one whose
-  /// turn it is.
+  /// Returns the stage under way or next, or null after the last one. For interleaved blocks it
+  /// is the one whose turn it is.
   [[nodiscard]] const Stage* current_stage() const noexcept;
-  /// Places of the stages that are run together with the current one, itself among them: the
-  /// blocks of a group, or itself alone. Empty after the last stage.
+  /// Returns the indices of the stages that run together with the current one, including
+  /// itself: the blocks of a group, or itself alone. Empty after the last stage.
   [[nodiscard]] std::vector<std::int64_t> current_stages() const;
-  /// Of the current stage; throws `Error` if it is no block.
+  /// Returns the block of the current stage. Throws `Error` if it is no block.
   [[nodiscard]] const Block& current_block() const;
-  /// The same as its trials are drawn and felt: with the row of its square, and with the levels
-  /// that it has for this participant; see `block_of`. Throws as `current_block`.
+  /// Returns the same block as its trials are drawn and felt: with the row of its square and
+  /// with its levels for this participant; see `block_of`. Throws like `current_block`.
   [[nodiscard]] Block current_block_as_drawn() const;
-  /// Of the current trial, or of the block where none waits.
+  /// Returns the form of the current trial, or of the block if no trial waits.
   [[nodiscard]] TrialForm current_form() const;
 
-  /// `language`: of the texts that the participant gets; "" for a simulated one.
+  /// `language` is that of the texts that the participant gets; "" for a simulated one.
   void start(const std::string& language = "");
-  /// Entering a block draws its order. Interleaved blocks are entered all at once, and whose
-  /// trial comes first is drawn.
+  /// Enters a stage. Entering a block draws its order. Interleaved blocks are entered all at
+  /// once, and the block of the first trial is drawn.
   void enter_stage();
   void answer_item(const std::string& item, const std::string& answer);
   void explored(const std::string& medium, double intensity, std::int64_t first_tick,
@@ -88,69 +90,70 @@ class Session {
   void finish_stage();
 
   void start_trial(std::int64_t tick);
-  /// Of the current trial, under way or not: throws as `begin_presentation` would for an
-  /// interval that it has not, or to which nobody may go back any more.
+  /// Throws what `begin_presentation` would throw in the current trial, under way or not: for
+  /// an interval that it lacks, or to which the participant may not return any more.
   void require_interval(const std::string& interval) const;
-  /// `interval`: "test", "reference" or "free_space"; or "first" or "second" of a trial whose
-  /// order is drawn, stored as what it holds. The presentation under way, if any, must have
-  /// been ended before.
+  /// `interval` is "test", "reference" or "free_space", or "first" or "second" in a trial whose
+  /// order is drawn, which is stored as what it holds. The presentation before must have ended.
   void begin_presentation(const std::string& interval, std::int64_t tick);
   void end_presentation(std::int64_t last_tick, const PresentationSummary& summary);
-  /// Production: one step, beyond the range of starting values if need be, never below 0.
-  /// Returns false, and does nothing, where the intensity cannot go further.
+  /// Makes one step of an adjustment, also beyond the range of starting values, but never below
+  /// 0. Returns false, and does nothing, if the intensity cannot go further.
   bool adjust(Direction direction, StepSize size);
   [[nodiscard]] bool can_adjust(Direction direction, StepSize size) const;
-  /// Throws as `answer` would for this value, so that nothing need be ended for it in vain.
+  /// Throws what `answer` would throw for this value, so that a presentation need not be ended
+  /// in vain.
   void require_answer(const std::optional<double>& value) const;
-  /// The answer as it was given: percent, 1 and 0, or the interval that was chosen; in
-  /// production the set intensity is the answer and `value` is ignored. None is "cannot tell",
-  /// where the block takes that.
+  /// `value` is the answer as given: percent, 1 or 0, or the chosen interval. In an adjustment
+  /// the set intensity is the answer, and `value` is ignored. None means "cannot tell", if the
+  /// block allows that.
   void answer(const std::optional<double>& value, const core::AnswerMeasures& measures,
               std::int64_t last_tick);
-  /// The question that waits for its answer: the first of the block that an answered trial of
-  /// it has none to. The next turn of interleaved blocks is drawn after the last. While there
-  /// is one, no trial begins and the block does not end.
+  /// Returns the question that waits for its answer: the first question of the block without an
+  /// answer in an answered trial. While there is one, no trial begins and the block does not
+  /// end. The next turn of interleaved blocks is drawn after the last question.
   [[nodiscard]] std::optional<OpenQuestion> open_question() const;
-  /// Answers it; throws `Error` where another one waits, or none, and where `answer` is none
-  /// that its kind can have. `kNoAnswer` leaves out one that is not required.
+  /// Answers that question. Throws `Error` if another one waits, or none, or if `answer` is
+  /// invalid for its kind. `kNoAnswer` leaves out a question that is not required.
   void answer_question(const std::string& question, const std::string& answer);
-  /// Gives the attempt under way up; its trial is the next one again.
+  /// Gives up the attempt under way. Its trial is the next one again.
   void discard_attempt(const std::string& reason);
-  /// Gives it up for what the apparatus or the machine did. Its trial comes again at a later
-  /// place of the block, drawn evenly from all that are left, so that nobody feels a stimulus
-  /// right after half of it; at once where answers decide what comes next, or nothing is left.
-  /// Among interleaved blocks it comes with a later turn of its block, and whose turn it is now
-  /// is drawn anew.
+  /// Gives up the attempt because of the apparatus or the machine. The trial is repeated at a
+  /// later place of the block, drawn uniformly from all that are left, so that nobody feels a
+  /// stimulus right after half of it. It is repeated at once if answers determine what comes
+  /// next, or if no trial is left. Among interleaved blocks it is repeated in a later turn of
+  /// its block, and the present turn is drawn again.
   void put_off_attempt(const std::string& reason);
-  /// The same for an answer that did not come before the block's `answer_deadline_s`: it counts
-  /// as missed. `given`: what came too late, for the reason; "" where nothing came.
+  /// Does the same if no answer came before the block's `answer_deadline_s`. The attempt counts
+  /// as missed. `given` is an answer that came too late, for the reason; "" if none came.
   void miss_deadline(const std::string& given = "");
 
-  /// Throws as `undo` would where there is nothing to be taken back.
+  /// Throws what `undo` would throw if there is nothing to take back.
   void require_undo() const;
-  /// Takes the last answer of the current block back, of interleaved blocks the last one of
-  /// all; its trial is run again.
+  /// Takes back the last answer of the current block, or of all interleaved blocks. Its trial
+  /// is run again.
   void undo(const std::string& reason);
-  /// The same for any answer of the block under way that nothing has been drawn for since: of
-  /// procedures whose answers decide what comes next, and of practice, the last one alone.
+  /// Whether `run_again` can do the same for this answer of the block under way. Nothing may
+  /// have been drawn because of the answer since. So for procedures whose answers determine
+  /// what comes next, and for practice, it is only the last answer.
   [[nodiscard]] bool can_run_again(std::int64_t number) const;
-  /// Throws as `run_again` would.
+  /// Throws what `run_again` would throw.
   void require_run_again(std::int64_t number) const;
   void run_again(std::int64_t number, const std::string& reason);
-  /// Sets an earlier answer right, its presentations untouched; `value` as in `answer`, in
-  /// production the intensity.
+  /// Corrects an earlier answer without touching its presentations. `value` is as in `answer`;
+  /// in an adjustment it is the intensity.
   void correct(std::int64_t number, const std::optional<double>& value,
                const std::string& reason);
-  /// All answers of the current block are taken back; the order stays. Interleaved blocks begin
-  /// anew together.
+  /// Takes back all answers of the current block; the order stays. Interleaved blocks restart
+  /// together.
   void restart_block(const std::string& reason);
   void exclude(std::int64_t trial, const std::string& reason);
   void include(std::int64_t trial, const std::string& reason);
 
   void note(const std::string& text);
-  /// `reason`: "" where it is still to come, see `explain_pause`.
+  /// `reason` is "" if it will be given later; see `explain_pause`.
   void pause(const std::string& reason);
-  /// Says why the last pause was, which was stored without a reason and stays as it is.
+  /// Gives the reason of the last pause, which was stored without one and stays as it is.
   void explain_pause(const std::string& reason);
   void go_on();
   void fault(const std::string& words);
@@ -173,13 +176,13 @@ class Session {
   void markers_sent(const MarkersSent& sent);
   void markers_closed(const MarkersClosed& port);
   void markers_failed(const MarkersFailed& port);
-  /// Throws `Error` where the hand was exposed to all that the study allows.
+  /// Throws `Error` if the hand has reached the exposure that the study allows.
   void require_exposure_left() const;
   void loop_measured(const LoopMeasured& timing);
   void unblind(const std::string& reason);
-  /// After the last stage.
+  /// Completes the session, after the last stage.
   void complete();
-  /// Before it; what there is stays, nothing more can be added.
+  /// Ends the session before the last stage. The data stay, but nothing more can be added.
   void end_early(const std::string& reason);
 
  private:

@@ -1,6 +1,6 @@
-// What a session draws: the trials of its blocks, and whose turn it is where they are
-// interleaved. Every draw is an event, from a stream of the session's seed, so that a session
-// that was interrupted anywhere goes on as it would have.
+// What a session draws: the trials of its blocks, and the turns of interleaved blocks. Every
+// draw is an event and uses a stream of the session's seed, so an interrupted session continues
+// as it would have.
 
 #include <algorithm>
 
@@ -80,7 +80,7 @@ void Session::draw_trials(std::int64_t stage) {
   commit(std::move(drawn), std::move(rows));
 }
 
-/// What an interruption has kept from being drawn.
+/// Draws what an interruption kept from being drawn.
 void Session::draw_missing_trials() {
   if (!state_.stage_open || current_stage() == nullptr ||
       !std::holds_alternative<Block>(current_stage()->content)) {
@@ -99,14 +99,14 @@ BlockProgress Session::progress_of(std::int64_t stage) const {
     if (trial.stage != stage || trial.is_void) continue;
     (trial.is_answered ? progress.num_answered : progress.num_left) += 1;
   }
-  // Where answers decide, one trial alone waits of all that are to be expected.
+  // If answers determine the trials, only one trial waits of all that are expected.
   if (progress.num_left > 0 && procedure_named(block.procedure).adapts()) {
     progress.num_left = std::max(1, expected_trials(block) - progress.num_answered);
   }
   return progress;
 }
 
-/// Draws which of the interleaved blocks comes next; nothing where all are done.
+/// Draws which of the interleaved blocks comes next, if any is not done.
 void Session::take_turn() {
   const std::vector<std::int64_t> stages = current_stages();
   std::vector<BlockProgress> blocks;
@@ -121,7 +121,7 @@ void Session::take_turn() {
   if (const auto next = next_turn(turns, blocks, stream)) commit(TurnTaken{stages[*next]});
 }
 
-/// After the questions that follow an answer, if there are any.
+/// Takes a turn if one is due and no question after an answer is open.
 void Session::take_turn_if_due() {
   if (state_.turn_is_due && !open_question()) take_turn();
 }

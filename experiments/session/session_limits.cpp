@@ -9,7 +9,7 @@ namespace jnd::experiments {
 
 int num_answers_since_break(const std::vector<const Stage*>& stages,
                             const SessionState& state) {
-  std::int64_t begin = 0;  // The stage after the last break.
+  std::int64_t begin = 0;  // Index of the stage after the last break.
   for (std::int64_t i = 0; i < state.stage; ++i) {
     if (std::holds_alternative<Break>(stages.at(static_cast<std::size_t>(i))->content)) {
       begin = i + 1;

@@ -10,18 +10,18 @@
 
 namespace jnd::experiments {
 
-/// Answers given since the last `break` that was finished, in any stage after it.
+/// Returns the number of answers since the last finished `break`, in any stage after it.
 [[nodiscard]] int num_answers_since_break(const std::vector<const Stage*>& stages,
                                           const SessionState& state);
 
-/// What the experimenter is told when a session under way passes a limit of its study: "62
-/// trials without a break, of at most 60"; "" while it keeps to them. `elapsed_s`: how long the
-/// session has taken so far.
+/// Returns what the experimenter is told when a session passes a limit of its study, such as
+/// "62 trials without a break, of at most 60", or "" if it keeps within them. `elapsed_s` is
+/// how long the session has taken so far.
 [[nodiscard]] std::string limit_advice(const SessionLimits& limits, int num_answers_since_break,
                                        double elapsed_s);
 
-/// "12.0 min under force, of at most 10.0" of a hand that has been exposed to all that its
-/// study allows; "" before.
+/// Returns "12.0 min under force, of at most 10.0" for a hand that has reached the exposure
+/// that its study allows, or "".
 [[nodiscard]] std::string exposure_words(const SessionLimits& limits,
                                          const core::Exposure& exposure);
 

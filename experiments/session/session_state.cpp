@@ -63,7 +63,7 @@ struct Fold {
     trial.num_steps = 0;
     trial.forget_answer();
     state.forget_told();
-    saw_tick(e.first_tick - 1);  // The first is still to come.
+    saw_tick(e.first_tick - 1);  // The first tick is still to come.
   }
   void operator()(const PresentationStarted& e) const {
     of(e.trial).presentations.push_back({.interval = e.interval,
@@ -126,7 +126,7 @@ struct Fold {
   void operator()(const AnswerCorrected& e) const {
     TrialState& trial = of(e.trial);
     trial.response = e.response;
-    // Who cannot tell has chosen none.
+    // With "cannot tell" no interval is chosen.
     if (e.chosen_interval || !e.response) trial.measures.chosen_interval = e.chosen_interval;
     trial.answer_sequence = event.sequence;
   }
@@ -162,7 +162,7 @@ struct Fold {
     state.paused = false;
     state.earlier_visits_ns = state.visited_ns();
     state.visit_began_ns = event.time_ns;
-    state.unexplained_pause = 0;  // Whoever could have said why is gone.
+    state.unexplained_pause = 0;  // The person who could have given the reason is gone.
     saw_tick(e.lost_last_tick);
   }
   void operator()(const LoopStarted&) const {}
@@ -212,7 +212,8 @@ bool waits(const SessionState& state, std::int64_t number) {
   return trial.stage == state.stage && !trial.is_answered && !trial.is_void;
 }
 
-/// Put off behind a trial comes after it, and before the one that follows it by number.
+/// A trial that was put off comes after the trial it was put behind, and before the one that
+/// follows it by number.
 bool comes_before(const SessionState& state, std::int64_t left, std::int64_t right) {
   const auto place = [&state](std::int64_t number) {
     const std::int64_t after = state.trial(number).again_after;
@@ -221,7 +222,7 @@ bool comes_before(const SessionState& state, std::int64_t left, std::int64_t rig
   return place(left) < place(right);
 }
 
-/// Of the trials of a stage, or of all.
+/// Returns the last answered trial of a stage, or of all stages.
 std::optional<std::int64_t> last_answered(const std::vector<TrialState>& trials,
                                           std::optional<std::int64_t> of_stage) {
   std::optional<std::int64_t> last;

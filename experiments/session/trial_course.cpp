@@ -10,7 +10,7 @@ namespace {
 
 using Interval = std::pair<std::int64_t, std::string>;
 
-/// Of three intervals one is known by its place, else by what it holds.
+/// An interval of three is identified by its place, any other by what it holds.
 Interval interval_of(const std::string& interval, std::int64_t place) {
   return {place, place > 0 ? "" : interval};
 }

@@ -9,20 +9,20 @@
 
 namespace jnd::experiments {
 
-// What the stimuli of a trial's attempt have come to so far. Free space is none of them.
+// What has been presented in a trial's attempt so far. Free space does not count.
 
-/// The first tick of the stimulus with which each of the trial's has been felt or is being
-/// felt: from then on it can be answered, and time counts toward `answer_deadline_s`. None
-/// before.
+/// Returns the first tick of the stimulus with which every stimulus of the trial has been felt
+/// or is being felt. From then on the trial can be answered, and time counts towards
+/// `answer_deadline_s`. None before.
 [[nodiscard]] std::optional<std::int64_t> asked_tick(const TrialForm& form,
                                                      const TrialState& trial);
 
-/// Whether this was presented in the attempt: an interval as events name it, of three with its
-/// place. Never of free space.
+/// Whether this interval, as events name it, was presented in the attempt. One of three
+/// intervals is given with its place. False for free space.
 [[nodiscard]] bool was_presented(const TrialState& trial, const std::string& interval,
                                  std::int64_t place);
 
-/// How often a stimulus was presented that had been presented before.
+/// Returns how often a stimulus was presented that had been presented before.
 [[nodiscard]] int num_returns(const TrialState& trial);
 
 }  // namespace jnd::experiments

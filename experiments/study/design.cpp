@@ -8,7 +8,7 @@ namespace {
 
 struct MeasureWords {
   ContrastMeasure measure;
-  const char *key, *words;  ///< In the study file; in a sentence.
+  const char *key, *words;  ///< Spelling in the study file, and words for a sentence.
 };
 
 constexpr MeasureWords kMeasures[] = {

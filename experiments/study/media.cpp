@@ -27,7 +27,7 @@ const Quantity* find_quantity(std::string_view name) noexcept {
   return found == quantities().end() ? nullptr : &*found;
 }
 
-/// Enough damping to be passive at 1 kHz: more than stiffness times half a period.
+/// Damping above stiffness times half a period makes the surface passive at 1 kHz.
 MediumAmounts surface(const MediumSetting& it) {
   return core::solid({.stiffness_n_per_m = it.intensity,
                       .damping_n_s_per_m = 0.001 * it.intensity,
@@ -37,8 +37,8 @@ MediumAmounts surface(const MediumSetting& it) {
 }  // namespace
 
 const std::vector<Medium>& media() {
-  // The upper ends are far beyond any device. They catch a value in the wrong unit: mPa s, or
-  // percent instead of a factor.
+  // The upper ends are far beyond any device. They catch a value in the wrong unit, such as mPa
+  // s, or percent instead of a factor.
   static const Range kScale = {0.0, 99.0, false};
   static const Range kViscosity = {0.0, 1000.0, true};
   static const Range kStiffness = {0.0, 100000.0, true};

@@ -10,14 +10,14 @@
 
 namespace jnd::experiments {
 
-/// How much there is of a medium, and the key that it is given under.
+/// A quantity that says how much of a medium there is, and its key.
 struct Quantity {
   std::string name;   ///< "viscosity_pa_s"
   std::string unit;   ///< "Pa s"; "" of a ratio.
   const char* words;  ///< "viscosity"
 };
 
-/// What can be felt, a row each: whatever the program knows of a medium stands in it.
+/// Something that can be felt. Its row holds everything that the program knows of the medium.
 struct Medium {
   std::string name;
   const char* words;        ///< "viscous stokes", for people.
@@ -34,11 +34,11 @@ struct Medium {
 };
 
 [[nodiscard]] const std::vector<Medium>& media();
-/// Null for an unknown one.
+/// Returns null for an unknown medium.
 [[nodiscard]] const Medium* find_medium(std::string_view name) noexcept;
-/// "" for free space and for unknown media.
+/// Returns "" for free space and for unknown media.
 [[nodiscard]] std::string quantity_of(std::string_view medium);
-/// Whether it is a surface that is pressed, not a fluid that is stroked through.
+/// Whether the medium is a surface that is pressed and not a fluid that is stroked through.
 [[nodiscard]] bool is_pressed(std::string_view medium) noexcept;
 
 /// The keys of all `MediumDetails`, each with the media that have it.
@@ -48,9 +48,9 @@ struct Medium {
 
 /// Of an intensity of this quantity: "Pa s", "N/m"; "" of a ratio.
 [[nodiscard]] std::string quantity_unit(std::string_view quantity);
-/// The same as estimates say it: "1" of a ratio.
+/// Returns the unit as estimates spell it: "1" for a ratio.
 [[nodiscard]] std::string unit_of_quantity(std::string_view quantity);
-/// "viscosity", "scaling factor": what varies.
+/// Returns words for the quantity: "viscosity", "scaling factor".
 [[nodiscard]] std::string quantity_words(std::string_view quantity);
 
 }  // namespace jnd::experiments

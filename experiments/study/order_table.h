@@ -4,7 +4,7 @@
 
 namespace jnd::experiments {
 
-/// In which order the stimuli of a block come.
+/// The order of the stimuli of a block.
 [[nodiscard]] const ParameterTable& order_table();
 
 }  // namespace jnd::experiments

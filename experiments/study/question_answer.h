@@ -7,22 +7,24 @@
 
 namespace jnd::experiments {
 
-/// Stored for a question that was left out.
+/// The stored answer of a question that was left out.
 inline constexpr char kNoAnswer[] = "no_answer";
 
-/// A number as it was typed, whatever the locale; none where there is more or something else.
+/// Reads a number as it was typed, whatever the locale. Returns none if the text holds anything
+/// else.
 [[nodiscard]] std::optional<double> number_in(const std::string& text);
 
-/// The answer to a scale, a number or yes or no as a number: yes is 1 and no is 0. None where
-/// it is neither, as of a question that was left out.
+/// Returns the answer to a scale, a number or a yes/no question as a number, where yes is 1 and
+/// no is 0. Returns none for other answers, such as that of a question that was left out.
 [[nodiscard]] std::optional<double> value_of_answer(const std::string& answer);
 
-/// Whether `value_of_answer` says what an answer to this question comes to.
+/// Whether `value_of_answer` gives a number for answers to this question.
 [[nodiscard]] bool has_value(const QuestionnaireItem& item);
 
-/// What was expected where a question cannot be answered so: "a step from 1 to 10"; "" where it
-/// can. Words, a number within its ends, a step of the scale, the value of an option, "yes" or
-/// "no", also "yes: which"; `kNoAnswer` where the question is not required. Not real time.
+/// Returns what was expected if this is no valid answer: "a step from 1 to 10"; "" for a valid
+/// one. Valid are words, a number within its limits, a step of the scale, the value of an
+/// option, "yes" or "no", also "yes: which", and `kNoAnswer` if the question is not required.
+/// Not real time.
 [[nodiscard]] std::string expected_answer(const QuestionnaireItem& item,
                                           const std::string& answer);
 

@@ -11,16 +11,16 @@
 
 namespace jnd::experiments {
 
-// Values as rules look at them: one of the wrong type is as good as none, for `StructureCheck`
-// has told of it already.
+// Functions by which rules read values. They treat a value of the wrong type as absent, because
+// `StructureCheck` has reported it already.
 
-/// The text at `key`, or "".
+/// Returns the text at `key`, or "".
 [[nodiscard]] inline std::string word(const nlohmann::json& object, const std::string& key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-/// The number at `key`, or null.
+/// Returns the number at `key`, or null.
 [[nodiscard]] inline const nlohmann::json* number(const nlohmann::json& object,
                                                   const std::string& key) {
   const auto found = object.find(key);
@@ -33,7 +33,7 @@ namespace jnd::experiments {
   return found == nullptr ? otherwise : found->get<double>();
 }
 
-/// A number within the range of its table; `otherwise` where it is not.
+/// Returns a number within the range of its table, or `otherwise`.
 [[nodiscard]] inline double sound_number(const ParameterTable& table,
                                          const nlohmann::json& object, const std::string& key,
                                          double otherwise) {
@@ -42,7 +42,7 @@ namespace jnd::experiments {
   return parameter != nullptr && parameter->range.contains(value) ? value : otherwise;
 }
 
-/// The list at `key`, or an empty one.
+/// Returns the list at `key`, or an empty one.
 [[nodiscard]] inline const nlohmann::json& list(const nlohmann::json& object,
                                                 const std::string& key) {
   static const nlohmann::json kNone = nlohmann::json::array();
@@ -50,14 +50,14 @@ namespace jnd::experiments {
   return found != object.end() && found->is_array() ? *found : kNone;
 }
 
-/// Under which key a block has its standards: "standard_scale". Of a key that no block has,
-/// where it has no standard.
+/// Returns the key of a block's standards: "standard_scale". Without a standard it is a key
+/// that no block has.
 [[nodiscard]] inline std::string standard_key(const nlohmann::json& block) {
   return "standard_" + quantity_of(word(block, "standard_medium"));
 }
 
-/// How often a block shows each of its stimuli in a repetition: once for every target of a
-/// production, once with every standard of a matching.
+/// Returns how often a block shows each of its stimuli in a repetition: once for every target
+/// of a production, and once for every standard of a matching.
 [[nodiscard]] inline double num_showings(const nlohmann::json& block) {
   const std::size_t num_targets = list(block, "target_percent").size();
   const std::size_t num_standards = list(block, standard_key(block)).size();
@@ -65,7 +65,7 @@ namespace jnd::experiments {
                              std::max<std::size_t>(1, num_standards));
 }
 
-/// The object at `key`, or an empty one.
+/// Returns the object at `key`, or an empty one.
 [[nodiscard]] inline const nlohmann::json& object_at(const nlohmann::json& object,
                                                      const std::string& key) {
   static const nlohmann::json kNone = nlohmann::json::object();
@@ -73,7 +73,7 @@ namespace jnd::experiments {
   return found != object.end() && found->is_object() ? *found : kNone;
 }
 
-/// Names as a message lists them: short, and not all of very many.
+/// Returns names as a message lists them: shortened, and only the first of very many.
 [[nodiscard]] inline std::string names_words(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 4;
   std::vector<std::string> shown;

@@ -8,9 +8,9 @@
 
 namespace jnd::experiments {
 
-/// What the keys of a procedure were given in a block, defaults filled in, each under its own
-/// name without the quantity: "reference", "repetitions". Reading a key that the procedure does
-/// not declare, or as something that it is not, throws `std::logic_error`: a mistake of ours.
+/// The values of a procedure's keys in a block, with defaults, each under its name without the
+/// quantity: "reference", "repetitions". Reading a key that the procedure does not declare, or
+/// as another type, throws `std::logic_error`, because it is a mistake of the program.
 class Settings {
  public:
   using Value =
@@ -27,7 +27,7 @@ class Settings {
   [[nodiscard]] int integer(const std::string& key) const;
   [[nodiscard]] bool boolean(const std::string& key) const;
   [[nodiscard]] const std::string& word(const std::string& key) const;
-  /// Empty where it is absent.
+  /// Returns an empty list if the key is absent.
   [[nodiscard]] std::vector<double> numbers(const std::string& key) const;
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 /// A character in UTF-8 (RFC 3629).
 struct Character {
-  std::size_t num_bytes = 0;  ///< 0 for a byte that is none.
+  std::size_t num_bytes = 0;  ///< 0 for a byte that begins no character.
   std::uint32_t code_point = 0;
 };
 
@@ -30,7 +30,7 @@ Character first_character(std::string_view text) {
   return {num_bytes, code_point};
 }
 
-/// Whether a terminal would obey it or turn the line around instead of showing it.
+/// Whether a terminal would obey the character, or reverse the line, instead of showing it.
 bool is_control(std::uint32_t code_point) {
   return code_point < 0x20 || (code_point >= 0x7F && code_point < 0xA0) ||
          (code_point >= 0x2028 && code_point <= 0x202E) ||
@@ -88,7 +88,7 @@ std::string shortened_pointer(std::string_view pointer) {
   while (!pointer.empty()) {
     const std::string_view token = pointer.substr(0, pointer.find('/', 1));
     std::size_t end = std::min(token.size(), kLongest);
-    if (end < token.size()) {  // Not in the middle of a UTF-8 character.
+    if (end < token.size()) {  // The text must not be cut in the middle of a UTF-8 character.
       while ((static_cast<unsigned char>(token[end]) & 0xC0) == 0x80) --end;
     }
     result += token.substr(0, end);

@@ -6,13 +6,13 @@
 
 namespace jnd::experiments {
 
-/// Text out of a file as a message shows it: on one line, in UTF-8 whatever the bytes are, and
-/// no longer than about `most_characters`, then "...". Quotes, backslashes and control
-/// characters are written as in JSON, a byte that is not UTF-8 as \xFF.
+/// Returns a text from a file as a message shows it: on one line, in UTF-8 whatever the bytes
+/// are, and cut after about `most_characters` with "...". Quotes, backslashes and control
+/// characters are written as in JSON, and a byte that is not UTF-8 as \xFF.
 [[nodiscard]] std::string shown_text(std::string_view text, std::size_t most_characters = 40);
 
-/// The same for a JSON pointer, of which each key is shortened and none escaped again: short
-/// pointers stay pointers.
+/// Returns the same for a JSON pointer. Each key is shortened and none is escaped again, so a
+/// short pointer does not change.
 [[nodiscard]] std::string shortened_pointer(std::string_view pointer);
 
 }  // namespace jnd::experiments

@@ -31,16 +31,16 @@ struct MediumSetting {
   bool operator==(const MediumSetting&) const = default;
 };
 
-/// A medium to be explored for some time outside of any trial.
+/// A medium that is explored for some time outside of any trial.
 struct Exploration {
   MediumSetting setting;
   double duration_s = 0.0;  ///< > 0.
-  Text say;                 ///< Sentence for the experimenter to say; may be empty.
+  Text say;                 ///< A sentence for the experimenter to say; may be empty.
 };
 
 struct ChecklistItem {
   Text text;
-  Text say;  ///< Sentence to say word for word; may be empty.
+  Text say;  ///< A sentence for the experimenter to say word for word; may be empty.
 };
 
 struct Checklist {
@@ -49,7 +49,7 @@ struct Checklist {
 
 struct Consent {
   std::vector<Text> paragraphs;
-  Text agreement;  ///< The one sentence that is agreed to.
+  Text agreement;  ///< The sentence to which the participant agrees.
 };
 
 /// Free exploration, for example of free space, before anything is asked.
@@ -58,41 +58,44 @@ struct Explore {
   std::vector<Exploration> media;
 };
 
-/// Example stimuli that show the range to come; nothing is scored.
+/// Example stimuli that show the coming range. There are no answers.
 struct Training {
   Text instruction;
   std::vector<Exploration> examples;
 };
 
-/// Trials until somebody can do a task; they are run and stored as any, and are no data.
+/// Trials until a participant can do the task. They are run and stored like others, but are no
+/// data.
 struct Practice {
-  double min_correct_ratio = 0.0;  ///< Of the answers judged that have to be right, (0, 1].
-  int num_trials_judged = 0;       ///< The last ones, >= 1.
-  int max_trials = 0;              ///< The block ends after so many in any case.
+  /// Share of the judged answers that have to be right, (0, 1].
+  double min_correct_ratio = 0.0;
+  int num_trials_judged = 0;  ///< How many of the last answers are judged, >= 1.
+  int max_trials = 0;         ///< The block ends after this many trials in any case.
 };
 
-/// One answer to choose from. The value is what is stored, whatever the language shown.
+/// One answer to choose from. The value is stored, whatever language is shown.
 struct Option {
   std::string value;  ///< [a-z0-9_]+, unique in its item.
   Text label;
 };
 
-/// A question of a questionnaire, or one that follows every trial of a block.
+/// A question of a questionnaire, or one after every trial of a block.
 struct QuestionnaireItem {
   std::string name;
   std::string kind;  ///< "number", "text", "choice", "yes_no", "yes_no_which" or "scale".
   Text question;
-  std::string unit;                        ///< kind number; may be empty.
-  std::optional<double> minimum, maximum;  ///< kind number: what can be true, in `unit`.
-  std::vector<Option> options;             ///< kind choice, at least two.
-  int num_steps = 10;                      ///< kind scale.
-  Text low_label, high_label;  ///< kind scale: what stands at step 1 and at the last step.
-  /// kind scale: which end is the favourable one; absent where neither is.
+  std::string unit;  ///< For the kind number; may be empty.
+  /// For the kind number: limits of possible values, in `unit`.
+  std::optional<double> minimum, maximum;
+  std::vector<Option> options;  ///< For the kind choice, at least two.
+  int num_steps = 10;           ///< For the kind scale.
+  Text low_label, high_label;   ///< For the kind scale: labels of step 1 and of the last step.
+  /// For the kind scale: which end is the favourable one; none if neither is.
   std::optional<bool> high_is_good{};
   bool required = true;
 };
 
-/// In which order the stimuli of a block come. Each repetition shows every one of them once.
+/// The order of the stimuli of a block. Each repetition shows every one of them once.
 struct StimulusOrder {
   enum class Method {
     kShuffled,  ///< Each repetition by itself in random order.
@@ -101,13 +104,15 @@ struct StimulusOrder {
     kWilliams,  ///< Rows of a Williams square, over participants and repetitions.
   };
   Method method = Method::kShuffled;
-  std::optional<int> max_in_a_row;  ///< Trials of one stimulus, >= 1. Not of squares.
-  int min_distance = 1;  ///< From a stimulus to its next trial, >= 1. Of `kShuffled` alone.
-  std::vector<double> not_first;  ///< Stimuli that do not open the block. Not of squares.
-  std::size_t row = 0;            ///< Of the square, for the first repetition; see `block_of`.
+  std::optional<int> max_in_a_row;  ///< Trials of one stimulus in a row, >= 1. Not for squares.
+  /// Distance from a stimulus to its next trial, >= 1. Only for `kShuffled`.
+  int min_distance = 1;
+  std::vector<double> not_first;  ///< Stimuli that do not open the block. Not for squares.
+  /// Row of the square for the first repetition; see `block_of`.
+  std::size_t row = 0;
 };
 
-/// One procedure over one varied quantity: the part of a study that gives data.
+/// One procedure over one varied quantity. Blocks give the data of a study.
 struct Block {
   std::string
       procedure;       ///< "magnitude_estimation", "magnitude_production", "constant_stimuli".
@@ -115,46 +120,53 @@ struct Block {
   std::string quantity;   ///< "scale", "viscosity_pa_s" or "stiffness_n_per_m".
   MediumDetails details;  ///< Of its medium.
   Text instruction;
-  Text question;             ///< What the participant is asked in every trial.
-  Text yes_label, no_label;  ///< What the two answers are called; may be empty.
-  Text first_label, second_label, third_label;  ///< What intervals are called; may be empty.
-  Text low_label, high_label;       ///< Rating: what stands at the ends of the scale.
+  Text question;             ///< The question to the participant in every trial.
+  Text yes_label, no_label;  ///< Names of the two answers; may be empty.
+  Text first_label, second_label, third_label;  ///< Names of the intervals; may be empty.
+  Text low_label, high_label;       ///< For a rating: labels of the ends of the scale.
   std::vector<double> intensities;  ///< Test stimuli, or starting values of an adjustment.
-  std::optional<double> reference_intensity;  ///< Constant stimuli.
-  std::string standard_medium;    ///< Of what is felt as the standard; "" where there is none.
-  std::vector<double> standards;  ///< In the unit of `standard_medium`, each > 0.
-  std::vector<double> target_percent;  ///< Production: one repetition a target.
-  int repetitions = 1;                 ///< Each shows every intensity once; 1 in production.
+  std::optional<double> reference_intensity;  ///< For constant stimuli.
+  std::string standard_medium;                ///< Medium of the standard; "" if there is none.
+  std::vector<double> standards;              ///< In the unit of `standard_medium`, each > 0.
+  /// For a production, which has one repetition for each target.
+  std::vector<double> target_percent;
+  int repetitions = 1;  ///< Each shows every intensity once; 1 in a production.
   StimulusOrder order;
-  double coarse_step = 0.0;              ///< Adjustment, unit of the quantity, > fine_step.
-  double fine_step = 0.0;                ///< Adjustment, > 0.
-  std::optional<double> max_intensity;   ///< Adjustment: no step goes beyond; none by default.
-  double free_space_between_s = 0.0;     ///< Free space before each trial, >= 0.
-  double expected_trial_s = 0.0;         ///< For planning the length of a session, > 0.
-  double min_stimulus_s = 0.0;           ///< Nobody answers or goes on before, >= 0.
-  std::optional<double> max_stimulus_s;  ///< A stimulus ends by itself, >= `min_stimulus_s`.
-  std::optional<double> answer_deadline_s;  ///< An answer that comes later is missed, > 0.
-  std::optional<int> max_returns;           ///< To stimuli that were felt, in a trial, >= 0.
-  bool feedback = false;                    ///< Right or wrong is told after each answer.
-  bool cannot_tell = false;                 ///< "Cannot tell" is an answer, too.
-  std::optional<Practice> practice;         ///< The block is practice, and no data.
-  Levels levels;                            ///< Of the study's factors; may be empty.
-  bool participant_answers = false;         ///< By a control of theirs, not by telling.
-  /// Asked after the answer to every trial, in this order, before the next one may begin.
+  /// For an adjustment, in the unit of the quantity, > fine_step.
+  double coarse_step = 0.0;
+  double fine_step = 0.0;               ///< For an adjustment, > 0.
+  std::optional<double> max_intensity;  ///< For an adjustment: no step goes beyond it.
+  double free_space_between_s = 0.0;    ///< Duration of free space before each trial, >= 0.
+  double expected_trial_s = 0.0;        ///< To plan the length of a session, > 0.
+  /// Shortest time before anybody can answer or go on, >= 0.
+  double min_stimulus_s = 0.0;
+  /// A stimulus ends after this time, >= `min_stimulus_s`.
+  std::optional<double> max_stimulus_s;
+  std::optional<double> answer_deadline_s;  ///< Later answers are missed, > 0.
+  /// Largest number of returns to stimuli in a trial, >= 0.
+  std::optional<int> max_returns;
+  bool feedback = false;             ///< Each answer is followed by "right" or "wrong".
+  bool cannot_tell = false;          ///< "Cannot tell" is an answer, too.
+  std::optional<Practice> practice;  ///< If set, the block is practice, and no data.
+  Levels levels;                     ///< Levels of the study's factors; may be empty.
+  /// Participants answer by a control of their own and do not tell the experimenter.
+  bool participant_answers = false;
+  /// Questions after the answer to every trial, in this order, before the next trial may begin.
   std::vector<QuestionnaireItem> questions;
-  std::optional<MaskingNoise> masking_noise{};  ///< In place of the study's; see `sound_of`.
-  std::optional<std::vector<Cue>> cues{};       ///< Likewise.
-  Settings settings;                            ///< The procedure's own keys, all of them.
+  std::optional<MaskingNoise> masking_noise{};  ///< Replaces the study's; see `sound_of`.
+  std::optional<std::vector<Cue>> cues{};       ///< Replaces the study's; see `sound_of`.
+  Settings settings;                            ///< All of the procedure's own keys.
 
-  /// A surface that is pressed, not a fluid that is stroked through.
+  /// Whether the medium is a surface that is pressed and not a fluid that is stroked through.
   [[nodiscard]] bool is_pressed() const;
-  /// What an interval holds is such a surface: "reference" of a block with a solid standard.
+  /// Whether an interval holds such a surface. The interval "reference" does in a block with a
+  /// solid standard.
   [[nodiscard]] bool is_pressed_in(std::string_view interval) const;
 };
 
 struct Break {
   Text instruction;
-  double duration_s = 0.0;  ///< Least rest, >= 0.
+  double duration_s = 0.0;  ///< Shortest rest, >= 0.
 };
 
 struct PostExperimentItem {
@@ -163,7 +175,7 @@ struct PostExperimentItem {
   Text instruction;
   Text question;
   std::string answer;  ///< "yes_no", "text" or "words".
-  int num_words = 0;   ///< How many words "words" asks for.
+  int num_words = 0;   ///< Number of words for which "words" asks.
 };
 
 struct PostExperiment {
@@ -177,8 +189,8 @@ struct Questionnaire {
 
 struct Stage;
 
-/// Alternatives between participants. `order` and `latin`: every arm is run, the order of the
-/// arms is a cell. `one_of`: each participant gets one arm.
+/// Alternatives between participants. With `order` and `latin` every arm is run, and the order
+/// of the arms is part of the cell. With `one_of` each participant gets one arm.
 struct Counterbalance {
   struct Arm {
     std::string name;
@@ -187,8 +199,10 @@ struct Counterbalance {
   enum class Method { kOrder, kLatin, kOneOf };
   Method method = Method::kOrder;
   std::vector<Arm> arms;
-  std::vector<Stage> between;  ///< Run between two arms of an order, for example a break.
-  std::string stratify_by;     ///< Field within whose values it is balanced; "": over all.
+  /// Stages that run between two arms of an order, for example a break.
+  std::vector<Stage> between;
+  /// Field within whose values it is balanced; "" for all participants together.
+  std::string stratify_by;
 };
 
 /// How the blocks of a group take turns, trial by trial.
@@ -197,9 +211,9 @@ enum class Turns {
   kRandom,  ///< Each trial is drawn from all that are left, whatever their block.
 };
 
-/// A group of blocks whose trials are mixed, as each of its blocks knows it.
+/// A group of blocks whose trials are mixed. Each of its blocks has a copy.
 struct Interleaving {
-  std::string name;  ///< Of the group; unique in the study, unlike that of any stage.
+  std::string name;  ///< Name of the group, which is unique in the study, also among stages.
   Text title;        ///< May be empty.
   Turns turns = Turns::kRounds;
 
@@ -209,40 +223,42 @@ struct Interleaving {
 struct Stage {
   std::string name;  ///< Unique in the study; [a-z0-9_]+.
   Text title;        ///< May be empty.
-  /// Runs only for participants of these arms: name of a `one_of` counterbalance to name of its
-  /// arm. Empty: runs for everyone.
+  /// The stage runs only for participants of these arms: name of a `one_of` counterbalance to
+  /// name of its arm. If empty, it runs for everyone.
   std::map<std::string, std::string> only_for;
   std::variant<Checklist, Consent, Explore, Training, Block, Break, PostExperiment,
                Questionnaire, Counterbalance>
       content;
-  int line = 0;  ///< Where it stands in the file, for messages.
-  /// Of a block whose trials are mixed with those of others. The blocks of a group stand one
-  /// after the other in every list of stages.
+  int line = 0;  ///< Its line in the file, for messages.
+  /// Set for a block whose trials are mixed with those of others. The blocks of a group are
+  /// adjacent in every list of stages.
   std::optional<Interleaving> interleaving{};
 };
 
 enum class Blinding { kNone, kParticipant, kDouble };
 
-/// What a study asks of the apparatus.
+/// What a study requires of the apparatus.
 struct DeviceNeeds {
   int min_contact_points = 5;
   double rate_hz = 1000.0;
   double ramp_s = 0.050;
-  double max_missed_ratio = 0.01;       ///< Of a presentation's ticks, [0, 1].
-  core::Immersion immersion;            ///< Infinite surface unless the study says otherwise.
-  double wall_stiffness_n_per_m = 0.0;  ///< Where the immersion ends; 0 is no wall.
+  double max_missed_ratio = 0.01;  ///< Share of a presentation's ticks, [0, 1].
+  /// An infinite surface unless the study says otherwise.
+  core::Immersion immersion;
+  double wall_stiffness_n_per_m = 0.0;  ///< Wall at the limits of the immersion; 0 for no wall.
   double wall_friction_ratio = 0.0;     ///< >= 0.
-  std::vector<core::ForceMap::Row> force_map;  ///< Empty: none, the thesis's fit.
+  std::vector<core::ForceMap::Row> force_map;  ///< If empty, the thesis's fit is used.
 };
 
-/// What is known of a participant before the session, for counterbalances to be stratified by.
+/// A property of a participant that is known before the session, by which counterbalances can
+/// be stratified.
 struct ParticipantField {
   std::string name;
   Text question;
   std::vector<Option> options;
 };
 
-/// What can be asked of a participant in one session.
+/// What can be demanded of a participant in one session.
 struct SessionLimits {
   std::optional<double> max_duration_s;         ///< > 0.
   std::optional<int> max_trials_without_break;  ///< >= 1.
@@ -254,24 +270,27 @@ struct SessionLimits {
   }
 };
 
-/// A study file, checked and with every default filled in.
+/// A study file, checked and with all defaults.
 struct Study {
   int format = 1;
-  std::string name;                    ///< [a-z0-9_]+
-  std::vector<std::string> languages;  ///< Every text has exactly these; the first is shown.
+  std::string name;  ///< [a-z0-9_]+
+  /// Every text has exactly these languages; the first one is shown.
+  std::vector<std::string> languages;
   Text title;
   Text description;  ///< May be empty.
   std::vector<std::string> authors;
-  std::string citation;  ///< Of the study it follows; may be empty.
+  std::string citation;  ///< Citation of the study that it follows; may be empty.
   DeviceNeeds device;
   Blinding blinding = Blinding::kNone;
   SessionLimits session_limits;
-  Sound sound;  ///< Heard in all of it but where a block says otherwise; see `sound_of`.
-  core::MarkerCodes markers;  ///< Of the pulses that tell another recorder of a session.
+  /// Heard in the whole study except where a block says otherwise; see `sound_of`.
+  Sound sound;
+  core::MarkerCodes markers;  ///< Codes of the pulses that are sent to another recorder.
   std::vector<ParticipantField> participant_fields;
   std::vector<DesignFactor> factors;
   std::vector<PlannedContrast> contrasts;
-  std::optional<SequentialPlan> sequential;  ///< None: all take part before anybody looks.
+  /// None if nobody looks at the data before all have taken part.
+  std::optional<SequentialPlan> sequential;
   std::vector<Stage> stages;
   std::string text;  ///< The file word for word; its SHA-256 identifies the study.
 };

@@ -17,7 +17,7 @@ std::string describe(const std::vector<StudyProblem>& problems) {
   return text;
 }
 
-/// Optimal string alignment: insertions, deletions, substitutions, swaps of neighbours.
+/// Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> cost(a.size() + 1,
                                              std::vector<std::size_t>(b.size() + 1));
@@ -35,7 +35,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return cost[a.size()][b.size()];
 }
 
-/// The shortest candidate of which only the end is left out: `viscosity` of `viscosity_pa_s`.
+/// Returns the shortest candidate of which only the end is missing: `viscosity` for
+/// `viscosity_pa_s`.
 std::string begun_word(std::string_view word, const std::vector<std::string>& candidates) {
   std::string found;
   for (const std::string& candidate : candidates) {
@@ -66,10 +67,11 @@ ProtocolError::ProtocolError(std::vector<StudyProblem> problems)
     : core::Error(describe(problems)), problems_(std::move(problems)) {}
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t kLongestWord = 80;  // Beyond it, no key of ours can have been meant.
+  // A longer word cannot have been meant for a key of ours.
+  constexpr std::size_t kLongestWord = 80;
   if (word.empty() || word.size() > kLongestWord) return "";
-  // A third of the letters may be wrong, of a short word two, of a very short one a single one:
-  // "brake" may mean break, "foo" means nothing.
+  // A third of the letters may be wrong, but two in a short word and one in a very short one:
+  // "brake" may mean break, but "foo" means nothing.
   std::size_t nearest = (word.size() < 4 ? 1 : std::max<std::size_t>(2, word.size() / 3)) + 1;
   std::string found;
   for (const std::string& candidate : candidates) {

@@ -9,26 +9,29 @@
 
 namespace jnd::experiments {
 
-/// One thing wrong with a study file, told the way its author sees it.
+/// One problem of a study file, in words for its author.
 struct StudyProblem {
   std::string file;
-  int line = 0;         ///< From 1; 0 where the file as a whole is meant.
-  int column = 0;       ///< From 1, in characters.
-  std::string pointer;  ///< JSON pointer: "/stages/2/viscosity_pa_s"; "" is the whole document.
+  int line = 0;    ///< From 1; 0 if the problem is the file as a whole.
+  int column = 0;  ///< From 1, in characters.
+  /// JSON pointer, such as "/stages/2/viscosity_pa_s"; "" is the whole document.
+  std::string pointer;
   std::string message;  ///< "expected a number > 0 (Pa s), found -1.5"
 };
 
-/// More are not told: whoever has so many makes one mistake many times.
+/// No more problems are reported, because so many come from one repeated mistake.
 inline constexpr std::size_t kMostProblems = 1000;
 
-/// Adds a problem, its pointer shortened; nothing once there is one more than `kMostProblems`.
+/// Adds a problem with a shortened pointer. Does nothing if there are more than `kMostProblems`
+/// already.
 void add_problem(std::vector<StudyProblem>& problems, StudyProblem problem);
 
-/// `FILE:LINE:COLUMN: /json/pointer: message`, or `FILE: message` where there is no place. The
-/// whole document is written `/`. One line, whatever keys the file has.
+/// Returns `FILE:LINE:COLUMN: /json/pointer: message`, or `FILE: message` for a problem without
+/// a place. The whole document is written `/`. The result is one line, whatever keys the file
+/// has.
 [[nodiscard]] std::string to_string(const StudyProblem& problem);
 
-/// Thrown once the whole file has been read: it carries every problem found, not the first one.
+/// Thrown after the whole file has been read, with every problem found.
 class ProtocolError : public core::Error {
  public:
   explicit ProtocolError(std::vector<StudyProblem> problems);
@@ -39,12 +42,13 @@ class ProtocolError : public core::Error {
   std::vector<StudyProblem> problems_;
 };
 
-/// The candidate that `word` most likely was meant to be, by edit distance (a swap of
-/// neighbours counts as one edit), or the one whose unit was left out; "" if none is near.
+/// Returns the candidate that `word` most likely was meant to be, by edit distance (a swap of
+/// neighbours counts as one edit), or the one whose unit was left out. Returns "" if none is
+/// close.
 [[nodiscard]] std::string nearest_word(std::string_view word,
                                        const std::vector<std::string>& candidates);
 
-/// "; did you mean `x`?" or "".
+/// Returns "; did you mean `x`?" or "".
 [[nodiscard]] std::string did_you_mean(std::string_view word,
                                        const std::vector<std::string>& candidates);
 

@@ -17,13 +17,14 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Those lines that have their end: the last one of a killed program may have been cut off.
+/// Returns the lines that have their end. The last line of a killed program may have been cut
+/// off.
 inline std::vector<std::string> whole_lines_of(const std::string& text) {
   return lines_of(text.substr(0, text.rfind('\n') + 1));
 }
 
-/// Every acknowledged line stands in the database as it was printed. Returns how many events
-/// there are.
+/// Expects every acknowledged line in the database as it was printed. Returns the number of
+/// events.
 inline std::size_t check_acknowledged(const core::StudyStore& store,
                                       const std::vector<std::string>& lines) {
   const std::vector<core::EventRow> events = store.events(1);

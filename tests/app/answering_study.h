@@ -4,8 +4,8 @@
 
 namespace jnd::app {
 
-/// Two blocks with a deadline, times of stimuli, no way back, and "cannot tell" in the first;
-/// in the second the answers decide what comes next.
+/// Two blocks with a deadline, limited times of stimuli and no way back. The first has "cannot
+/// tell"; in the second the answers determine what comes next.
 inline const std::string kAnsweringStudy = R"json({
   "format": 1,
   "name": "answering",

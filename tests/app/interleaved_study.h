@@ -2,8 +2,8 @@
 
 namespace jnd::app {
 
-/// Two groups of blocks whose trials are mixed, a fixed and an adaptive one with a question,
-/// and a block by itself between them.
+/// Two groups of blocks whose trials are mixed, one fixed and one adaptive with a question, and
+/// a separate block between them.
 inline constexpr char kInterleavedStudy[] = R"json({
   "format": 1, "name": "mixed", "languages": ["en"], "title": {"en": "Mixed"},
   "authors": ["A. Author"],

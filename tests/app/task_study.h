@@ -4,7 +4,7 @@
 
 namespace jnd::app {
 
-/// One block of each task, catch trials among them, and a practice with feedback.
+/// A study with one block of each task, with catch trials, and a practice with feedback.
 inline const std::string kTaskStudy = R"json({
   "format": 1,
   "name": "tasks",

@@ -8,8 +8,9 @@
 #include "support/files.h"
 #include "support/places.h"
 
-// `./dev guards` and `./dev chaos --mutants` take hours, so that nobody runs them for a change
-// that only moves a line. Until then a guard that is no longer found would go untried.
+// `./dev guards` and `./dev chaos --mutants` take hours, so nobody runs them for a change that
+// only moves a line. Without this test, a guard whose line is no longer found would go untested
+// until then.
 
 namespace jnd::architecture {
 namespace guard_lists_test {

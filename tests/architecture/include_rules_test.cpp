@@ -16,8 +16,9 @@ namespace include_rules_test {
 
 namespace fs = std::filesystem;
 
-// The architecture, as data: the folders from the innermost to the outermost, and what each may
-// include besides itself. What it may include stands above it, so there is no circle.
+// The architecture as data: the folders from the innermost to the outermost, and what each may
+// include besides itself. A folder may include only folders above it in this list, so there is
+// no circle.
 const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"core", {}},
     {"core/safety", {"core"}},
@@ -32,7 +33,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"device/exoskeleton", {"core", "core/safety", "device"}},
     {"device/network", {"core", "core/safety", "core/exchange", "device"}},
     {"device/plugin", {"core", "core/safety", "device"}},
-    // A driver over jnd_device.h alone, in C.
+    // A driver that uses only jnd_device.h, in C.
     {"device/plugin/force_dimension", {}},
     {"device/sound", {"core", "core/sound", "device"}},
     {"device/twin", {"core", "device"}},
@@ -220,7 +221,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
 };
 
 // The only places that may name a third-party library other than Eigen, as beginnings of paths.
-// A library is matched by its beginning, too: "imgui" also covers imgui_impl_glfw.h.
+// A library is also matched by its beginning: "imgui" covers imgui_impl_glfw.h as well.
 const std::map<std::string, std::set<std::string>> kLibraryHomes = {
     {"sqlite3", {"core/storage/database."}},
     {"zstd", {"core/storage/sample_codec.", "core/storage/stream_file."}},
@@ -266,7 +267,7 @@ bool is_inside(const std::string& file, const std::set<std::string>& homes) {
                              [&](const std::string& home) { return file.starts_with(home); });
 }
 
-/// The place of this folder in `kFolders`; one past the end of those that are none of it.
+/// Returns the index of this folder in `kFolders`, or one past the end for others.
 std::size_t place_of(const std::string& folder) {
   const auto found =
       std::ranges::find(kFolders, folder, [](const auto& row) { return row.first; });
@@ -275,7 +276,7 @@ std::size_t place_of(const std::string& folder) {
 
 std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
 
-/// Every source file of the product.
+/// Returns every source file of the product.
 std::vector<fs::path> sources(const fs::path& root) {
   std::vector<fs::path> found;
   for (const std::string room : {"core", "device", "experiments", "analysis", "app"}) {
@@ -318,7 +319,7 @@ TEST(IncludeRules, NoCircleOfFolders) {
   }
 }
 
-// What is allowed and not used is an entrance that nobody watches.
+// An allowance that is not used would be an opening that nobody watches.
 TEST(IncludeRules, EveryAllowanceIsUsed) {
   const fs::path root = jnd::test_support::source_folder();
   std::map<std::string, std::set<std::string>> used;
@@ -355,8 +356,8 @@ TEST(IncludeRules, EveryFolderOfTestsIsInAProgram) {
   }
 }
 
-// Files are compiled in units of one folder, so a name that two of them give to different
-// things would be the same thing twice, or hide one behind the other.
+// Files of one folder are compiled in one unit. So a name that two files give to different
+// things would be defined twice, or one would hide the other.
 TEST(IncludeRules, NamesOfAFolderAreUniqueInItsUnits) {
   static const std::regex kName(
       R"re(^(?:(?:struct|class|enum class) (\w+)|(?:inline |static )?(?:constexpr|const) [^=;(]*?\b(k[A-Z]\w*)\b).*)re");
@@ -381,7 +382,7 @@ TEST(IncludeRules, NamesOfAFolderAreUniqueInItsUnits) {
   EXPECT_GT(files.size(), 100U);
 }
 
-// A device opened any other way would have no watchdog, no heartbeat or no stop.
+// A device that is opened in another way would have no watchdog, no heartbeat or no stop.
 TEST(IncludeRules, ADeviceIsOpenedInRealTimeInOnePlace) {
   const fs::path root = jnd::test_support::source_folder();
   const std::set<std::string> allowed = {
@@ -398,7 +399,7 @@ TEST(IncludeRules, ADeviceIsOpenedInRealTimeInOnePlace) {
   EXPECT_EQ(found, allowed);
 }
 
-// Whoever moves a device by a force of its own does so while nobody's hand is in it.
+// A guide moves a device by its own force, which is allowed only while nobody's hand is in it.
 TEST(IncludeRules, ALoopGetsAGuideInOnePlace) {
   const fs::path root = jnd::test_support::source_folder();
   std::set<std::string> found;

@@ -22,11 +22,12 @@ namespace window_words_test {
 
 namespace fs = std::filesystem;
 
-// Where the window's words are made. Here every sentence goes through `tr` and its like
-// (app/language/words.h), or a translator would never see it.
+// Folders that make the window's words. Every sentence in them must go through `tr` and its
+// like (app/language/words.h), or a translator would never see it.
 const std::vector<std::string> kFolders = {"app/gui", "app/operator"};
 
-// Files, as beginnings of paths, that show no words of their own or are not there yet, and why.
+// Files, as beginnings of paths, that show no words of their own or do not follow the rule yet,
+// and why.
 const std::map<std::string, std::string> kWithout = {
     {"app/gui/frame_times.", "a log for tests, and what is said on the terminal of it"},
     {"app/gui/hand_sign.", "names of signs, for the log of tests"},
@@ -37,16 +38,16 @@ const std::map<std::string, std::string> kWithout = {
     {"app/gui/application/open_window.", "said on the terminal, for there is no window"},
 };
 
-// What looks like words and is none, in whole.
+// Whole literals that look like words and are none.
 const std::vector<std::regex> kNoWords = {
-    std::regex(R"(((Ctrl|Shift|Esc|Enter|F\d+|[A-Z+-]) *)+)"),  // Keys, as printed on them.
+    std::regex(R"(((Ctrl|Shift|Esc|Enter|F\d+|[A-Z+-]) *)+)"),  // Keys as printed on them.
     std::regex("jnd"),                                          // The name of the program.
     std::regex(R"(N m|\{:g\} Hz)"),                             // Units.
-    std::regex("Software"),                                     // As OpenGL calls a renderer.
+    std::regex("Software"),                                     // OpenGL's name of a renderer.
 };
 
 const std::set<std::string> kMarks = {"tr", "trn", "tr_later", "as_is"};
-/// What is said in these is shown, be it a single small word.
+/// Everything in these functions is shown, even a single small word.
 const std::set<std::string> kDrawing = {"text",    "heading",     "chip",
                                         "tooltip", "draw_notice", "draw_card"};
 
@@ -58,7 +59,7 @@ struct Token {
   }
 };
 
-/// Without comments and the preprocessor's lines; neighbouring literals are one.
+/// Returns the tokens without comments and preprocessor lines. Adjacent literals are joined.
 std::vector<Token> tokens_of(const std::string& source) {
   static const std::regex kToken(
       R"re(//[^\n]*|/\*[^]*?\*/|#[^\n]*|R"\(([^]*?)\)"|R"(\w+)\([^]*?\)\2"|"(\\.|[^"\\\n])*"|'(\\.|[^'\\\n])+'|[A-Za-z_]\w*|\d[\w'.]*|\s+|.)re");
@@ -83,7 +84,7 @@ std::vector<Token> tokens_of(const std::string& source) {
   return tokens;
 }
 
-/// A literal without its quotes, escapes, and what is filled in by fmt ("{:.1f}") or printf.
+/// Returns a literal without its quotes, escapes, and holes for fmt ("{:.1f}") or printf.
 std::string words_in(const std::string& literal) {
   static const std::regex kFilledIn(R"(\{[^}]*\}|%[-+ #0-9.*l]*[a-z])");
   static const std::regex kEscape(R"(\\.)");
@@ -92,8 +93,7 @@ std::string words_in(const std::string& literal) {
 }
 
 /// Whether people would read it: two words, one that begins with a capital, or one beside a
-/// blank or something that is filled in. Names of controls and of files have underscores or
-/// dots.
+/// blank or a hole. Names of controls and of files have underscores or dots.
 bool is_for_people(const std::string& literal) {
   static const std::regex kWord(R"([“(]*[A-Za-z][a-z]+([-'’][A-Za-z]+)*[,.:;?!…)”]*)");
   static const std::regex kTitle(R"([“(]*[A-Z][a-z]+.*)");
@@ -119,12 +119,12 @@ struct Finding {
   std::string literal;
 };
 
-/// Literals for people that no translator would see.
+/// Returns literals for people that no translator would see.
 std::vector<Finding> unmarked(const std::string& source) {
   const std::vector<Token> tokens = tokens_of(source);
   std::vector<Finding> found;
-  std::vector<std::string> calls;  // Open parentheses, by the word before each.
-  bool is_marked = false;          // The literal before this one was, as trn's first.
+  std::vector<std::string> calls;  // The word before each open parenthesis.
+  bool is_marked = false;          // The literal before this one was marked, as trn's first.
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const Token& token = tokens[i];
     if (token.text == "(") calls.push_back(i > 0 ? tokens[i - 1].text : "");

@@ -76,7 +76,7 @@ void cover_one_person(int num_sets, std::uint64_t seed) {
   print_rows(rows);
 }
 
-/// The answers with the test in either interval, by turns.
+/// Draws the answers with the test in either interval, alternating.
 std::vector<AnswerCount> answers_in_either_order(double w, const Levels& levels, int num_trials,
                                                  RandomStream& random) {
   std::vector<AnswerCount> rows;

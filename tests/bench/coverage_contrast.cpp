@@ -13,17 +13,17 @@
 namespace jnd::coverage {
 namespace {
 
-/// Conditions with their Weber fractions, and weights of a contrast in their logarithms.
+/// Conditions with their Weber fractions, and the weights of a contrast in their logarithms.
 struct Design {
   std::string words;
   std::vector<double> weber_fractions;  ///< By condition.
-  std::vector<double> weights;          ///< By condition, of those that a person meets.
-  bool has_groups = false;  ///< The second half of the conditions is of other people.
+  std::vector<double> weights;          ///< By condition, of those that a person does.
+  bool has_groups = false;  ///< The second half of the conditions is done by other people.
   int num_people = 13;      ///< In each group.
-  double own_ln = 0.2;      ///< Sd of what is of its own in each condition.
+  double own_ln = 0.2;      ///< Sd of the part that is separate in each condition.
 };
 
-/// How often a test was significant, and its interval held the truth.
+/// How often a test was significant and its interval contained the truth.
 struct Count {
   Coverage coverage;
   int num_significant = 0, num_equivalent = 0, num_tests = 0;
@@ -34,7 +34,7 @@ struct Count {
     if (!estimate) return;
     ++num_tests;
     num_significant += p_value_of(*estimate, Tail::kTwoSided) < 0.05 ? 1 : 0;
-    // An effect that is as large as the margin is not smaller than it.
+    // An effect as large as the margin is not smaller than it.
     if (truth != 0.0) {
       num_equivalent += equivalence_p_value(*estimate, std::abs(truth)) < 0.05 ? 1 : 0;
     }

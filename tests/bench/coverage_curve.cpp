@@ -10,7 +10,8 @@
 namespace jnd::coverage {
 namespace {
 
-/// A curve whose truth is known: location 0.2, scale 0.7 over seven levels from -2 to 2.
+/// A curve whose truth is known, with location 0.2 and scale 0.7 over seven levels from -2 to
+/// 2.
 struct TrueCurve {
   std::string words;
   CurveModel model;
@@ -41,7 +42,7 @@ std::vector<AnswerCount> drawn_from(const CurveFit& curve, int num_trials,
   return rows;
 }
 
-/// Threshold, JND and slope at level 0.75 of the curve, by four kinds of intervals.
+/// Prints threshold, JND and slope at level 0.75 of the curve, with four kinds of intervals.
 std::string cover_curve(const TrueCurve& truth, int num_trials, int num_sets,
                         std::uint64_t seed) {
   RandomStream random(seed, "coverage of a psychometric function " + truth.words, {num_trials});

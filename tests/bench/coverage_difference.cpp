@@ -13,12 +13,12 @@ namespace {
 
 using Group = std::vector<ParticipantAnswers>;
 
-/// People in two conditions: how far their slopes go together, and whether their places do.
+/// People in two conditions: how their slopes correlate, and whether their places do.
 struct Pair {
   std::string words;
   int num_people = 13;
-  double spread_ln = 0.3;  ///< Sd of what is the same in both conditions.
-  double own_ln = 0.0;     ///< Sd of what is of its own in each.
+  double spread_ln = 0.3;  ///< Sd of the part that both conditions share.
+  double own_ln = 0.0;     ///< Sd of the part that is separate in each.
   bool own_places = false;
   double lapse = 0.0;
 };

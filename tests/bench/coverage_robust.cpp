@@ -10,8 +10,8 @@
 namespace jnd::coverage {
 namespace {
 
-/// Of one person, two answers to a level correlating by rho: Polya's urn, whose counts are
-/// beta-binomial.
+/// Draws one person's answers, of which two at one level correlate by rho: Polya's urn, whose
+/// counts are beta-binomial.
 std::vector<AnswerCount> scattered_answers_of(const Person& person, const Levels& levels,
                                               int num_trials, double rho,
                                               RandomStream& random) {

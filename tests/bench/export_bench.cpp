@@ -14,10 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kNumSessions = 26, kNumTrials = 500;
-// Of each trial: its event, its answer, one presentation with an event of its own.
+// Rows of each trial: its event, its answer, and one presentation with its event.
 constexpr std::int64_t kNumRows = kNumSessions * kNumTrials * 4;
 
-/// As many sessions as both studies of the thesis, each with some more trials.
+/// As many sessions as both studies of the thesis, each with more trials.
 class LargeStudy {
  public:
   LargeStudy() {
@@ -76,7 +76,7 @@ class LargeStudy {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
-/// `export csv` of a large study, from opening it on.
+/// Times `export csv` of a large study, including its opening.
 void export_csv(benchmark::State& state) {
   const LargeStudy study;
   for (auto _ : state) {

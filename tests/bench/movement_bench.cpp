@@ -9,8 +9,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// One participant's recording, from end to end: read, unpacked, measured. Argument 1: with the
-/// 22 joints of an exoskeleton. One core.
+/// Times the analysis of one participant's recording from end to end: reading, unpacking and
+/// measuring, on one core. With argument 1 it has the 22 joints of an exoskeleton.
 void movement_analysis(benchmark::State& state) {
   RecordedStudy study;
   core::RandomStream random(1, "movement bench");

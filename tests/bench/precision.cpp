@@ -1,6 +1,6 @@
-// How precisely a Weber fraction is known after so many trials, by constant stimuli, staircases
-// and QUEST+ on the same simulated people. `./dev precision` writes data/reference/precision.
-// The same seed gives the same files.
+// Measures how precisely a Weber fraction is known after a number of trials, by constant
+// stimuli, staircases and QUEST+ on the same simulated people. `./dev precision` writes
+// data/reference/precision. The same seed gives the same files.
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ constexpr double kReference = 8.0;
 constexpr double kLeastFraction = 0.05, kLargestFraction = 2.0;
 constexpr int kMaxTrials = 120, kStep = 10;
 
-/// Three ways to ask the same people, 120 trials each.
+/// A study with three ways to ask the same people, 120 trials each.
 const char* const kStudy = R"json({
   "format": 1, "name": "precision", "languages": ["en"], "title": {"en": "Precision"},
   "authors": ["jnd"], "stages": [
@@ -59,7 +59,7 @@ const char* const kStudy = R"json({
    "instruction": {"en": "Compare."}, "question": {"en": "Thicker?"}, "expected_trial_s": 10}
   ]})json";
 
-/// What is estimated after n trials; the names are columns.
+/// The estimators after n trials; their names are columns.
 const std::vector<std::pair<std::string, std::string>> kEstimators = {
     {"constant_stimuli", "constant stimuli, curve fitted"},
     {"staircase", "staircase, reversals averaged"},
@@ -70,7 +70,8 @@ double ln_within(double fraction) {
   return std::log(std::clamp(fraction, kLeastFraction, kLargestFraction));
 }
 
-/// ln w of the curve through the answers; where there is none, the end that its limit lies at.
+/// Returns ln w of the curve through the answers, or, if there is none, the end of the range at
+/// which its limit lies.
 double fitted(const std::vector<LevelAnswer>& answers) {
   std::map<double, AnswerCount> levels;
   for (const LevelAnswer& answer : answers) {
@@ -89,8 +90,8 @@ double fitted(const std::vector<LevelAnswer>& answers) {
   return ln_within(fit.reason.starts_with("separated") ? 0.0 : 1e300);
 }
 
-/// ln w by the mean of the reversals, all but those of the first steps, and the level that the
-/// rule converges to, the pse taken to be at the reference.
+/// Returns ln w from the mean of the reversals, without those of the first steps, and the level
+/// to which the rule converges. The pse is taken to be at the reference.
 double by_reversals(const Block& block, const std::vector<AnsweredTrial>& answered) {
   constexpr std::size_t kCoarseSteps = 2;
   double sum_ln = 0.0;
@@ -145,7 +146,8 @@ Errors errors_of(const std::vector<AnsweredBlock>& blocks, const QuestPlus& ques
   return errors;
 }
 
-/// People who compare steadily: only their noise, lapses and, if asked for, their pse differ.
+/// Returns people who compare steadily. Only their noise, lapses and, if requested, their pse
+/// differ.
 Laboratory steady_people(Laboratory laboratory, double pse_sd_ln) {
   laboratory.device.mechanical_viscosity_n_s_per_m = 0.0;
   Laboratory::Perceiver& perceiver = laboratory.perceiver;

@@ -25,7 +25,7 @@ struct Lateness {
   double p999_us = 0.0;
 };
 
-/// What a command printed; nothing if it failed.
+/// Returns what a command printed, or nothing if it failed.
 std::optional<std::string> output_of(const std::string& command) {
   FILE* pipe = ::popen((command + " 2>/dev/null").c_str(), "r");
   if (pipe == nullptr) return std::nullopt;
@@ -38,7 +38,7 @@ std::optional<std::string> output_of(const std::string& command) {
   return text;
 }
 
-/// The smallest bucket, of 1 us, that at least `ratio` of all were not longer than.
+/// Returns the smallest bucket, of 1 us, that at least `ratio` of all values do not exceed.
 double percentile_us(const std::vector<std::pair<double, double>>& histogram, double ratio) {
   double total = 0.0;
   for (const auto& [us, count] : histogram) total += count;
@@ -58,7 +58,8 @@ std::optional<Lateness> run_cyclictest(int seconds) {
   std::vector<std::pair<double, double>> histogram;
   std::istringstream lines(*text);
   for (std::string line; std::getline(lines, line);) {
-    // "000020 004711"; lines of comment begin with #, those beyond the histogram are in one.
+    // Lines are "000020 004711". Comments begin with #, and one of them counts the values
+    // beyond the histogram.
     if (line.rfind("# Histogram Overflows:", 0) == 0) {
       histogram.emplace_back(kHistogramUs, std::strtod(line.c_str() + 22, nullptr));
     }
@@ -104,9 +105,10 @@ int seconds_a_round() {
   return std::max(seconds, 1);
 }
 
-/// The loop beside cyclictest, by turns, three rounds of JND_BENCH_SECONDS (default 20): from
-/// when a tick was due until its force was written, and until the thread merely ran. Medians of
-/// the rounds, in microseconds, and their ratios. Anything else that runs moves both.
+/// Compares the loop with cyclictest, alternating, in three rounds of JND_BENCH_SECONDS
+/// (default 20): from when a tick was due until its force was written, and until the thread
+/// merely ran. Reports medians of the rounds, in microseconds, and their ratios. Any other
+/// program affects both.
 void loop_against_cyclictest(benchmark::State& state) {
   constexpr int kNumRounds = 3;
   const int seconds = seconds_a_round();

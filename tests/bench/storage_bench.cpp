@@ -14,7 +14,7 @@
 namespace jnd::core {
 namespace {
 
-/// An answer with its event, synced to disk.
+/// Times an answer with its event, synced to disk.
 void durable_commit(benchmark::State& state) {
   const test_support::TemporaryFolder folder;
   StudyStore store(folder.path() / "bench.study", StudyStore::Mode::kCreate);
@@ -44,8 +44,8 @@ void reference_fdatasync(benchmark::State& state) {
 }
 BENCHMARK(reference_fdatasync)->Unit(benchmark::kMicrosecond);
 
-/// A chunk of what the loop records of the simulated hand stroking through water, with bytes a
-/// sample.
+/// Encodes a chunk of what the loop records of the simulated hand that strokes through water.
+/// Reports the bytes of a sample.
 void encode_chunk(benchmark::State& state) {
   device::LumpedHandDevice hand({});
   LatestValue<HapticCommand> commands;

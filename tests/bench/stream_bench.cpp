@@ -49,8 +49,8 @@ core::StreamInfo bench_stream() {
           .format = core::ChannelFormat::kFloat32};
 }
 
-/// Carries datagrams between an inlet and the clock of an outlet, each way with a delay of its
-/// own: 50 us and an exponential part.
+/// Carries datagrams between an inlet and the clock of an outlet, with a separate delay in each
+/// direction: 50 us and an exponential part.
 class JitteringWay {
  public:
   JitteringWay(std::uint16_t service_port, double mean_delay_s)
@@ -101,9 +101,10 @@ class JitteringWay {
   std::thread thread_;
 };
 
-/// The clock of the other machine is fast by 40 ppm, and every datagram is late by 50 us and
-/// 0.4 ms on average, each way for itself. How far corrected times are off, in every hundredth
-/// of a second of JND_BENCH_SECONDS (default 120). Wanted: p99 of at most 0.2 ms.
+/// The clock of the other machine is fast by 40 ppm. Every datagram is late by 50 us and 0.4 ms
+/// on average, in each direction separately. Measures the error of corrected times in every
+/// hundredth of a second of JND_BENCH_SECONDS (default 120). The goal is a p99 of at most 0.2
+/// ms.
 void clock_synchronisation(benchmark::State& state) {
   constexpr double kDrift = 40e-6;
   constexpr double kMeanDelay_s = 0.4e-3;
@@ -147,8 +148,8 @@ void clock_synchronisation(benchmark::State& state) {
 }
 BENCHMARK(clock_synchronisation)->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();
 
-/// An hour at 1 kHz and ten channels from an outlet to an inlet of this machine, as fast as it
-/// goes. Wanted: nothing lost, nothing out of order.
+/// Sends an hour of samples at 1 kHz with ten channels from an outlet to an inlet on this
+/// machine, as fast as possible. The goal is nothing lost and nothing out of order.
 void an_hour_of_samples(benchmark::State& state) {
   constexpr std::int64_t kNumSamples = 3'600'000;
   constexpr std::int64_t kBatch = 100;
@@ -196,11 +197,11 @@ void an_hour_of_samples(benchmark::State& state) {
 BENCHMARK(an_hour_of_samples)->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();
 
 struct SessionLateness {
-  std::vector<std::pair<double, double>> buckets_us;  ///< Up to, and how many.
+  std::vector<std::pair<double, double>> buckets_us;  ///< Upper end and count.
   double missed = 0.0;
 };
 
-/// A session of so many seconds, as the program keeps its punctuality.
+/// Runs a session of this many seconds and returns its stored punctuality.
 std::optional<SessionLateness> run_session(int seconds, bool has_streams) {
   const test_support::TemporaryFolder folder;
   std::ofstream(folder.path() / "move.json")
@@ -257,8 +258,9 @@ double bucket_percentile_us(const SessionLateness& run, double ratio) {
   return 0.0;
 }
 
-/// How late the loop is in a session without streams and with markers and samples that somebody
-/// records, by turns, three rounds of JND_BENCH_SECONDS (default 20): medians of the rounds.
+/// Measures how late the loop is in a session without streams, and with markers and samples
+/// that somebody records, alternating, in three rounds of JND_BENCH_SECONDS (default 20).
+/// Reports medians of the rounds.
 void loop_with_and_without_streams(benchmark::State& state) {
   constexpr int kNumRounds = 3;
   const int seconds = stream_seconds(20);

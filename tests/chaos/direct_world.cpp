@@ -38,7 +38,7 @@ class DirectWorld {
     program_.pass_millisecond(now_ms_);
   }
 
-  /// The loop has read the device and has not written its force yet.
+  /// This happens after the loop has read the device and before it writes its force.
   void happen_within_tick() {
     program_.press_stop_within_tick(now_ms_);
     int held_up_ms = 0;

@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 using test_support::ProgramOptions;
 using test_support::ProgramOutcome;
 
-/// SAFETY.md and device/network/README.md: of what calls itself a simulation.
+/// From SAFETY.md and device/network/README.md, for a device that calls itself a simulation.
 constexpr int kServerPatience_ms = 100;
 constexpr int kHostPatience_ms = 250;
-/// For whoever has to act and is not the one whose clock is looked at: another thread of the
-/// process, or a datagram in the hands of the system.
+/// Tolerance for the party that has to act if another one's clock is observed: another thread
+/// of the process, or a datagram that the system holds.
 constexpr int kSlack_ms = 50;
 
 ProgramOutcome run_other(const std::string& program, const std::vector<std::string>& words) {
@@ -34,7 +34,7 @@ fs::path reference(const std::string& name) {
   return test_support::source_folder() / "device/network/reference" / name;
 }
 
-/// As somebody does who has nothing of this program but a header or a file.
+/// Compiles like somebody who has only a header or a file of this program.
 fs::path compiled(const std::vector<std::string>& words, const fs::path& source,
                   const fs::path& made) {
   std::vector<std::string> all = {"-std=c11", "-O2", "-Wall", "-Wextra", "-Werror"};
@@ -43,7 +43,7 @@ fs::path compiled(const std::vector<std::string>& words, const fs::path& source,
   return run_other("cc", all).exit_code == 0 ? made : fs::path();
 }
 
-/// Of "forces.1234": the process that writes it.
+/// Returns the process that writes "forces.1234".
 pid_t process_of(const fs::path& log) {
   const std::string number = log.extension().string();
   return number.size() > 1 ? std::stoi(number.substr(1)) : -1;
@@ -90,7 +90,7 @@ DoorDevice::DoorDevice(const DoorSchedule& schedule, fs::path folder)
 }
 
 ProgramOptions DoorDevice::options() const {
-  // Nothing is to be written beside the sources.
+  // Nothing may be written beside the sources.
   return {.folder = folder_,
           .environment = {{"XDG_CONFIG_HOME", (folder_ / "config").string()},
                           {"PYTHONDONTWRITEBYTECODE", "1"}}};
@@ -174,7 +174,7 @@ pid_t DoorDevice::host() const {
   if (!has_driver(schedule_.door)) return -1;
   pid_t newest = -1;
   fs::file_time_type written;
-  // One whose program was killed lives on for a moment.
+  // A driver whose program was killed lives on for a moment.
   for (const fs::path& file : log_files()) {
     if (!is_running(process_of(file))) continue;
     const fs::file_time_type at = fs::last_write_time(file);
@@ -216,7 +216,7 @@ std::vector<ForceLog> DoorDevice::logs() const {
   return logs;
 }
 
-/// The numbers stand in observing_driver.c, c_device.c and python_device.py.
+/// The numbers are in observing_driver.c, c_device.c and python_device.py.
 Happenings DoorDevice::promised() const {
   if (!has_driver(schedule_.door)) {
     return {.most_per_point_n = 8.0, .most_in_all_n = 20.0, .most_step_n = 2.0};

@@ -14,11 +14,11 @@
 
 namespace jnd::chaos {
 
-/// What a machine may lack: a compiler of C, Python, the program. Drivers and devices are
+/// Tools that a machine may lack: a C compiler, Python, the program. Drivers and devices are
 /// compiled once for all schedules.
 class DoorTools {
  public:
-  /// Those of this machine.
+  /// Returns the tools of this machine.
   [[nodiscard]] static const DoorTools& here();
 
   [[nodiscard]] bool has(Door door) const;
@@ -27,44 +27,44 @@ class DoorTools {
 
  private:
   DoorTools();
-  std::filesystem::path driver_, c_device_;  ///< Empty: could not be made.
+  std::filesystem::path driver_, c_device_;  ///< Empty if they could not be made.
   bool has_program_ = false, has_python_ = false;
 };
 
-/// The device of a schedule and, where it has one, its server. Everything is in `folder`.
+/// The device of a schedule and, if it has one, its server. Everything is in `folder`.
 class DoorDevice {
  public:
   DoorDevice(const DoorSchedule& schedule, std::filesystem::path folder);
 
-  /// What stands behind `--device`.
+  /// Returns what follows `--device`.
   [[nodiscard]] std::string words() const;
   [[nodiscard]] test_support::ProgramOptions options() const;
 
-  /// Of a device across the network; at the port that it had before, if any. False: the port
-  /// is not to be had.
+  /// For a device across the network: serves it, at the port that it had before, if any.
+  /// Returns false if the port is not available.
   [[nodiscard]] bool serve();
   void kill_server();
-  /// What became of a server that has ended by itself; none if it runs.
+  /// Returns the result of a server that has ended by itself, or none if it runs.
   [[nodiscard]] std::optional<test_support::ProgramOutcome> ended_server();
   void signal_server(int number) const;
   [[nodiscard]] bool is_served() const { return server_.has_value(); }
-  /// The process in which the newest driver runs; -1: none.
+  /// Returns the process in which the newest driver runs, or -1.
   [[nodiscard]] pid_t host() const;
 
   void plug_in(bool is_in) const;
-  /// From now on: whether the device has force that is of a program to come.
+  /// From now on, tells whether the device gets force from a program that starts later.
   void await_force();
   [[nodiscard]] bool has_new_force();
-  /// All devices that were open, one after the other.
+  /// Returns the logs of all devices that were open, one after another.
   [[nodiscard]] std::vector<ForceLog> logs() const;
-  /// Limits, and for how long a force may stand that nobody renews.
+  /// Returns the limits, and how long a force may persist that nobody renews.
   [[nodiscard]] Happenings promised() const;
-  /// From the last command of a program on.
+  /// Counted from the last command of a program.
   [[nodiscard]] int force_ends_within_ms() const;
-  /// From the last command to a driver on, whoever gives it.
+  /// Counted from the last command to a driver, whoever gives it.
   [[nodiscard]] int driver_force_ends_within_ms() const;
-  /// For so long whoever has the device across the network, or else the driver's process, may
-  /// stand still without an end of the force.
+  /// The party that has the device across the network, or otherwise the driver's process, may
+  /// stand still for this long without an end of the force.
   [[nodiscard]] int longest_pause_ms() const;
 
  private:

@@ -97,7 +97,7 @@ void Oracle::loop_ticked() {
   silent_ms_ = now_ms_ - last_beat_ms_;
 }
 
-/// It knows of no arming before its own.
+/// A new program knows of no arming before its own.
 void Oracle::program_started() {
   dead_ms_ = 0;
   last_tick_ms_ = now_ms_;
@@ -147,7 +147,7 @@ void Oracle::judge_staleness(const core::HapticState& state) {
   const int most = is_networked() ? kStaleByNet_ms : kStale_ms;
   if (now_ms_ - last_new_ms_ > most) revoke("measurements stood still", Way::kLoop);
   if (is_stale) return;
-  // Moving, as it says itself, and yet where it was.
+  // Such a point moves according to its own velocity, and yet is where it was.
   bool any_stands = false;
   double most_way_m = 0.0;
   for (std::size_t i = 0; i < stuck_way_m_.size(); ++i) {
@@ -165,7 +165,8 @@ void Oracle::judge_staleness(const core::HapticState& state) {
   }
 }
 
-/// Of a point that was held before and is held still. A lossy network may show none of it.
+/// This judges a point that was held before and still is. A lossy network may show nothing of a
+/// leap.
 void Oracle::judge_leaps(const core::HapticState& state) {
   if (is_networked() &&
       schedule_.is_disturbed(now_ms_ - kDisturbanceLasts_ms, now_ms_ + kDisturbanceLasts_ms)) {
@@ -239,7 +240,7 @@ void Oracle::begin_millisecond(int now_ms) {
   cut_ms_ = is_cut ? cut_ms_ + 1 : 0;
 }
 
-/// What lasts and is noticed by its lasting.
+/// Judges the troubles that are noticed only because they last.
 void Oracle::judge_silences() {
   const bool may_be_late =
       is_networked() && schedule_.has_late_datagrams(now_ms_ - kDisturbanceLasts_ms, now_ms_);
@@ -254,8 +255,8 @@ void Oracle::judge_silences() {
 
 void Oracle::judge_force() {
   for (Revocation& revocation : revocations_) {
-    // No command counts, and none grows old, while the server stands still: then the device
-    // ends the force by itself.
+    // While the server stands still, no command counts and none grows old; then the device ends
+    // the force by itself.
     if (is_networked() && !was_written_ && !revocation.ends_with_next_write) {
       ++revocation.deadline_ms;
     }

@@ -11,17 +11,18 @@
 
 namespace jnd::chaos {
 
-/// What a hand must never feel. It sits in the device, behind everything else, and knows what
-/// the schedule did, what the device said and what force arrived: nothing of the program, of
-/// its telemetry or of its faults. The times in which a force has to be gone are those of
-/// SAFETY.md.
+/// Judges what a hand must never feel. The oracle sits in the device, behind everything else,
+/// and knows what the schedule did, what the device said and what force arrived. It knows
+/// nothing of the program, of its telemetry or of its faults. The times within which a force
+/// has to be gone are those of SAFETY.md.
 ///
-/// In each millisecond: `begin_millisecond`, then whatever happens, in its order.
+/// In each millisecond, call `begin_millisecond` first and then report what happens, in its
+/// order.
 class Oracle {
  public:
   explicit Oracle(const Schedule& schedule);
 
-  // What people did.
+  // Acts of people.
   void armed();
   void disarmed();
   void stop_pressed();
@@ -34,22 +35,22 @@ class Oracle {
   void program_started();
   void server_restarted();
 
-  // What the device did.
+  // Acts of the device.
   void handed_out(const core::HapticState& state);
   void could_not_be_read();
-  /// A write came. What the hand is under since: `standing_n`.
+  /// A write came, and the hand has been under `standing_n` since.
   void written(const core::PointVectors& standing_n, bool was_taken);
-  /// Something else than a write took the force away.
+  /// Something other than a write took the force away.
   void zeroed() { standing_n_ = core::zero_vectors(); }
-  /// The forces that acted for a millisecond while the hand went this way.
+  /// These forces acted for a millisecond while the hand went this way.
   void moved(const core::PointVectors& acted_n, const Eigen::Vector3d& way_m);
 
-  /// Judges the millisecond before and begins another.
+  /// Judges the last millisecond and begins another.
   void begin_millisecond(int now_ms);
 
-  /// The first thing that was wrong; empty: nothing was.
+  /// The first thing that was wrong; "" if nothing was.
   [[nodiscard]] const std::string& violation() const noexcept { return violation_; }
-  /// For whoever wants to know whether a schedule came to anything.
+  /// Tells whether a schedule led to any force at all.
   [[nodiscard]] int num_milliseconds_with_force() const noexcept { return num_with_force_; }
   [[nodiscard]] double most_given_j() const noexcept { return most_given_j_; }
 
@@ -63,10 +64,10 @@ class Oracle {
     bool ends_with_next_write;
   };
 
-  /// Within how much time a cause has to reach the force.
+  /// How a cause reaches the force, which decides how long that may take.
   enum class Way {
-    kDevice,  ///< Whoever reads and writes the device sees it: in the same tick.
-    kLoop,    ///< Only the loop sees it: a network may be in between.
+    kDevice,  ///< The side that reads and writes the device sees the cause, in the same tick.
+    kLoop,    ///< Only the loop sees the cause; a network may be in between.
   };
 
   [[nodiscard]] bool is_networked() const { return schedule_.world == World::kNetwork; }
@@ -110,12 +111,12 @@ class Oracle {
   int num_with_force_ = 0;
 };
 
-/// The most that a hand may be given beyond what it put in, within the quarter of a second that
-/// the watch over the port remembers: 0.25 J where reading and force are prompt (the largest of
-/// 6000 schedules was 0.19 J, of 30 g). Where they are late, or a force stands until a
-/// watchdog ends it, it pushes until a reading shows it, and m v = F t: (20 N t)^2 / 2 m comes
-/// on top. The limiter would allow 30 N; the energies that were found are those of 14 N, so
-/// that the bound is twice what was found.
+/// The most energy that a hand may be given beyond what it put in, within the quarter of a
+/// second that the watch over the port remembers. It is 0.25 J where reading and force are
+/// prompt (the largest of 6000 schedules was 0.19 J, with 30 g). Where they are late, or a
+/// force stands until a watchdog ends it, the force pushes until a reading shows it. Then m v =
+/// F t, so (20 N t)^2 / 2 m is added. The limiter would allow 30 N; the energies that were
+/// found are those of 14 N, so that the bound is twice what was found.
 [[nodiscard]] double most_energy_j(const Schedule& schedule);
 
 }  // namespace jnd::chaos

@@ -7,7 +7,7 @@
 namespace jnd::chaos {
 namespace {
 
-/// As `device::WatchedLoop` has it for a device at which somebody can be hurt.
+/// `device::WatchedLoop` has these values for a device at which somebody can be hurt.
 constexpr int kLongestStall_ms = 20;
 constexpr int kLookEvery_ms = 2;
 constexpr int kBeatEvery_ms = 10;
@@ -92,7 +92,7 @@ void ProgramInVirtualTime::tick_if_due(int now_ms) {
     return;
   }
   const int num_missed = last_tick_ms_ == 0 ? 0 : now_ms - last_tick_ms_ - 1;
-  // As the loop's real-time thread does.
+  // The loop's real-time thread does the same.
   if (num_missed >= kLongestStall_ms) loop_->stalled();
   loop_->due(in_ns(now_ms), num_missed);
   last_tick_ms_ = now_ms;

@@ -12,7 +12,7 @@ namespace jnd::chaos {
 namespace {
 
 constexpr double kShareOfProcesses = 0.05;
-constexpr int kNumFields = 12;  ///< Three axes of the four vectors of a measurement.
+constexpr int kNumFields = 12;  ///< Three axes of each of the four vectors of a measurement.
 
 struct TroubleKind {
   Trouble what;
@@ -22,7 +22,7 @@ struct TroubleKind {
   double least, most;
 };
 
-/// A new fault is a line here, a name in `Trouble`, and a few lines where it happens.
+/// A new trouble needs a line here, a name in `Trouble`, and a few lines where it happens.
 constexpr std::array kTroubles = {
     TroubleKind{Trouble::kArm, "somebody arms", true, true, 0, 0, 0, 0},
     TroubleKind{Trouble::kDisarm, "somebody disarms", true, true, 0, 0, 0, 0},
@@ -90,7 +90,7 @@ void add_acts_of_people(core::RandomStream& random, Schedule& schedule) {
     if (event.what != Trouble::kPressStop && event.what != Trouble::kPressStopWithinTick) {
       continue;
     }
-    // Now and then all keys at once, in whatever order.
+    // Now and then people press all keys at once, in any order.
     const bool is_hasty = random.with_probability(0.3);
     const int least_ms = is_hasty ? event.at_ms - 2 : event.at_ms;
     const std::uint64_t within_ms = is_hasty ? 5 : 800;
@@ -98,7 +98,7 @@ void add_acts_of_people(core::RandomStream& random, Schedule& schedule) {
     acts.push_back({.at_ms = soon_ms(), .what = Trouble::kReleaseStop});
     if (!is_hasty) continue;
     acts.push_back({.at_ms = soon_ms(), .what = Trouble::kArm});
-    // As if the loop had not looked meanwhile.
+    // Then the loop does not look in the meantime.
     acts.push_back({.at_ms = least_ms, .lasts_ms = 6, .what = Trouble::kLoopStalls});
   }
   schedule.events.insert(schedule.events.end(), acts.begin(), acts.end());
@@ -117,7 +117,7 @@ void draw_events(core::RandomStream& random, Schedule& schedule) {
   std::ranges::stable_sort(schedule.events, {}, &Event::at_ms);
 }
 
-/// A program that is stopped or gone has no watchdog: that needs a device that knows it.
+/// A program that is stopped or gone has no watchdog. The device has to notice that by itself.
 bool needs_a_device_that_zeroes_by_itself(const Schedule& schedule) {
   return std::ranges::any_of(schedule.events, [](const Event& event) {
     return event.what == Trouble::kProgramStops || event.what == Trouble::kProgramIsKilled ||

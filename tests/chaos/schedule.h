@@ -9,9 +9,9 @@ namespace jnd::chaos {
 
 /// Where a schedule is played.
 enum class World {
-  kDirect,   ///< Loop and device in one program, in virtual time.
-  kNetwork,  ///< A network between them, in virtual time.
-  kProcess,  ///< The real program, killed, stopped and starved while it writes a study.
+  kDirect,   ///< Loop and device are in one program, in virtual time.
+  kNetwork,  ///< A network is between them, in virtual time.
+  kProcess,  ///< The real program is killed, stopped and starved while it writes a study.
 };
 
 /// What people do and what goes wrong. `kTroubles` says of each where it can happen, for how
@@ -23,43 +23,43 @@ enum class Trouble : std::uint8_t {
   kReleaseStop,
   kPressStopWithinTick,  ///< After the device was read and before its force is written.
   kNewMedium,
-  kBrokenMedium,  ///< A command whose amount is no number.
+  kBrokenMedium,  ///< A command with an amount that is not a number.
   kLoopStalls,
   kLoopHeldUpWithinTick,  ///< The loop is held up between reading and writing.
   kWindowStalls,
   kServerStalls,
-  kProgramStops,     ///< SIGSTOP: loop, watchdog and window at once.
-  kProgramIsKilled,  ///< And started anew afterwards.
+  kProgramStops,     ///< SIGSTOP: stops loop, watchdog and window at once.
+  kProgramIsKilled,  ///< The program is killed, and started anew afterwards.
   kServerRestarts,
-  kUnplugged,  ///< Nothing gets through to the device and back.
+  kUnplugged,  ///< Nothing gets through to the device or back.
   kNoNumber,   ///< NaN in one field of the measurement.
-  kInfinity,   ///< Infinity in it.
+  kInfinity,   ///< Infinity in one field of the measurement.
   kPositionsFreeze,
-  kReadingFreezes,  ///< With its time.
+  kReadingFreezes,  ///< The whole measurement freezes, its time included.
   kVelocitySign,
   kReadingLate,
   kForceLate,
   kReadsFail,
   kWritesFail,
   kPointComesOff,
-  kLeap,     ///< A point is elsewhere, in metres.
-  kTooFast,  ///< A point's velocity is off, in m/s.
-  kLoses,    ///< This share of the datagrams.
+  kLeap,     ///< A point leaps by `size` metres.
+  kTooFast,  ///< A point's velocity is off by `size`, in m/s.
+  kLoses,    ///< The share `size` of the datagrams is lost.
   kDoubles,
-  kDelays,    ///< All datagrams, by so many ms.
-  kReorders,  ///< Each datagram by up to so many ms.
+  kDelays,    ///< All datagrams are late by `size` ms.
+  kReorders,  ///< Each datagram is late by up to `size` ms.
   kCorrupts,
-  kReplays,  ///< Old ones are sent again.
+  kReplays,  ///< Old datagrams are sent again.
 };
 
-/// One trouble, from `at_ms` on. Acts last no time.
+/// One trouble, from `at_ms` on. Acts of people last no time.
 struct Event {
   int at_ms = 0;
   int lasts_ms = 0;
   Trouble what = Trouble::kArm;
-  int point = 0;      ///< Of the hand, where one is meant.
-  int field = 0;      ///< Of the measurement, where one is meant.
-  double size = 0.0;  ///< As `Trouble` says.
+  int point = 0;      ///< Point of the hand, for troubles of one point.
+  int field = 0;      ///< Field of the measurement, for troubles of one field.
+  double size = 0.0;  ///< Strength, in the unit that `Trouble` says.
 
   [[nodiscard]] bool is_on(int now_ms) const noexcept {
     return now_ms >= at_ms && now_ms < at_ms + lasts_ms;
@@ -69,37 +69,38 @@ struct Event {
   }
 };
 
-/// All of one run. A pure function of its seed.
+/// All that happens in one run. It is a pure function of its seed.
 struct Schedule {
   std::uint64_t seed = 0;
   World world = World::kDirect;
   int lasts_ms = 0;
   double hand_mass_kg = 0.3;
-  double stroke_m = 0.1;    ///< Amplitude of what the person does.
+  double stroke_m = 0.1;    ///< Amplitude of the person's strokes.
   double stroke_hz = 1.0;   ///< Strokes to and fro.
-  double filter_hz = 0.0;   ///< Of the device's velocity; 0: none.
-  int reading_late_ms = 0;  ///< Always; events come on top.
+  double filter_hz = 0.0;   ///< Cutoff of the filter of the device's velocity; 0: none.
+  int reading_late_ms = 0;  ///< This lateness is always there; events come on top.
   int force_late_ms = 0;
   double viscosity_pa_s = 8.0;
-  bool zeroes_by_itself = true;  ///< The device, 20 ms after the last write.
-  std::vector<Event> events;     ///< By their time.
+  /// Whether the device zeroes its force 20 ms after the last write.
+  bool zeroes_by_itself = true;
+  std::vector<Event> events;  ///< Sorted by time.
 
-  /// The first event of the kind that is on now; nullptr: none.
+  /// The first event of this kind that is on now; nullptr if there is none.
   [[nodiscard]] const Event* on(Trouble what, int now_ms) const noexcept;
-  /// Whether something was on that holds up or loses what goes between loop and device.
+  /// Whether something that holds up or loses what goes between loop and device was on.
   [[nodiscard]] bool is_disturbed(int from_ms, int to_ms) const noexcept;
-  /// Whether datagrams may have come late, or again.
+  /// Whether datagrams may have come late, or twice.
   [[nodiscard]] bool has_late_datagrams(int from_ms, int to_ms) const noexcept;
-  /// Whether a force may stand for a while that was meant for a moment: until a watchdog ends
-  /// it, or until it is seen that readings stand still.
+  /// Whether a force that was meant for a moment may stand for a while: until a watchdog ends
+  /// it, or until the loop sees that readings stand still.
   [[nodiscard]] bool may_let_a_force_stand() const noexcept;
-  /// The most by which reading and force together are ever late, on the way to the device.
+  /// The most by which reading and force together are ever late on the way to the device.
   [[nodiscard]] int most_late_ms() const noexcept;
 };
 
 [[nodiscard]] Schedule drawn_schedule(std::uint64_t seed);
 
-/// A few lines for a person: what is played, one event a line.
+/// Describes what is played in a few lines for a person, one event a line.
 [[nodiscard]] std::string told(const Schedule& schedule);
 
 [[nodiscard]] std::string_view name(Trouble what) noexcept;

@@ -9,8 +9,8 @@
 
 namespace jnd::chaos {
 
-/// The events of a session of which the program said that they are on the disk. The judge of
-/// whether they are.
+/// Collects the events of a session of which the program said that they are on the disk, and
+/// judges whether they are.
 class ToldEvents {
  public:
   explicit ToldEvents(std::filesystem::path study) : study_(std::move(study)) {}
@@ -18,12 +18,14 @@ class ToldEvents {
   [[nodiscard]] bool empty() const noexcept { return lines_.empty(); }
   [[nodiscard]] std::size_t size() const noexcept { return lines_.size(); }
   void add(const std::string& line) { lines_.push_back(line); }
-  /// Whole lines count: the last one of a killed program may have been cut off.
+  /// Takes the whole lines of the output: the last line of a killed program may have been cut
+  /// off.
   void take(const test_support::ProgramOutcome& outcome);
 
-  /// What is missing in the study, or wrong about it by the word of `jnd verify`; "": nothing.
+  /// What is missing in the study, or what `jnd verify` finds wrong about it; "" if nothing.
   [[nodiscard]] std::string problem(const test_support::ProgramOptions& options) const;
-  /// Whether there is a session to resume, although nothing may have been told of it yet.
+  /// Whether there is a session to resume, although the program may not yet have told anything
+  /// of it.
   [[nodiscard]] bool has_session() const;
   [[nodiscard]] bool session_is_complete() const;
 

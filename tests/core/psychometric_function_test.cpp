@@ -9,7 +9,7 @@ namespace jnd::core {
 namespace psychometric_function_test {
 
 TEST(PsychometricFunction, IsAt84Point13PercentOneWeberFractionAboveItsCentre) {
-  // Bergmann Tiest et al. (2013): f(p (1 + w)) = Phi(1).
+  // Bergmann Tiest et al. (2013) define w by f(p (1 + w)) = Phi(1).
   for (const double pse : {1.853, 16.06}) {
     for (const double w : {0.2445, 0.2928, 0.6974}) {
       const PsychometricFunction f{.pse = pse, .weber_fraction = w};

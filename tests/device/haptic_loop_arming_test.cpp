@@ -265,7 +265,7 @@ TEST_F(LoopArmingTest, ADeviceThatWasHaltedGetsItsZerosFirst) {
   EXPECT_GT(device.last_total_n().norm(), 0.5);
 }
 
-/// The same measurement again and again: the device's fault, unless the loop itself stood
+/// The same measurement again and again is the device's fault, unless the loop itself stood
 /// still.
 TEST_F(LoopArmingTest, AnOldMeasurementIsTheMachinesFaultWhereTicksWereMissed) {
   for (const bool missed : {false, true}) {

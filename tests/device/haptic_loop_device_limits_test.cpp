@@ -1,4 +1,4 @@
-// A device that can do less than the loop: the loop keeps within it.
+// If a device can do less than the loop, the loop keeps within the device's limits.
 #include "haptic_loop_fixture.h"
 
 namespace jnd::device {

@@ -13,7 +13,8 @@
 
 namespace jnd::device {
 
-/// A loop over a scripted device that may have faults injected, with all that it exchanges.
+/// A loop over a scripted device, which may have faults injected, with all that the loop
+/// exchanges.
 class HapticLoopTest : public ::testing::Test {
  protected:
   HapticLoopTest() { make_loop({}); }
@@ -44,7 +45,7 @@ class HapticLoopTest : public ::testing::Test {
     return published_telemetry.value();
   }
 
-  /// The largest force the device has received at any point since `first_tick`.
+  /// The largest force that the device has received at any point since `first_tick`.
   double max_received_n(std::size_t first_tick) const {
     double max = 0.0;
     for (std::size_t tick = first_tick; tick < device.received.size(); ++tick) {
@@ -64,7 +65,7 @@ class HapticLoopTest : public ::testing::Test {
   std::unique_ptr<FaultInjectingDevice> faulty;
   std::unique_ptr<HapticLoop> loop;
   std::uint64_t sequence = 0;
-  bool starts_armed = true;  ///< Loops made from now on.
+  bool starts_armed = true;  ///< Whether loops that are made from now on start armed.
 };
 
 }  // namespace jnd::device

@@ -24,9 +24,9 @@ class LateDevice final : public HapticDevice {
  public:
   struct Parameters {
     double mass_kg = 0.1;
-    double cutoff_hz = 40.0;     ///< Of the velocity's filter of first order; 0: none.
-    int velocity_lag_ticks = 5;  ///< After the filter.
-    int reading_lag_ticks = 0;   ///< Of the whole measurement, its own time stamp included.
+    double cutoff_hz = 40.0;     ///< Cutoff of the first-order filter of the velocity; 0: none.
+    int velocity_lag_ticks = 5;  ///< Applied after the filter.
+    int reading_lag_ticks = 0;   ///< Lag of the whole measurement, its own time stamp included.
     int force_lag_ticks = 0;
     double velocity_sign = 1.0;
     double begins_m_per_s = 0.3;
@@ -45,7 +45,7 @@ class LateDevice final : public HapticDevice {
   [[nodiscard]] bool read(core::HapticState& state) noexcept override {
     state = states_[static_cast<std::size_t>((tick_ - parameters_.reading_lag_ticks) %
                                              kMostLagTicks)];
-    // A clock of its own that goes on is what a late reading hides behind.
+    // The device's own clock goes on, and so hides that the reading is late.
     state.device_time_ns = 1'000'000 * tick_;
     return true;
   }
@@ -55,7 +55,7 @@ class LateDevice final : public HapticDevice {
     const core::PointVectors acting =
         sent_[static_cast<std::size_t>((tick_ - parameters_.force_lag_ticks) % kMostLagTicks)];
     const double force_n = total_of(acting).x();
-    // Exact under a force that stays for a period.
+    // This solution is exact under a force that stays constant for a period.
     const double before_m_per_s = velocity_m_per_s_;
     velocity_m_per_s_ += kPeriod_s / parameters_.mass_kg * force_n;
     const double way_m = 0.5 * kPeriod_s * (before_m_per_s + velocity_m_per_s_);
@@ -71,7 +71,7 @@ class LateDevice final : public HapticDevice {
   void close() noexcept override {}
   void halt() noexcept override {}
 
-  /// The measurements before any force: the hand comes at its speed.
+  /// Fills in the measurements before any force, in which the hand comes at its speed.
   void begin() {
     const double begins_m_per_s = velocity_m_per_s_;
     filtered_m_per_s_ = begins_m_per_s;
@@ -159,8 +159,9 @@ LateDevice::Parameters late(Late where, double mass_kg, int lag_ticks) {
 
 core::MediumAmounts thick() { return core::viscous({.viscosity_pa_s = 21.0}); }
 
-/// Without a fault it has come to rest and given nothing; else the fault came before a hand is
-/// hurt: it got some tens of millijoules, and the speed of them.
+/// Expects a run without a fault in which the hand has come to rest and was given nothing, or a
+/// fault that comes before a hand is hurt: it got some tens of millijoules, and the speed that
+/// they give.
 void expect_rest_or_an_early_fault(const LateDevice::Parameters& parameters,
                                    const core::MediumAmounts& medium, Fault wanted) {
   Rig rig(parameters, medium);
@@ -173,7 +174,7 @@ void expect_rest_or_an_early_fault(const LateDevice::Parameters& parameters,
     return;
   }
   EXPECT_EQ(fault, wanted);
-  // Seen at once, or as late as the whole reading is.
+  // The energy is seen at once, or as late as the whole reading is.
   const double most_j = parameters.reading_lag_ticks < 10 ? 0.15 : 0.3;
   EXPECT_LT(rig.device.top_given_j, most_j);
   EXPECT_LE(rig.device.top_m_per_s, std::sqrt(2.0 * (begins_j + most_j) / parameters.mass_kg));
@@ -193,8 +194,8 @@ TEST(HapticLoopPort, NoLagShakesAHandWhateverItsMass) {
 }
 
 TEST(HapticLoopPort, TheBuzzOfALightHandIsAFault) {
-  // 0.1 kg in 21 Pa s, the velocity filtered at 40 Hz and 5 ms late: without a watch 30 N and
-  // 2.4 m/s to and fro for ever, 31 J every ten seconds.
+  // 0.1 kg moves in 21 Pa s, with the velocity filtered at 40 Hz and 5 ms late. Without a
+  // watch, 30 N and 2.4 m/s would go to and fro for ever, which is 31 J every ten seconds.
   Rig rig(late(Late::kVelocity, 0.1, 5), thick());
   EXPECT_EQ(rig.run(10.0), Fault::kEnergyGiven);
   EXPECT_EQ(rig.device.last_force_n, 0.0);
@@ -228,7 +229,7 @@ TEST(HapticLoopPort, WhatIsStableAtTwentyOnePascalSecondsNeverFaults) {
   }
 }
 
-/// Tells nothing of the force that acted.
+/// A device that tells nothing of the force that acted.
 class SilentDevice final : public HapticDevice {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "silent"; }
@@ -286,7 +287,7 @@ TEST(HapticLoopPort, ADeviceThatNeverTellsOfTheForceItGivesIsAFault) {
   bool tells = true;
   int num_reads = 0;
   device.while_read = [&] {
-    // To and fro, so that the hand stays in the workspace.
+    // The hand goes to and fro, so that it stays in the workspace.
     if (++num_reads % 200 == 0) device.move_all({num_reads % 400 == 0 ? 0.3 : -0.3, 0.0, 0.0});
     if (!tells) device.state.acted_n = core::zero_vectors();
   };

@@ -1,4 +1,4 @@
-// What holds for every input: seeded, so that a failure comes again.
+// Tests what holds for every input. They are seeded, so that a failure comes again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ TEST(HapticLoopProperty, WhateverIsCommandedAndMeasuredTheForceKeepsItsLimits) {
         }
       }
       for (Eigen::Vector3d& position : scene.device.state.tip_position_m) {
-        position *= 0.99;  // So that the hand stays near.
+        position *= 0.99;  // This keeps the hand near.
       }
       if (random.with_probability(0.01)) {
         const auto point = random.below(core::kNumContactPoints);
@@ -109,7 +109,8 @@ TEST(HapticLoopProperty, AThousandStopsAtRandomPhasesCutTheForceInTheirOwnTick) 
   scene.command.ramp_s = 0.05;
   int num_in_force = 0;
   for (int press = 0; press < 1000; ++press) {
-    // Some come into ramps, some into contact, into re-arming, into a fade, or on a fault.
+    // Some stops come into ramps, some into contact, into re-arming, into a fade, or on a
+    // fault.
     if (random.with_probability(0.5)) scene.publish();
     scene.device.move_all(
         {0.1 * random.normal(), 0.0, random.with_probability(0.5) ? -0.05 : 0.05});
@@ -141,7 +142,8 @@ TEST(HapticLoopProperty, AThousandStopsAtRandomPhasesCutTheForceInTheirOwnTick) 
   EXPECT_GT(num_in_force, 300);
 }
 
-/// A mass that falls on a surface so hard that holding the force for a tick makes it active.
+/// A mass that falls on a surface so hard that holding the force for a tick makes the surface
+/// active.
 class BouncingDevice final : public HapticDevice {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "bouncing"; }
@@ -172,7 +174,7 @@ class BouncingDevice final : public HapticDevice {
   }
   void close() noexcept override {}
   void halt() noexcept override {}
-  /// Above the surface.
+  /// The energy above the surface.
   [[nodiscard]] double energy_j() const {
     return kMassKg * (0.5 * v_m_per_s * v_m_per_s + kGravityMPerS2 * z_m);
   }
@@ -200,8 +202,8 @@ TEST(HapticLoopProperty, AnActiveSurfaceGivesOutNoMoreEnergyThanItGot) {
       {.sequence = 1, .medium = core::solid({.stiffness_n_per_m = kWallNPerM}), .ramp_s = 0.0});
   const double at_first_j = device.energy_j();
   for (int tick = 0; tick < 10'000; ++tick) loop.tick();
-  // The way of the tick to come is foretold from the velocity alone, which errs by less than
-  // one bounce holds; the next bounce pays it back.
+  // The way of the next tick is predicted from the velocity alone, with an error smaller than
+  // the energy of one bounce; the next bounce pays it back.
   EXPECT_LT(device.top_received_j, 0.25 * at_first_j);
   const double after_ten_seconds_j = device.top_received_j;
   for (int tick = 0; tick < 50'000; ++tick) loop.tick();

@@ -12,7 +12,7 @@
 
 namespace jnd::device {
 
-/// Where in its life a loop is struck.
+/// The moment in a loop's life at which it is struck.
 enum class Phase { kFirstTick, kInRamp, kInContact, kInFadeOut, kAfterRearm };
 
 inline constexpr std::array kPhases = {Phase::kFirstTick, Phase::kInRamp, Phase::kInContact,
@@ -34,7 +34,7 @@ inline const char* words(Phase phase) {
   return "";
 }
 
-/// With 1, 3 and 5 points attached.
+/// Hands with 1, 3 and 5 points attached.
 inline const std::array<std::array<bool, 5>, 3> kAttachments = {
     {{true, false, false, false, false}, {true, true, false, true, false}, core::kAllAttached}};
 
@@ -83,7 +83,7 @@ struct LoopScene {
         break;
       case Phase::kInFadeOut:
         run(200);
-        // Until 250 ms of silence and 30 ms of the fading are over.
+        // 250 ms of silence and 30 ms of the fading pass.
         for (int i = 0; i < 280; ++i) loop.tick();
         break;
       case Phase::kAfterRearm:
@@ -117,7 +117,7 @@ struct LoopScene {
     return published_telemetry.value().fault;
   }
 
-  /// What the device received last; free of force before the first tick.
+  /// What the device received last; zero before the first tick.
   [[nodiscard]] core::PointVectors last_received() const {
     return device.received.empty() ? core::zero_vectors() : device.received.back();
   }
@@ -130,7 +130,7 @@ struct LoopScene {
     hand.state.attached = attached;
     hand.move_all({0.1, 0.02, -0.05});
     hand.device_capabilities.num_joints = core::kNumJoints;
-    // What it measures follows from no force: its port is not watched.
+    // The measurements follow from no force, so the port must not be watched.
     hand.device_capabilities.simulated = true;
     hand.device_capabilities.tells_acting_force = false;
     return hand;
@@ -145,8 +145,9 @@ struct LoopScene {
   core::HapticCommand command;
 };
 
-/// What every tick has to keep, whatever came in: finite, within the limits, nothing on a point
-/// that is off, and from the last tick no further than the slew, or zero.
+/// Whether a tick's force keeps what it always has to: it is finite, within the limits, zero at
+/// a point that is off, and differs from the last tick by no more than the slew, unless it is
+/// zero.
 inline ::testing::AssertionResult is_safe(const core::PointVectors& force,
                                           const core::PointVectors& last,
                                           const std::array<bool, 5>& attached,

@@ -77,7 +77,7 @@ TEST_F(LoopThatLostTime, TheThreadTellsOfATickThatHeldItUp) {
 }
 
 TEST_F(LoopThatLostTime, TheThreadTellsOfATickThatBeganTooLate) {
-  // No tick begins within a nanosecond of when it is due, and none here misses a whole period.
+  // No tick begins within a nanosecond of when it is due, but none here misses a whole period.
   RealtimeThread thread({.priority = 0,
                          .lock_memory = false,
                          .max_spin_s = 0.0,

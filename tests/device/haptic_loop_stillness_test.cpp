@@ -1,4 +1,5 @@
-// Sensors that die while the hand rests, and the switch in the hand of whoever owns the robot.
+// Tests of sensors that die while the hand rests, and of the switch in the hand of whoever owns
+// the robot.
 #include <gtest/gtest.h>
 
 #include "haptic_loop_fixture.h"
@@ -46,7 +47,8 @@ TEST_F(HapticLoopStillness, AHandThatGivesWayKeepsItsForce) {
   const double first_n = pressed_n();
   double before_n = first_n;
   for (int i = 0; i < 20'000; ++i) {
-    // Held by friction until the force has changed by half a newton; then it slips a little.
+    // Friction holds the hand until the force has changed by half a newton; then the hand slips
+    // a little.
     if (before_n - pressed_n() > 0.5) {
       for (Eigen::Vector3d& tip : device.state.tip_position_m) tip.z() -= 1e-4;
       before_n = pressed_n();

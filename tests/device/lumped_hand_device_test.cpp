@@ -16,7 +16,7 @@ namespace lumped_hand_device_test {
 
 core::PointVectors no_force() { return core::zero_vectors(); }
 
-/// The hand, driven by a loop through a medium.
+/// The hand, which a loop drives through a medium.
 struct Laboratory {
   explicit Laboratory(const LumpedHandDevice::Parameters& parameters = {}) : hand(parameters) {
     hand.open();
@@ -87,7 +87,7 @@ TEST(LumpedHandDevice, AFreeMassObeysNewton) {
   for (int tick = 0; tick < 100; ++tick) ASSERT_TRUE(hand.write(force));
   core::HapticState state;
   ASSERT_TRUE(hand.read(state));
-  // 4 N on 2 kg for 0.1 s.
+  // 4 N act on 2 kg for 0.1 s.
   EXPECT_NEAR(state.tip_velocity_m_per_s[2].x(), 0.2, 1e-12);
   EXPECT_NEAR(state.tip_position_m[2].x(), 0.5 * 2.0 * 0.01, 1.1e-4);
 }
@@ -108,7 +108,7 @@ TEST(LumpedHandDevice, MechanicalViscosityAndFrictionSlowAFreeHandDown) {
   EXPECT_NEAR(start, 0.5, 1e-12);
   ASSERT_TRUE(hand.write(no_force()));
   ASSERT_TRUE(hand.read(state));
-  // One step of 1 ms at 5 * 0.5 + 0.4 * 0.5 / sqrt(0.25 + 0.0001) N.
+  // One step of 1 ms has 5 * 0.5 + 0.4 * 0.5 / sqrt(0.25 + 0.0001) N.
   EXPECT_NEAR(state.tip_velocity_m_per_s[0].x(), 0.5 - 0.001 * (2.5 + 0.4 * 0.9998000600),
               1e-9);
   for (int tick = 0; tick < 5000; ++tick) ASSERT_TRUE(hand.write(no_force()));
@@ -121,7 +121,8 @@ TEST(LumpedHandDevice, WhatWasFeltIsTheMediumPlusTheDevice) {
   for (const double viscosity : {1.093, 1.853, 3.883, 10.1, 16.06}) {
     laboratory.feel(core::viscous({.viscosity_pa_s = viscosity}));
     const core::ContactSums felt = laboratory.stroke({.num_strokes = 2});
-    // Slow turning points, where each tip's share fades, take a hair off the rendered force.
+    // At slow turning points, where each tip's share fades, the rendered force is a hair
+    // smaller.
     EXPECT_NEAR(felt.delivered_damping_n_s_per_m(), 1.776 * viscosity, 1e-3 * viscosity);
     EXPECT_NEAR((felt.opposing_n - felt.rendered_opposing_n) / felt.speed_m_per_s, 4.83, 1e-9);
   }

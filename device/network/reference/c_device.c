@@ -2,15 +2,16 @@
 // Copyright (c) 2026 The jnd authors. It may be used, copied, changed and sold by anybody for
 // anything, without any warranty, as long as this notice stays in it.
 //
-// A device that jnd uses as `--device network:HOST:PORT,simulated`, in one file of C11 and POSIX:
+// A device that jnd uses as `--device network:HOST:PORT,simulated`, in one file of C11 and
+// POSIX:
 //
 //   cc -std=c11 -O2 -Wall -Wextra c_device.c -o c_device && ./c_device --port 4700
 //
-// Behind it is a hand without a robot, a damped mass that strokes by itself. Put an own robot into
-// `read_robot` and `write_robot`, and set what `kRobot` says of it. device/network/README.md has
-// the tables and the rules; the offsets below are those of its tables. Not tried on hardware. A
-// robot that can hurt somebody needs a watchdog of its own below this program, which takes the
-// force away when a tick overruns, and limits of force of its own.
+// It contains a hand without a robot: a damped mass that strokes by itself. Put your robot into
+// `read_robot` and `write_robot`, and describe it in `kRobot`. device/network/README.md has the
+// tables and the rules; the offsets below are those of its tables. It has not been tried on
+// hardware. A robot that can hurt somebody needs a watchdog of its own below this program,
+// which takes the force away when a tick overruns, and force limits of its own.
 
 #define _POSIX_C_SOURCE 200809L
 #include <arpa/inet.h>
@@ -39,23 +40,24 @@ enum {
 };
 enum { kVersion = 3, kPoints = 5, kHeaderBytes = 40, kSealBytes = 16, kKeyBytes = 32,
        kMostBytes = 1100, kRing = 8192, kMostTaken = 256, kMostAnswers = 8 };
-static const size_t kSize[] = {0, 69, 304, 53, 1031, 172, 137, 44, 44};  // by kind
+// Sizes of the contents by kind.
+static const size_t kSize[] = {0, 69, 304, 53, 1031, 172, 137, 44, 44};
 static const double kSlewNPerS = 2000.0, kMostSpeedMPerS = 5.0;
 
 static const struct {
   const char *name;
   double most_force_n, most_total_force_n;
   bool simulated;        // Nobody can be hurt by it.
-  bool moves_by_itself;  // It takes orders; a person's hand does not.
-  // Each part of the hand's force, together 1, where it counts its points otherwise than by the
-  // areas of a hand; zeros: by those.
+  bool moves_by_itself;  // It takes orders, which a person's hand does not.
+  // Share of the hand's force at each point, 1 in total. All zero means the areas of a hand.
   double share_ratio[kPoints];
-  double half_width_m[3];  // In which it may give force, about the origin.
-  double own_mass_kg, own_damping_n_s_per_m, loop_delay_s;  // 0: it does not say.
-  const char *serial, *firmware;                            // Likewise "".
+  double half_width_m[3];  // Box about the origin in which it may give force.
+  double own_mass_kg, own_damping_n_s_per_m, loop_delay_s;  // 0 if unknown.
+  const char *serial, *firmware;                            // "" if unknown.
 } kRobot = {"c reference", 8.0, 20.0, true,  true,        {0},
             {1, 1, 1},     1.0, 4.83, 0.001, "simulated", "1.0"};
-// By the areas of a hand; of a device with fewer points, over the sum of those it has.
+// Shares by the areas of a hand. A device with fewer points divides them by the sum over its
+// points.
 static const double kAreaShareRatio[kPoints] = {0.35, 0.35, 0.10, 0.10, 0.10};
 
 // ----- Bytes, least first -----
@@ -79,7 +81,7 @@ static double get_f64(const uint8_t *from) {
   memcpy(&value, &bits, 8);
   return value;
 }
-static void put_text(uint8_t *to, const char *text) {  // 32 bytes, zeros behind it.
+static void put_text(uint8_t *to, const char *text) {  // 32 bytes, filled up with zeros.
   memcpy(to, text, strlen(text) < 32 ? strlen(text) : 32);
 }
 
@@ -138,7 +140,7 @@ static void sha256_block(uint32_t hash[8], const uint8_t *block) {
   for (int i = 0; i < 8; ++i) hash[i] += h[i];
 }
 
-// Of a first part of 64 bytes and a second, as HMAC has them.
+// Hashes a first part of 64 bytes and a second part, as HMAC needs.
 static void sha256(const uint8_t first[64], const uint8_t *second, size_t size, uint8_t out[32]) {
   uint32_t hash[8] = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                       0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
@@ -172,12 +174,13 @@ static bool is_sealed(const uint8_t key[kKeyBytes], const uint8_t *bytes, size_t
 // ----- The hand -----
 
 typedef struct {
-  int64_t time_ns;  // device's own, rising with each measurement
+  int64_t time_ns;  // The device's own clock, which increases with each measurement.
   double position_m[3 * kPoints], velocity_m_per_s[3 * kPoints];
-  uint8_t held;  // a bit each, the lowest the inner palm
-  bool enabled;  // the robot's own switch
-  // Only what the device measures of these, see `hand.channels`: forces on the hand by sensors,
-  // orientation of the end effector (unit quaternion w, x, y, z), torque on the hand there.
+  uint8_t held;  // One bit for each point; the lowest is the inner palm.
+  bool enabled;  // The robot's own enabling switch.
+  // The device fills in only what it measures, see `hand.channels`: forces on the hand from
+  // force sensors, orientation of the end effector (unit quaternion w, x, y, z), and torque on
+  // the hand there.
   double force_n[3 * kPoints], orientation_wxyz[4], torque_n_m[3], gripper_m;
   uint32_t buttons;
 } Measurement;
@@ -192,21 +195,23 @@ typedef struct {
 static const double kHomeM[3] = {0.0, 0.0, 0.1};
 static struct {
   int num_points;
-  uint8_t channels;  // a bit each: force, orientation, torque, gripper, buttons
+  uint8_t channels;  // One bit each: force, orientation, torque, gripper, buttons.
   double dt_s;
   int64_t time_ns, num_strokes;
-  double at_m[3], velocity_m_per_s[3], middle_m[3];  // what the spring pulls to is in the middle
-  double sine, cosine;                               // of the phase of a stroke
+  // The spring pulls to `middle_m`, about which a stroke swings.
+  double at_m[3], velocity_m_per_s[3], middle_m[3];
+  double sine, cosine;  // Of the phase of a stroke.
   double force_n[3 * kPoints];
-  // What a simulated participant feels, summed over ticks: force against the motion in N, the same
-  // of the program's force alone, speed in m/s. A robot has zeros.
+  // What a simulated participant feels, summed over ticks: force against the motion in N, the
+  // same for the program's force alone, and speed in m/s. A robot leaves zeros.
   int64_t num_summed;
   double summed[3];
   bool is_home;
   Order order;
 } hand;
 
-static double root(double square) {  // So that nothing is to be linked but libc.
+// With a square root of our own, only libc has to be linked.
+static double root(double square) {
   double guess = square > 1.0 ? square : 1.0;
   if (!(square > 0.0)) return 0.0;
   for (int i = 0; i < 1100; ++i) {
@@ -218,7 +223,7 @@ static double root(double square) {  // So that nothing is to be linked but libc
 }
 static double length(const double v[3]) { return root(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-static void reset_hand(void) {  // As at the start, for the next program.
+static void reset_hand(void) {  // Resets to the initial state for the next program.
   const double dt_s = hand.dt_s;
   const int num_points = hand.num_points;
   const uint8_t channels = hand.channels;
@@ -241,9 +246,9 @@ static void order_hand(const Order *order) {
   memcpy(hand.middle_m, hand.at_m, sizeof hand.middle_m);
 }
 
-static void move_hand(void) {  // One tick of simulated time, however late the real one is.
+static void move_hand(void) {  // Simulates one tick, however late the real one is.
   const double mass_kg = 1.0, stiffness_n_per_m = 400.0, damping_n_s_per_m = 35.0;
-  const double device_damping_n_s_per_m = 4.83;  // Felt besides the force of the program.
+  const double device_damping_n_s_per_m = 4.83;  // Felt in addition to the program's force.
   const Order *order = &hand.order;
   const bool strokes =
       order->strokes && (order->num_strokes == 0 || hand.num_strokes < order->num_strokes);
@@ -260,7 +265,7 @@ static void move_hand(void) {  // One tick of simulated time, however late the r
     const double last = hand.sine;
     hand.sine += turn_rad * hand.cosine;
     hand.cosine -= turn_rad * hand.sine;
-    if (last < 0.0 && hand.sine >= 0.0) ++hand.num_strokes;  // there and back
+    if (last < 0.0 && hand.sine >= 0.0) ++hand.num_strokes;  // There and back.
     wanted_m[0] += order->half_width_m * hand.sine;
   }
   double from_home_m[3], total_n[3] = {0}, power_w = 0.0;
@@ -289,7 +294,7 @@ static void move_hand(void) {  // One tick of simulated time, however late the r
 
 // ===== Put your robot here: begin ==============================================================
 
-// Measures. False: it could not.
+// Measures. Returns false on failure.
 static bool read_robot(Measurement *measured) {
   static const double offset_m[3 * kPoints] = {0, 0, 0, 0.02, 0, 0, -0.03, 0.05, 0, 0, 0.08, 0,
                                                0.02, 0.09, 0};
@@ -302,7 +307,7 @@ static bool read_robot(Measurement *measured) {
   measured->held = (uint8_t)((1 << hand.num_points) - 1);
   measured->enabled = true;
   if (hand.channels == 0) return true;
-  // Made up, of where the hand is.
+  // An invented value that depends on where the hand is.
   const double half_turn = 0.5 * hand.at_m[0];
   memcpy(measured->force_n, hand.force_n, sizeof measured->force_n);
   measured->orientation_wxyz[0] = root(1.0 - half_turn * half_turn);
@@ -313,8 +318,8 @@ static bool read_robot(Measurement *measured) {
   return true;
 }
 
-// Gives these forces on the hand, N, until the next call. False: it could not, and the motors were
-// made free of force by another way.
+// Gives these forces on the hand, N, until the next call. Returns false on failure, after the
+// motors were freed of force in another way.
 static bool write_robot(const double force_n[3 * kPoints]) {
   memcpy(hand.force_n, force_n, sizeof hand.force_n);
   return true;
@@ -327,9 +332,9 @@ static bool write_robot(const double force_n[3 * kPoints]) {
 typedef struct {
   bool has_newest, lost_in_a_row, has_round_trip;
   uint32_t newest;
-  int window, fewest, most_in_a_row, long_good;  // by how many are sent a second
+  int window, fewest, most_in_a_row, long_good;  // These depend on the sender's rate.
   int num_expected, num_came, num_good;
-  bool came[kRing];  // by number modulo the ring; none outside of the window
+  bool came[kRing];  // Indexed by the number modulo the ring; false outside of the window.
   int64_t newest_echo_ns, peer_clock_ns;
   double round_trip_ns;
 } Link;
@@ -339,7 +344,7 @@ static void mark(Link *link, uint32_t number, bool came) {
   link->came[number % kRing] = came;
 }
 
-static void judge_anew(Link *link) {  // Numbers that were seen stay seen.
+static void judge_anew(Link *link) {  // Numbers that were seen stay known.
   memset(link->came, 0, sizeof link->came);
   link->num_came = link->num_good = 0;
   link->num_expected = 1;
@@ -370,7 +375,7 @@ static int level_of(const Link *link) {
   return 0;
 }
 
-// False: this number came before, and counts for nothing.
+// Returns false if this number came before and does not count.
 static bool take_number(Link *link, uint32_t number, int64_t clock_ns, int64_t echo_ns,
                         int64_t now_ns) {
   if (!link->has_newest) {
@@ -378,7 +383,7 @@ static bool take_number(Link *link, uint32_t number, int64_t clock_ns, int64_t e
     link->newest = number - 1;
     link->num_expected = 0;
   }
-  const uint32_t ahead = number - link->newest;  // Wraps as it should.
+  const uint32_t ahead = number - link->newest;  // It wraps as intended.
   if (ahead - 1 < 0x7fffffffu) {
     const int window = link->window;
     const int shift = ahead < (uint32_t)window ? (int)ahead : window;
@@ -408,30 +413,31 @@ static bool take_number(Link *link, uint32_t number, int64_t clock_ns, int64_t e
 // ----- The device as the program sees it -----
 
 static struct {
-  int socket, log;  // log: -1, or where each tick tells what the robot is given
+  // The log is -1, or a file to which each tick writes what the robot is given.
+  int socket, log;
   double rate_hz;
   bool has_key;
   uint8_t key[kKeyBytes], to_device[kKeyBytes], to_program[kKeyBytes];
   int64_t patience_ns, answer_age_ns, last_tick_ns;
   uint64_t challenge;
-  int num_answers;  // in this tick
+  int num_answers;  // In this tick.
   bool is_measured, was_enabled;
   Measurement measured;
-  double acted_n[3 * kPoints];  // what the motors were told last
+  double acted_n[3 * kPoints];  // The last command to the motors.
   long num_ticks, num_missed, num_clients, num_armings;
 } device;
 
-static struct {  // The one program that is connected; nothing of it counts for the next.
+static struct {  // The one connected program. Nothing of it carries over to the next one.
   bool is_there;
   struct sockaddr_in address;
   uint64_t token, stream;
   int64_t last_heard_ns, came_at_ns;
   Link link;
-  uint32_t number;  // of the last datagram to it
+  uint32_t number;  // Number of the last datagram to it.
   struct {
     uint32_t number;
     int64_t at_ns;
-  } sent[kRing];  // the last states
+  } sent[kRing];  // The last states.
   bool has_command, is_recent, armed;
   uint32_t command_number, arm_number, answers, armed_number, order_number;
   double force_n[3 * kPoints];
@@ -467,7 +473,7 @@ static bool is_without_force(void) {
   return true;
 }
 
-// Header, check and seal around a content that is there from offset 40 on.
+// Adds header, checksum and seal to a content that begins at offset 40.
 static void finish_and_send(uint8_t *bytes, int kind, uint64_t stream, uint32_t number,
                             int64_t echo_ns, const uint8_t *key, const struct sockaddr_in *to) {
   size_t size = kSize[kind];
@@ -486,7 +492,7 @@ static void finish_and_send(uint8_t *bytes, int kind, uint64_t stream, uint32_t 
     memcpy(bytes + size, code, kSealBytes);
     size += kSealBytes;
   }
-  // What the system does not take is as if it had been lost on the way.
+  // A datagram that the system does not take counts as lost on the way.
   (void)sendto(device.socket, bytes, size, 0, (const struct sockaddr *)to, sizeof *to);
 }
 
@@ -512,7 +518,8 @@ static bool is_client(const struct sockaddr_in *from) {
 static void begin_stream(uint64_t token, double rate_hz, const struct sockaddr_in *from,
                          int64_t now_ns) {
   if (client.is_there && kRobot.simulated) {
-    const Order home = {0};  // It said hello anew: the hand goes on from where it is.
+    // The program said hello again, so the hand continues from where it is.
+    const Order home = {0};
     order_hand(&home);
   }
   memset(&client, 0, sizeof client);
@@ -540,7 +547,8 @@ static void answer_hello(const uint8_t *bytes, const struct sockaddr_in *from, i
   const bool only_asks = bytes[48] != 0;
   uint64_t stream = 0;
   if (client.is_there && !is_client(from) && !only_asks) {
-    if (challenge == device.challenge) device.challenge = drawn();  // Worth nothing later.
+    // It must not be valid later.
+    if (challenge == device.challenge) device.challenge = drawn();
     refuse(kBusy, token, 0, true, from);
     return;
   }
@@ -602,7 +610,7 @@ static void take_order(const uint8_t *bytes) {
   if (order.movement != 0) order_hand(&order);
 }
 
-// Whether the doubles from here on are finite, and the first within a range.
+// Whether the doubles from here on are finite and within a range.
 static bool within(const uint8_t *bytes, int num, double least, double most) {
   for (int i = 0; i < num; ++i) {
     const double value = get_f64(bytes + 8 * i);
@@ -625,7 +633,7 @@ static void take_datagram(const uint8_t *bytes, size_t received, const struct so
                           int64_t now_ns) {
   if (received < kHeaderBytes + 4 || memcmp(bytes, "JDLK", 4) != 0) return;
   const int kind = (int)get(bytes + 6, 2);
-  if (get(bytes + 4, 2) != kVersion) {  // Told so, and nothing else.
+  if (get(bytes + 4, 2) != kVersion) {  // It is told so, and nothing else happens.
     if (kind == kHello && received >= 48) refuse(kOtherVersion, get(bytes + 40, 8), 0, false, from);
     return;
   }
@@ -673,13 +681,14 @@ static void receive(int64_t now_ns) {
                                       (struct sockaddr *)&from, &from_size);
     if (received < 0) {
       if (errno == EAGAIN || errno == EWOULDBLOCK) return;
-      continue;  // A program that is gone: its silence ends the connection.
+      continue;  // The program is gone. Its silence ends the connection.
     }
     take_datagram(bytes, (size_t)received, &from, now_ns);
   }
 }
 
-// How long ago the state was sent that the command answers to; very long if we do not know it.
+// Returns how long ago the state was sent to which the command responds, or a very long time if
+// we do not know it.
 static int64_t answer_age_ns(int64_t now_ns) {
   const int place = (int)(client.answers % kRing);
   if (client.answers != client.sent[place].number || client.sent[place].at_ns == 0) {
@@ -727,7 +736,7 @@ static void measure(void) {
   }
 }
 
-// What the hand gets of the command, after every limit.
+// Turns the commanded force into what the hand gets, after every limit.
 static void limit(double force_n[3 * kPoints]) {
   const Measurement *at = &device.measured;
   for (int point = 0; point < kPoints; ++point) {
@@ -737,7 +746,7 @@ static void limit(double force_n[3 * kPoints]) {
       return;
     }
   }
-  if (is_without_force()) return;  // No slew: at once.
+  if (is_without_force()) return;  // Zero force takes effect at once, without the slew.
   double total_n = 0.0;
   for (int point = 0; point < kPoints; ++point) {
     if ((at->held >> point & 1) == 0) continue;
@@ -774,7 +783,7 @@ static void send_state(const double acted_n[3 * kPoints]) {
   put_f64s(state + 48, at->position_m, 15);
   put_f64s(state + 168, at->velocity_m_per_s, 15);
   put_f64s(state + 288, at->position_m, 3);
-  // No joints: zeros from 312 on.
+  // Without joints, there are zeros from 312 on.
   put(state + 664, (uint64_t)hand.num_summed, 8);
   put_f64s(state + 672, hand.summed, 3);
   put(state + 696, (uint64_t)hand.num_strokes, 8);
@@ -810,7 +819,7 @@ static void give(const double force_n[3 * kPoints]) {
   uint8_t record[8 + 8 * 3 * kPoints];
   put(record, (uint64_t)now(), 8);
   put_f64s(record + 8, device.acted_n, 3 * kPoints);
-  // At once: whoever is killed has told everything.
+  // Each record is written at once, so that a killed program has told everything.
   if (write(device.log, record, sizeof record) < 0) device.log = -1;
 }
 
@@ -820,14 +829,14 @@ static void tick(void) {
   ++device.num_ticks;
   receive(now_ns);
   if (now_ns - device.last_tick_ns >= device.patience_ns) {
-    disarm(kFaultWatchdog);  // Nobody can tell how old it is what waited.
+    disarm(kFaultWatchdog);  // The age of what waited is unknown.
     client.is_recent = false;
   }
   device.last_tick_ns = now_ns;
   if (client.is_there && now_ns - client.last_heard_ns >= 1000000000) end_connection();
   if (client.is_there) arm_or_disarm(now_ns);
   measure();
-  memcpy(acted_n, device.acted_n, sizeof acted_n);  // until this measurement
+  memcpy(acted_n, device.acted_n, sizeof acted_n);  // Until this measurement.
   const bool enabled = device.measured.enabled;
   if (device.was_enabled != enabled && (!enabled || !is_without_force())) disarm(kFaultNotEnabled);
   device.was_enabled = enabled;
@@ -903,7 +912,8 @@ int main(int num_words, char **words) {
   hand.channels = (uint8_t)channels;
   hand.dt_s = 1.0 / device.rate_hz;
   reset_hand();
-  device.patience_ns = kRobot.simulated ? 100000000 : 20000000;  // of a simulation more
+  // A simulation may take longer.
+  device.patience_ns = kRobot.simulated ? 100000000 : 20000000;
   device.answer_age_ns = device.patience_ns + 20000000;
   device.challenge = drawn();
 
@@ -926,7 +936,7 @@ int main(int num_words, char **words) {
   signal(SIGTERM, stop);
   signal(SIGINT, stop);
 
-  // Before other programs of a busy machine, where the system allows it.
+  // Goes before other programs of a busy machine, if the system allows it.
   (void)sched_setscheduler(0, SCHED_FIFO, &(struct sched_param){.sched_priority = 50});
   (void)mlockall(MCL_CURRENT | MCL_FUTURE);
 
@@ -937,7 +947,7 @@ int main(int num_words, char **words) {
     tick();
     next_ns += period_ns;
     const int64_t late_ns = now() - next_ns;
-    if (late_ns > 0) {  // What cannot be made up for is left out.
+    if (late_ns > 0) {  // Missed ticks that cannot be made up for are left out.
       device.num_missed += (long)(late_ns / period_ns);
       next_ns += late_ns / period_ns * period_ns;
     } else {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Where a function of this name is kept, and whether the driver can do without it. */
+/* Where a function of this name is stored, and whether the driver needs it. */
 struct symbol {
   const char* name;
   size_t place;
@@ -58,7 +58,7 @@ static const struct symbol symbols[] = {
     IF_THERE(dhdEnableSimulator),
 };
 
-/* The versions whose declarations are those of the header. */
+/* Versions whose declarations are those of the header. */
 enum { OLDEST_MINOR = 7, KNOWN_MAJOR = 3 };
 
 static struct dhd_library library;
@@ -79,7 +79,7 @@ static void* opened(const char* path, char* words, size_t words_size) {
   for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
     void* handle = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
     if (handle != NULL) return handle;
-    /* One that is there and does not load: what is told is of another file. */
+    /* If this file exists but does not load, the message is about another file. */
     const char* reason = dlerror();
     if (reason != NULL && strncmp(reason, names[i], strlen(names[i])) != 0) {
       snprintf(words, words_size, "%s, which does not load (%.100s); install what it needs",
@@ -103,7 +103,8 @@ static bool look_up(void* handle, char* words, size_t words_size) {
                symbols[i].name);
       return false;
     }
-    /* A pointer to data is none to a function in C; POSIX has them look alike. */
+    /* In C a pointer to data is no pointer to a function, but POSIX gives both the same
+     * representation. */
     memcpy((char*)&library + symbols[i].place, &found, sizeof found);
   }
   return true;
@@ -125,8 +126,8 @@ const struct dhd_library* load_dhd_library(const char* path, char* words, size_t
   is_loaded = false;
   void* handle = opened(path, words, words_size);
   if (handle == NULL) return NULL;
-  /* What is refused stays loaded as well: it may have started threads, which would go on in
-   * code that is gone. */
+  /* A refused library stays loaded as well, because it may have started threads, whose code
+   * must not disappear. */
   if (!look_up(handle, words, words_size) || !is_known_version(words, words_size)) return NULL;
   snprintf(loaded_path, sizeof loaded_path, "%s", path);
   is_loaded = true;

@@ -1,18 +1,20 @@
 /* A driver for the devices of Force Dimension (delta, omega, sigma, lambda) and the Novint
- * Falcon, by the maker's own library libdhd.so, which is the user's and is found when it runs.
+ * Falcon. It uses the maker's own library libdhd.so, which the user installs and which is
+ * looked up at run time.
  *
  *     jnd devices --device plugin:force_dimension
  *     jnd loop --device plugin:force_dimension --seconds 10
  *
  * NOT TRIED ON HARDWARE: it was tried with a library that stands in for the maker's
- * (tests/device/plugin/force_dimension), which behaves as far as the public documentation says
- * how. Options, what is checked and what is not known: docs/devices.md, "Force Dimension".
+ * (tests/device/plugin/force_dimension), and that behaves as the public documentation says,
+ * as far as it says so. For options, for what is checked and for what is not known, see
+ * docs/devices.md, "Force Dimension".
  *
- * The device is asked once a tick, within `read`, and told once a tick, within `write`; the
- * driver has no thread of its own. Neither takes a heap or a lock of ours. What the library
- * takes inside is its own affair: it says that its functions may be called by any thread, so it
- * may make a halt wait for a call that is stuck. That is why a real device has to have a
- * watchdog in its controller, which ends the force 20 ms after the last command. */
+ * The device is read once in each tick, within `read`, and commanded once, within `write`;
+ * the driver has no thread of its own. Neither function uses heap or locks of ours. What the
+ * library does inside is unknown: it says that any thread may call its functions, so it may
+ * let a halt wait for a call that is stuck. That is why a real device must have a watchdog
+ * in its controller, which ends the force 20 ms after the last command. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -26,9 +28,9 @@
 #include "dhd_library.h"
 #include "jnd_device.h"
 
-/* What the library does not tell. Force and reach are those that CHAI3D uses for the model
- * (src/devices/CDeltaDevices.cpp), the reach as a box with the half width of its radius; for
- * models that it does not know, less than for any other. */
+/* Properties that the library does not report. Force and reach are those that CHAI3D uses
+ * for the model (src/devices/CDeltaDevices.cpp), with the reach as a box whose half width is
+ * its radius. Models that CHAI3D does not know get less than any other. */
 struct model {
   int type; /* As the library numbers them. */
   double max_force_n;
@@ -49,45 +51,46 @@ static const struct model models[] = {
     {106, 12.0, 0.090}, /* sigma.6+, right */
     {107, 12.0, 0.090}, /* sigma.6+, left */
     {206, 8.0, 0.040},  /* sigma.3: not from CHAI3D */
-    {203, 8.0, 0.040},  /* lambda.3: likewise */
-    {108, 8.0, 0.040},  /* lambda.7, right: likewise */
-    {109, 8.0, 0.040},  /* lambda.7, left: likewise */
+    {203, 8.0, 0.040},  /* lambda.3: not from CHAI3D */
+    {108, 8.0, 0.040},  /* lambda.7, right: not from CHAI3D */
+    {109, 8.0, 0.040},  /* lambda.7, left: not from CHAI3D */
 };
 
-/* Conservative, and the same for all: no public document says them. */
+/* Conservative, and the same for all models, because no public document has these values. */
 static const double max_slew_n_per_s = 1000.0;
 static const double max_speed_m_per_s = 2.0;
-/* A period of the loop and what USB takes on either side. */
+/* A period of the loop, and what USB takes in both directions. */
 static const double closed_loop_delay_s = 0.002;
-/* Of the loop that asks and tells; over USB there may be up to 4000 in a second. */
+/* Rate of the loop that reads and commands. Over USB there may be up to 4000 in a second. */
 static const double nominal_rate_hz = 1000.0;
 
-/* 20 ms, as SAFETY.md asks of every controller. */
+/* 20 ms, as SAFETY.md demands of every controller. */
 enum { WATCHDOG_STEPS = 160 };
-/* How often the device is asked how it is, 1/s. */
+/* How often the status is read, 1/s. */
 static const double status_rate_hz = 100.0;
-/* What the library tells of the force after it was switched on or off may be older than that. */
+/* After the force was switched on or off, the library's status may be older than that for
+ * this time. */
 static const double status_patience_s = 0.050;
 
 struct options {
   char library[1024];
-  double device, serial; /* Below 0: not chosen. */
+  double device, serial; /* Below 0 if not chosen. */
   double wait_for_calibration_s;
-  double effector_mass_kg; /* Below 0: as the maker's. */
-  double max_force_n;      /* Above the model's: the model's. */
+  double effector_mass_kg; /* Below 0 for the maker's end effector. */
+  double max_force_n;      /* At most the model's. */
   double velocity_window_ms;
-  double time_guard_us; /* Below 0: the maker's. */
+  double time_guard_us; /* Below 0 for the maker's value. */
   double surface_z_m;   /* Height of jnd's z = 0 in the device's frame. */
   bool without_gravity_compensation, without_watchdog, with_simulator;
 };
 
-/* What is known of a device once it is connected. */
+/* What is known of a connected device. */
 struct connection {
   const struct dhd_library* dhd;
   char id;
   struct model model;
   bool has_wrist, has_gripper, is_virtual;
-  /* It turns or grips by motors, which have to be told that they shall not. */
+  /* It has motors that turn or grip, which must be told to give no force. */
   bool has_more_motors;
 };
 
@@ -97,20 +100,21 @@ struct jnd_device {
   double max_force_n;
   uint64_t num_reads, sample_number;
   uint64_t reads_per_status, next_status;
-  double acted_n[3]; /* Workspace frame: what was taken last. */
-  /* The newest position, in the device's frame, and when the library told it, s. */
+  double acted_n[3]; /* The last accepted force, in the workspace frame. */
+  /* The newest position, in the device's frame, and the time when the library reported it,
+   * s. */
   double known_m[3], known_s;
-  bool is_fresh; /* Nothing was written yet. */
-  /* No force is passed on before jnd has written zeros, after anything that failed. jnd does the
-   * same; this is for what it cannot know yet. */
+  bool is_fresh; /* Nothing has been written yet. */
+  /* After any failure, no force is passed on before jnd has written zeros. jnd does the
+   * same; this is for failures that it cannot know yet. */
   bool is_withholding;
   bool is_blind;      /* The last read failed. */
-  bool is_enabled;    /* Nobody has taken the motors' force away. */
-  bool may_switch_on; /* No person and no guard of the device's has. */
+  bool is_enabled;    /* Nobody has switched the motors' force off. */
+  bool may_switch_on; /* Neither a person nor a guard of the device has switched it off. */
   unsigned known_halts;
   /* Shared with the thread that halts. */
   atomic_uint num_halts;
-  atomic_bool is_on; /* Motors give the force that is set. */
+  atomic_bool is_on; /* The motors give the force that is set. */
 };
 
 static char error_text[256] = "";
@@ -123,7 +127,7 @@ __attribute__((format(printf, 1, 2))) static int failed(const char* format, ...)
   return JND_DEVICE_FAILED;
 }
 
-/* What the library says of its last failure in this thread. */
+/* Returns the library's words about its last failure in this thread. */
 static const char* reason(const struct dhd_library* dhd) {
   const char* words = dhd->dhdErrorGetLastStr();
   return words == NULL || words[0] == '\0' ? "no reason told" : words;
@@ -190,8 +194,8 @@ static int take_option(const char* key, const char* value, struct options* optio
 }
 
 static int take_options(const char* text, struct options* options) {
-  /* The window is 8 ms, for a velocity that comes 4 ms late is as one behind a filter of 40 Hz,
-   * the slowest that jnd wants; the library's own 20 ms would be 10 ms late. */
+  /* The window is 8 ms, because a velocity that is 4 ms late is like one behind a filter of
+   * 40 Hz, the slowest that jnd accepts. The library's own 20 ms would be 10 ms late. */
   *options = (struct options){.device = -1.0,
                               .serial = -1.0,
                               .effector_mass_kg = -1.0,
@@ -247,7 +251,7 @@ static int failed_to_connect(const struct dhd_library* dhd) {
   }
 }
 
-/* The id of the chosen device, open. */
+/* Opens the chosen device and gives its id. */
 static int connect_one(const struct dhd_library* dhd, const struct options* options, int* id) {
   const int num_devices = dhd->dhdGetDeviceCount();
   if (num_devices < 0) {
@@ -268,7 +272,7 @@ static int connect_one(const struct dhd_library* dhd, const struct options* opti
     return failed("device=%g, and %d connected; write device=0 to device=%d", options->device,
                   num_devices, num_devices - 1);
   }
-  /* A process before this one may be about to let go of it. */
+  /* An earlier process may be about to release it. */
   for (int i = 0; i < 10 && dhd->dhdGetAvailableCount() == 0; ++i) pause_ms(50);
   if (dhd->dhdGetAvailableCount() == 0) return failed_by_another();
   if (options->serial >= 0.0) {
@@ -344,7 +348,7 @@ static void describe(const struct connection* at, const struct options* options,
   take_printable(is_named ? name : "Force Dimension device", description->name,
                  sizeof description->name);
 
-  /* Falcons all say 65535. */
+  /* All Falcons report 65535. */
   unsigned short serial = 0;
   if (dhd->dhdGetSerialNumber(&serial, at->id) >= 0 && serial != 65535) {
     snprintf(description->serial, sizeof description->serial, "%u", (unsigned)serial);
@@ -356,14 +360,14 @@ static void describe(const struct connection* at, const struct options* options,
   snprintf(description->firmware, sizeof description->firmware, "controller %.4g, SDK %d.%d.%d",
            controller, major, minor, release);
 
-  /* The library's clock is this computer's, so jnd stamps what is new itself. */
+  /* The library's clock is this computer's, so jnd itself stamps new measurements. */
   description->flags = JND_DEVICE_HAS_OWN_CLOCK | JND_DEVICE_TELLS_ACTED_FORCE |
                        JND_DEVICE_HAS_ENABLE_SWITCH | JND_DEVICE_HAS_BUTTONS;
   if (at->has_wrist) description->flags |= JND_DEVICE_HAS_ORIENTATION;
   if (at->has_gripper) description->flags |= JND_DEVICE_HAS_GRIPPER;
   if (at->is_virtual) description->flags |= JND_DEVICE_IS_SIMULATED;
 
-  /* A tool held like a pen. */
+  /* A tool that is held like a pen. */
   description->contact_point_bits = 1;
   description->area_share_ratio[0] = 1.0;
   description->rate_hz = nominal_rate_hz;
@@ -374,7 +378,7 @@ static void describe(const struct connection* at, const struct options* options,
   for (int axis = 0; axis < 3; ++axis) {
     description->workspace_half_width_m[axis] = at->model.half_width_m;
   }
-  /* The box is about jnd's origin: it has to hold what the device reaches around its own. */
+  /* The box is about jnd's origin and has to contain what the device reaches about its own. */
   description->workspace_half_width_m[2] += fabs(options->surface_z_m);
   description->closed_loop_delay_s = closed_loop_delay_s;
   description->open_timeout_s = 10.0 + options->wait_for_calibration_s;
@@ -388,8 +392,8 @@ int jnd_device_describe(jnd_device* device, const char* text,
     describe(&device->at, &device->options, description);
     return JND_DEVICE_OK;
   }
-  /* Which model it is the library tells of an open device alone. Opening one brings no force,
-   * and this one is closed at once. */
+  /* The library tells the model only of an open device. Opening one brings no force, and
+   * this one is closed at once. */
   struct options options;
   struct connection at;
   if (take_options(text, &options) != JND_DEVICE_OK) return JND_DEVICE_FAILED;
@@ -401,7 +405,7 @@ int jnd_device_describe(jnd_device* device, const char* text,
 
 /* ---- Forces ------------------------------------------------------------------------------ */
 
-/* The device's frame has x where jnd's has -y, and y where jnd's has x. */
+/* The device's x is jnd's -y, and its y is jnd's x. */
 static int set_force(const struct connection* at, const double force_n[3]) {
   const double x_n = -force_n[1], y_n = force_n[0], z_n = force_n[2];
   if (!at->has_more_motors) return at->dhd->dhdSetForce(x_n, y_n, z_n, at->id);
@@ -413,22 +417,23 @@ static int set_no_force(const struct connection* at) {
   return set_force(at, none_n);
 }
 
-/* Zero force on the hand: the device goes on to carry its own weight. Where it does not take
- * that, its motors are switched off, and brake. By any thread. */
+/* Sets zero force on the hand, while the device continues to carry its own weight. If the
+ * device does not accept that, its motors are switched off, and brake. Any thread may call
+ * it. */
 static void end_force(jnd_device* device) {
   if (atomic_load(&device->is_on) && set_no_force(&device->at) >= 0) return;
   atomic_store(&device->is_on, false);
   device->at.dhd->dhdStop(device->at.id);
 }
 
-/* After something that failed; the words of it have to be kept before. */
+/* Call it after a failure, and store the words about the failure before. */
 static void withhold(jnd_device* device) {
   device->is_withholding = true;
   memset(device->acted_n, 0, sizeof device->acted_n);
   end_force(device);
 }
 
-/* Motors on, with zero force before and after it. */
+/* Switches the motors on, with zero force before and after it. */
 static int switch_on(jnd_device* device) {
   const struct connection* at = &device->at;
   if (set_no_force(at) < 0 || at->dhd->dhdEnableForce(FD_ON, at->id) < 0) {
@@ -448,8 +453,8 @@ static int write_none(jnd_device* device, unsigned num_halts) {
   device->is_fresh = device->is_withholding = false;
   device->known_halts = num_halts;
   memset(device->acted_n, 0, sizeof device->acted_n);
-  /* What a person or the device itself switched off is not switched on by a program. It is told
-   * zeros all the same: whoever switches it on must not meet the force of before. */
+  /* A program must not switch on what a person or the device itself has switched off. But it
+   * still gets zeros, so that a person who switches it on does not meet an old force. */
   if (!atomic_load(&device->is_on) && device->may_switch_on) return switch_on(device);
   if (set_no_force(&device->at) >= 0) return JND_DEVICE_OK;
   const int result = failed("it does not take zero force (%.60s); it was switched off",
@@ -464,12 +469,12 @@ int jnd_device_write(jnd_device* device, const jnd_device_command* command) {
   const double squared_n2 =
       force_n[0] * force_n[0] + force_n[1] * force_n[1] + force_n[2] * force_n[2];
   if (squared_n2 == 0.0) return write_none(device, num_halts);
-  /* A simulated device may get a force at once: its motors go on with zeros all the same. */
+  /* A simulated device may get a force at once. Its motors still start with zeros. */
   if (device->is_fresh && num_halts == 0 && write_none(device, num_halts) != JND_DEVICE_OK) {
     return JND_DEVICE_FAILED;
   }
 
-  /* jnd has seen to all of this: what comes here all the same is a mistake of ours. */
+  /* jnd has ensured all of this, so a violation is a mistake of ours. */
   const double most_n = device->max_force_n * (1.0 + 1e-6);
   if (!(squared_n2 <= most_n * most_n)) {
     withhold(device);
@@ -490,7 +495,8 @@ int jnd_device_write(jnd_device* device, const jnd_device_command* command) {
     return result;
   }
   memcpy(device->acted_n, force_n, sizeof device->acted_n);
-  /* Halted in the middle of it, and perhaps before this force came: it must not stand. */
+  /* If a halt came in the middle of this, perhaps before this force did, the force must not
+   * persist. */
   if (atomic_load(&device->num_halts) != num_halts) withhold(device);
   return JND_DEVICE_OK;
 }
@@ -515,8 +521,8 @@ static int read_status(const struct connection* at, int* status) {
   return JND_DEVICE_OK;
 }
 
-/* Positions of a device that is not calibrated are wrong, and so would forces be. Nothing here
- * moves it: a person puts it to its place of rest. */
+/* Positions of an uncalibrated device are wrong, and so would be the forces. Nothing here
+ * moves the device: a person puts it to its place of rest. */
 static int require_calibration(jnd_device* device) {
   const struct connection* at = &device->at;
   const double patience_s = device->options.wait_for_calibration_s;
@@ -565,8 +571,8 @@ static int carry_its_weight(const jnd_device* device) {
   return JND_DEVICE_OK;
 }
 
-/* The library's limit, for a mistake of ours, and the controller's watchdog, for a computer that
- * stands still. */
+/* Sets the library's limit, against mistakes of ours, and the controller's watchdog, against
+ * a computer that stands still. */
 static int guard_it(const jnd_device* device) {
   const struct connection* at = &device->at;
   const struct dhd_library* dhd = at->dhd;
@@ -581,7 +587,7 @@ static int guard_it(const jnd_device* device) {
                     device->max_force_n, result < 0 ? reason(dhd) : "it tells another one");
     }
   }
-  /* Expert mode is the whole library's, and stays off but for these. */
+  /* Expert mode applies to the whole library, so it is on only for these calls. */
   bool is_watched = false;
   if (dhd->dhdEnableExpertMode() >= 0) {
     if (device->options.time_guard_us >= 0.0 && dhd->dhdSetTimeGuard != NULL) {
@@ -605,7 +611,7 @@ static double now_s(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Until positions and velocities come, or half a second is over. */
+/* Waits until positions and velocities come, for half a second at most. */
 static int wait_for_measurements(jnd_device* device) {
   const struct connection* at = &device->at;
   if (at->dhd->dhdConfigLinearVelocity((int)device->options.velocity_window_ms,
@@ -636,7 +642,7 @@ static int wait_for_measurements(jnd_device* device) {
 
 static int prepare(jnd_device* device) {
   const struct connection* at = &device->at;
-  /* Whatever another program has left. */
+  /* This ends whatever another program has left. */
   if (at->dhd->dhdStop(at->id) < 0) {
     return failed("a device that does not stop (%.80s); look at its cable and power",
                   reason(at->dhd));
@@ -663,7 +669,8 @@ int jnd_device_open(const char* text, double rate_hz, jnd_device** made) {
   device->reads_per_status = (uint64_t)fmax(1.0, rate_hz / status_rate_hz);
   device->is_fresh = true;
   device->is_enabled = true;
-  /* With the first write, for the controller's watchdog runs from then on. */
+  /* The motors are switched on with the first write, because the controller's watchdog runs
+   * from then on. */
   device->may_switch_on = true;
   atomic_init(&device->num_halts, 0);
   atomic_init(&device->is_on, false);
@@ -677,7 +684,7 @@ int jnd_device_open(const char* text, double rate_hz, jnd_device** made) {
   return JND_DEVICE_OK;
 }
 
-/* It is not asked what it says to this: it may be gone. */
+/* The results are ignored, because the device may be gone. */
 void jnd_device_close(jnd_device* device) {
   const struct connection* at = &device->at;
   set_no_force(at);
@@ -689,7 +696,7 @@ void jnd_device_close(jnd_device* device) {
 
 /* ---- Measurements ------------------------------------------------------------------------ */
 
-/* Whether the motors still give force, and if not, whose doing that is. */
+/* Checks whether the motors still give force, and if not, who has ended it. */
 static int look_after_it(jnd_device* device) {
   int status[FD_STATUS_ROOM];
   if (read_status(&device->at, status) != JND_DEVICE_OK) return JND_DEVICE_FAILED;
@@ -704,7 +711,7 @@ static int look_after_it(jnd_device* device) {
     device->may_switch_on = cause == FD_FORCE_OFF_WATCHDOG || cause == FD_FORCE_OFF_SOFTWARE;
     device->is_withholding = true;
     memset(device->acted_n, 0, sizeof device->acted_n);
-    /* The force of before may come back with the motors. */
+    /* Otherwise an old force might come back with the motors. */
     set_no_force(&device->at);
   }
   return JND_DEVICE_OK;
@@ -714,14 +721,14 @@ static bool is_finite3(const double numbers[3]) {
   return isfinite(numbers[0]) && isfinite(numbers[1]) && isfinite(numbers[2]);
 }
 
-/* From the device's frame. */
+/* Converts from the device's frame. */
 static void turn(const double from[3], double to[3]) {
   to[0] = from[1];
   to[1] = -from[0];
   to[2] = from[2];
 }
 
-/* A rotation as a unit quaternion, by its largest part, which is never near 0. */
+/* Converts a rotation to a unit quaternion, by its largest part, which is never close to 0. */
 static bool quaternion(double (*r)[3], double wxyz[4]) {
   const double parts[4] = {
       1.0 + r[0][0] + r[1][1] + r[2][2], 1.0 + r[0][0] - r[1][1] - r[2][2],
@@ -737,7 +744,7 @@ static bool quaternion(double (*r)[3], double wxyz[4]) {
   }
   double squared = 0.0;
   for (int i = 0; i < 4; ++i) squared += twice[largest][i] * twice[largest][i];
-  /* Of a rotation the row's length is twice the square root of its largest part. */
+  /* For a rotation, the row's length is twice the square root of its largest part. */
   if (!isfinite(squared) || fabs(squared - 4.0 * parts[largest]) > 0.04 * squared) return false;
   for (int i = 0; i < 4; ++i) wxyz[i] = twice[largest][i] / sqrt(squared);
   return true;
@@ -748,7 +755,7 @@ static int read_orientation(const struct connection* at, jnd_device_state* state
   if (at->dhd->dhdGetOrientationFrame(of_device, at->id) < 0) {
     return failed("it does not tell its orientation (%.60s)", reason(at->dhd));
   }
-  /* Both frames are turned, the end effector's as well: at rest they coincide. */
+  /* Both frames are turned, also that of the end effector: at rest they coincide. */
   static const int axis_of[3] = {1, 0, 2};
   static const double sign_of[3] = {1.0, -1.0, 1.0};
   for (int i = 0; i < 3; ++i) {
@@ -760,15 +767,15 @@ static int read_orientation(const struct connection* at, jnd_device_state* state
   return failed("it tells an orientation that is none");
 }
 
-/* m/s, the device's frame. */
+/* In m/s, in the device's frame. */
 static int read_velocity(const jnd_device* device, const double p_m[3], double time_s,
                          double v_m_per_s[3]) {
   const struct dhd_library* dhd = device->at.dhd;
   const int result =
       dhd->dhdGetLinearVelocity(&v_m_per_s[0], &v_m_per_s[1], &v_m_per_s[2], device->at.id);
   if (result < 0 && dhd->dhdErrorGetLast() == FD_ERROR_TIMEOUT && time_s > device->known_s) {
-    /* After a pause longer than its window the library has none before the next position, and
-     * the first read always comes after one. */
+    /* After a pause longer than its window, the library has no velocity before the next
+     * position. The first read always comes after such a pause. */
     for (int axis = 0; axis < 3; ++axis) {
       v_m_per_s[axis] = (p_m[axis] - device->known_m[axis]) / (time_s - device->known_s);
     }
@@ -794,7 +801,8 @@ static int measure(jnd_device* device, jnd_device_state* state) {
                   reason(at->dhd));
   }
   if (!is_finite3(p_m)) return failed("it tells a position that is no number");
-  /* No error: the device was asked a moment ago. But it is no new measurement either. */
+  /* This is no error, because the device was read a moment ago, but it is no new measurement
+   * either. */
   if (result == FD_TIME_GUARD && device->sample_number > 0) return JND_DEVICE_NO_SAMPLE;
   const double time_s = now_s();
   if (read_velocity(device, p_m, time_s, v_m_per_s) != JND_DEVICE_OK) return JND_DEVICE_FAILED;
@@ -811,8 +819,8 @@ static int measure(jnd_device* device, jnd_device_state* state) {
     if (at->dhd->dhdGetGripperGap(&gap_m, at->id) < 0 || !isfinite(gap_m)) {
       return failed("it does not tell how far its gripper is open (%.60s)", reason(at->dhd));
     }
-    /* Angles of left-handed grippers are negative (CHAI3D turns them); the documentation does
-     * not say whether their gaps are. */
+    /* Angles of left-handed grippers are negative (CHAI3D turns them). The documentation
+     * does not say whether their gaps are. */
     state->gripper_m = fabs(gap_m);
   }
   state->buttons = at->dhd->dhdGetButtonMask(at->id);
@@ -822,13 +830,14 @@ static int measure(jnd_device* device, jnd_device_state* state) {
 int jnd_device_read(jnd_device* device, jnd_device_state* state) {
   const int result = measure(device, state);
   if (result != JND_DEVICE_NO_SAMPLE) device->is_blind = result != JND_DEVICE_OK;
-  /* Once, for each of these calls may take the time that USB gives a device that is gone. */
+  /* It is called only once, because each of these calls may take as long as USB waits for a
+   * device that is gone. */
   if (result == JND_DEVICE_FAILED && !device->is_withholding) withhold(device);
   if (result != JND_DEVICE_OK) return result;
   state->sample_number = ++device->sample_number;
   state->attached_bits = 1;
   state->enabled = device->is_enabled ? 1 : 0;
-  /* What was written is what the motors were told, unless somebody has ended it since. */
+  /* The force that was written is the motors' command, unless somebody has ended it since. */
   if (atomic_load(&device->num_halts) == device->known_halts && device->is_enabled) {
     memcpy(state->acted_n[0], device->acted_n, sizeof device->acted_n);
   }

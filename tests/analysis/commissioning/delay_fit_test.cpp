@@ -17,13 +17,13 @@ constexpr double kPeriod_s = 0.001;
 
 constexpr int kPushTicks = 30;
 
-/// A device that moves on at some 0.2 m/s and is pushed to and fro by 3 N.
+/// A device that moves at some 0.2 m/s and is pushed to and fro by 3 N.
 struct Device {
   double delay_s = 0.002, mass_kg = 0.8, damping_n_s_per_m = 0.0, friction_n = 0.0;
   double cogging_n = 0.0, position_sd_m = 0.0;
 };
 
-/// Stepped by twentieths of a tick.
+/// Simulates the device in steps of a twentieth of a tick.
 std::vector<PushedWindow> pushed(const Device& device, int num_ways,
                                  core::RandomStream& random) {
   constexpr int kSteps = 20, kGathering = 300, kWindows = 3, kWindowTicks = 10 * kPushTicks;
@@ -85,7 +85,7 @@ TEST(DelayFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
   core::RandomStream random(2, "delay");
   int delay = 0, mass = 0;
   for (int study = 0; study < kStudies; ++study) {
-    // As exactly as the steps tell it.
+    // The true values are rounded to the steps of the simulation.
     const Device device{.delay_s = 5e-5 * std::round(random.uniform(10.0, 80.0)),
                         .mass_kg = random.uniform(0.3, 1.2),
                         .damping_n_s_per_m = 2.0,
@@ -96,7 +96,7 @@ TEST(DelayFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
     delay += fit.delay_s.holds(device.delay_s) ? 1 : 0;
     mass += fit.mass_per_gain_kg.holds(device.mass_kg) ? 1 : 0;
   }
-  // Within the binomial's 99.9 % range at 0.95.
+  // This is the lower end of the binomial's 99.9 % range at 0.95.
   EXPECT_GE(delay, 87);
   EXPECT_GE(mass, 87);
 }
@@ -117,7 +117,7 @@ TEST(DelayFit, SomethingThatDoesNotMoveHasNone) {
 TEST(DelayFit, WhatSeemsToMoveBeforeItIsPushedIsNoSingleMass) {
   core::RandomStream random(6, "delay");
   auto windows = pushed({.delay_s = 0.0}, 6, random);
-  // Positions two ticks early, forces two ticks late.
+  // Positions come two ticks early, forces two ticks late.
   for (PushedWindow& window : windows) {
     std::rotate(window.commanded_n.begin(), window.commanded_n.end() - 2,
                 window.commanded_n.end());
@@ -153,7 +153,7 @@ TEST(NoiseFit, TellsDeviationAndSteps) {
   }
   const NoiseFit fit = fit_noise(position_m, velocity_m_per_s);
   EXPECT_NEAR(fit.position_resolution_m, 8e-6, 1e-12);
-  // Rounding adds a twelfth of its square.
+  // Rounding adds a twelfth of the squared resolution to the variance.
   EXPECT_NEAR(fit.position_sd_m.value, std::sqrt(4e-10 + 64e-12 / 12.0), 6e-7);
   EXPECT_TRUE(fit.velocity_sd_m_per_s.holds(0.002));
   EXPECT_LT(fit.velocity_sd_m_per_s.ci95_high, 0.0021);

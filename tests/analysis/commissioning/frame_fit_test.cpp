@@ -42,7 +42,7 @@ TEST(FrameFit, FindsAQuarterTurnExactly) {
 }
 
 TEST(FrameFit, IsNeverAMirror) {
-  // Marks in a plane fit a mirror as well as a turn.
+  // Marks in a plane fit a reflection as well as a rotation.
   std::vector<TouchedMark> marks;
   for (const Eigen::Vector2d& at : {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(0.1, 0.0),
                                     Eigen::Vector2d(0.0, 0.1), Eigen::Vector2d(0.1, 0.1)}) {

@@ -8,8 +8,8 @@
 namespace jnd::analysis {
 namespace single_mass_test {
 
-/// Swings of a mass on a spring that a loop renders, in steps of a microsecond: how large they
-/// are at the end, over how large they were in the beginning.
+/// Simulates oscillations of a mass on a spring that a loop renders, in steps of a microsecond.
+/// Returns their final size over their initial size.
 double growth_by_steps(const SingleMass& device, double stiffness_n_per_m) {
   constexpr double kStep_s = 1e-6;
   constexpr double kDuration_s = 8.0;

@@ -11,7 +11,7 @@ namespace adaptive_runs_test {
 
 using experiments::Block;
 
-/// A study whose one block has these keys besides those of every block.
+/// Returns the block of a study whose only block has these keys besides the common ones.
 Block block_with(const std::string& keys) {
   const experiments::Study study = experiments::read_study_text(
       R"json({"format": 1, "name": "adaptive", "languages": ["en"], "title": {"en": "A"},
@@ -50,7 +50,8 @@ Block staircase_block(const std::string& more = "") {
 }
 
 TEST(AdaptiveRuns, AStaircaseIsTheMeanOfItsLastReversalsAndOfThoseInterleaved) {
-  // First: 16 yes, 8 no (turns), 16 yes (turns), 8. Second: 4 no, 8 yes (turns), 4 no (turns).
+  // The first staircase is 16 yes, 8 no (turns), 16 yes (turns), 8. The second is 4 no, 8 yes
+  // (turns), 4 no (turns).
   const AdaptiveRun run = run_of(staircase_block(), {{16, true, 1},
                                                      {4, false, 2},
                                                      {8, false, 1},
@@ -132,7 +133,7 @@ TEST(AdaptiveRuns, LimitsAreMeansOfTransitionsByDirection) {
   EXPECT_NEAR(*run.limits.constant_error, std::log(2.0), 1e-9) << "habituation";
 }
 
-/// Whoever has the pse 10 and the Weber fraction 0.2, ten answers a level.
+/// Returns ten answers at each level from a person with the pse 10 and the Weber fraction 0.2.
 std::vector<Answer> around_10() {
   std::vector<Answer> answers;
   for (const auto& [level, num_yes] : std::vector<std::pair<double, int>>{

@@ -61,7 +61,7 @@ class CsvExportTest : public ::testing::Test {
     return of.cell(row, of.find(column).value());
   }
 
-  // Neither fits in fewer than 17 digits.
+  // Neither number fits into fewer than 17 digits.
   static constexpr double kAwkward = 0.1 + 0.2;
   HandMadeStudy study_;
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
@@ -69,7 +69,7 @@ class CsvExportTest : public ::testing::Test {
 
 constexpr const char* kTables[] = {"sessions.csv", "trials.csv", "presentations.csv",
                                    "events.csv", "answers.csv"};
-// Worked out of several tables, or of the study file.
+// These tables are made from several tables or from the study file.
 constexpr const char* kMadeTables[] = {"participants.csv", "questionnaires.csv",
                                        "questions.csv",    "codebook.csv",
                                        "markers.csv",      "session_values.csv"};
@@ -374,7 +374,7 @@ TEST_F(CsvExportTest, AGapOfARecordingIsToldAndNotFilledIn) {
             "session,participant,simulated,first_tick,last_tick,missed_ticks\n1,P01,0,2,4,0\n");
 }
 
-/// Whatever somebody typed, in the study file or while it ran.
+/// This covers everything that somebody typed, in the study file or during a session.
 TEST_F(CsvExportTest, NoCellThatSomebodyTypedIsAFormula) {
   HandMadeStudy study(R"json({"name": "typed", "participant_fields": [{"name": "group",
       "options": [{"value": "=GROUP()"}]}],
@@ -402,7 +402,8 @@ TEST_F(CsvExportTest, NoCellThatSomebodyTypedIsAFormula) {
       }
     }
   }
-  // Of answers three; of participants the field; of questionnaires question, unit and answer.
+  // There are three texts in answers, one in participants (the field), and three in
+  // questionnaires (question, unit and answer).
   EXPECT_EQ(num_texts, 3U + 1U + 3U);
   EXPECT_NE(read_file(out() / "answers.csv").find(",'=cmd|' /C calc'!A0\n"), std::string::npos)
       << read_file(out() / "answers.csv");
@@ -472,7 +473,7 @@ TEST_P(RecordingsExportTest, HaveARowASampleAndTheirColumnsInTheCodebook) {
   ASSERT_EQ(samples.num_rows(), 100U);
   EXPECT_EQ(cell(samples, 99, "tick"), "99");
   if (GetParam()) {
-    // Of single precision, whose own digits would be 1.5707999467849731 and
+    // The values have single precision; their own digits would be 1.5707999467849731 and
     // 0.30000001192092896.
     EXPECT_EQ(cell(samples, 99, "middle_proximal_position_rad"), "1.5708");
     EXPECT_EQ(cell(samples, 99, "middle_proximal_torque_n_m"), "0.3");

@@ -137,7 +137,7 @@ TEST_F(Hdf5ExportTest, HoldsEverySampleAsTheCsvDoes) {
   EXPECT_EQ(ticks[6], 6.0);
   EXPECT_EQ(ticks[7], 9.0) << "nothing is filled in";
   EXPECT_EQ(ticks.back(), kNumTicks - 1);
-  // Point by point, axis by axis, in steps.
+  // The values are ordered by point and then by axis, and rounded to the stored steps.
   const std::size_t num = ticks.size();
   const std::vector<double> position = numbers("/session_0001/position_m");
   const std::vector<double> force = numbers("/session_0001/force_n");
@@ -172,7 +172,7 @@ TEST_F(Hdf5ExportTest, WhatIsNoNumberIsMissingAndWhatIsTooLargeIsTheLargest) {
 }
 
 TEST_F(Hdf5ExportTest, IsAtMostFifteenTimesAsLargeAsTheRecording) {
-  // A hand that moves as a person's does and is felt with some noise: all points alike.
+  // The hand moves like a person's, with some noise, which is the same at all points.
   fs::remove(study_.store().recording_file(1));
   {
     core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
@@ -200,7 +200,7 @@ TEST_F(Hdf5ExportTest, OfOneChannelAtATenthOfTheRateEachRowIsTheMeanOfItsTicks) 
   ASSERT_EQ(ticks.size(), kNumTicks / 10);
   EXPECT_EQ(ticks[1], 10.0);
   const std::vector<double> x = numbers("/session_0001/position_m");
-  // 0 to 9 without 7 and 8: 30 / 8, to the step that is stored.
+  // The mean of 0 to 9 without 7 and 8 is 30 / 8, rounded to the stored step.
   EXPECT_EQ(x[0], 4.0);
   EXPECT_EQ(x[1], 15.0) << "10 to 19 have the mean 14.5";
   EXPECT_EQ(numbers("/session_0001/attached_bits").at(3), 31.0);

@@ -29,7 +29,8 @@ namespace xdf_export_test {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// As a reader of its own has it, which knows the specification and nothing of this program.
+/// Reads the file by a separate reader, which knows the specification and nothing of this
+/// program.
 json read_back(const fs::path& file) {
   const fs::path script = test_support::source_folder() / "tests/analysis/export/read_xdf.py";
   const fs::path out = file.string() + ".json";
@@ -65,7 +66,7 @@ class XdfExportTest : public ::testing::Test {
 
   [[nodiscard]] fs::path recording() const { return study_.store().recording_file(1); }
 
-  /// The stream of an amplifier elsewhere, whose clock is two seconds behind ours.
+  /// Records the stream of another machine's amplifier, whose clock is two seconds behind ours.
   core::StreamFileSeal record_amplifier() {
     core::StreamFileWriter file(
         core::next_stream_file(recording()),

@@ -12,9 +12,9 @@
 #include "analysis/fits/curve_fit.h"
 #include "support/places.h"
 
-// Curves of data sets of others against R's glm, psyphy's links and optim:
-// data/reference/curves/curves.R; against what psignifit, Palamedes, quickpsy and psyphy
-// printed themselves: data/reference/agreement. docs/methods/agreement.md tells the tables.
+// Compares curves of other people's data sets with R's glm, psyphy's links and optim
+// (data/reference/curves/curves.R), and with what psignifit, Palamedes, quickpsy and psyphy
+// printed themselves (data/reference/agreement). docs/methods/agreement.md has the tables.
 
 namespace jnd::analysis {
 namespace curve_reference_test {
@@ -39,7 +39,7 @@ void add_answers(const char* folder, Groups& groups) {
   }
 }
 
-/// Of both folders.
+/// Returns the answers of both folders.
 Groups answers() {
   Groups groups;
   add_answers("curves", groups);
@@ -63,7 +63,8 @@ CurveModel model_of(const CsvTable& table, std::size_t row) {
   return model;
 }
 
-/// Without what has no logarithm, where the curve is one of it: the references leave it out.
+/// If the curve is one of the logarithm, leaves out rows without a logarithm, as the references
+/// do.
 std::vector<AnswerCount> rows_for(const CurveModel& model, std::vector<AnswerCount> rows) {
   if (model.is_logarithmic()) {
     std::erase_if(rows, [](const AnswerCount& one) { return !(one.intensity > 0.0); });
@@ -85,12 +86,15 @@ TEST(CurveReference, EveryMaximumIsThatOfTheOtherProgramsOrHigher) {
     std::ostringstream where;
     where << table.name() << " line " << table.line(row);
     const CurveFit fit = fit_curve(rows, {.model = model, .intervals = false});
-    if (fit.status != FitStatus::kOk) continue;  // A step: others tell any slope.
+    // The fit is a step; other programs then print any slope.
+    if (fit.status != FitStatus::kOk) continue;
     ++num_compared;
     const double peers = number(row, "log_likelihood");
     EXPECT_GT(*fit.log_likelihood, peers - 1e-5 * std::fabs(peers)) << where.str();
-    if (*fit.log_likelihood > peers + 1e-6 * std::fabs(peers)) continue;  // Ours is higher.
-    // As near as the other's own precision: likelihoods alike to 1e-6 have curves alike.
+    // Our likelihood is higher.
+    if (*fit.log_likelihood > peers + 1e-6 * std::fabs(peers)) continue;
+    // The tolerance is the other program's own precision: likelihoods that agree to 1e-6 have
+    // curves that agree so far.
     EXPECT_NEAR(*fit.scale.value, number(row, "scale"), 1e-2 * number(row, "scale"))
         << where.str();
     if (table.cell(row, *table.find("program")).find("glm") == std::string::npos) continue;
@@ -101,7 +105,7 @@ TEST(CurveReference, EveryMaximumIsThatOfTheOtherProgramsOrHigher) {
   EXPECT_GT(num_compared, 80);
 }
 
-/// A cell of compared.csv; absent where the other program printed none.
+/// Returns a cell of compared.csv, or none if the other program printed nothing.
 std::optional<double> printed(const CsvTable& table, std::size_t row, const char* column) {
   const std::string& cell = table.cell(row, *table.find(column));
   return cell.empty() ? std::nullopt : std::optional(std::stod(cell));
@@ -121,7 +125,8 @@ TEST(CurveReference, NumbersThatOtherProgramsPrintedAreNoLikelierThanOurs) {
     const CurveFit fit = fit_curve(rows_for(model, groups.at({data_set, group})),
                                    {.model = model, .intervals = false});
     if (fit.status != FitStatus::kOk) {
-      // A step: psignifit's priors hold the slope, the others stop at a steep one.
+      // The fit is a step: psignifit's priors limit the slope, and the others stop at a steep
+      // one.
       EXPECT_TRUE(group == "test_2AFC_logistic" || group == "Square 2 Downward" ||
                   data_set == "modelfree Schofield_etal")
           << where.str() << ": " << fit.reason;
@@ -130,7 +135,7 @@ TEST(CurveReference, NumbersThatOtherProgramsPrintedAreNoLikelierThanOurs) {
     ++num_compared[program];
     const double scale = *fit.scale.value;
     const double near = *fit.log_likelihood;
-    // R's maximum of the same model.
+    // This is R's maximum of the same model.
     EXPECT_NEAR(near, *printed(table, row, "r_log_likelihood"), 1e-8 * std::fabs(near))
         << where.str();
     EXPECT_NEAR(*fit.location.value, *printed(table, row, "r_location"), 1e-5 * scale)
@@ -140,7 +145,8 @@ TEST(CurveReference, NumbersThatOtherProgramsPrintedAreNoLikelierThanOurs) {
         << where.str();
     EXPECT_NEAR(*fit.lapse_rate.value, *printed(table, row, "r_lapse_rate"), 1e-5)
         << where.str();
-    // Theirs, where it is a maximum of the likelihood or of it with their priors.
+    // The other program's value, if it is a maximum of the likelihood, or of the likelihood
+    // with its priors.
     const std::optional<double> theirs = printed(table, row, "log_likelihood");
     if (theirs) {
       EXPECT_GT(near, *theirs - 1e-9 * std::fabs(near)) << where.str();
@@ -158,7 +164,7 @@ TEST(CurveReference, NumbersThatOtherProgramsPrintedAreNoLikelierThanOurs) {
 }
 
 TEST(CurveReference, ModelsThatShareASlopeAreAsLikelyAsQuickpsySays) {
-  // dlinares.org/model_selection.html prints three digits, with binomial coefficients.
+  // dlinares.org/model_selection.html prints three digits, including the binomial coefficients.
   struct Printed {
     const char* participant;
     double log_likelihood, aic;

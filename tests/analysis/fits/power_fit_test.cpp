@@ -43,17 +43,19 @@ TEST(PowerFit, BothMethodsReturnALawThatTheDataFollow) {
 }
 
 TEST(PowerFit, LineThroughTheLogarithmsIsWorkedByHand) {
-  // ln S = 0, ln 4, ln 4 at ln I = 0, ln 2, ln 4: slope ln 4 / (2 ln 2) = 1.
+  // ln S = 0, ln 4, ln 4 at ln I = 0, ln 2, ln 4, so the slope is ln 4 / (2 ln 2) = 1.
   const PowerFit found = fit_power({{1, 1}, {2, 4}, {4, 4}}, PowerMethod::kLogLog);
   EXPECT_NEAR(*found.a, 1.0, 1e-14);
   EXPECT_NEAR(*found.k, std::exp(std::log(4.0) * 2.0 / 3.0 - std::log(2.0)), 1e-14);
   EXPECT_NEAR(*found.r_squared, 0.75, 1e-14);
-  // Residuals (-1, 2, -1) ln(2)/3: sse = 6/9 ln^2 2, one degree of freedom, Sxx = 2 ln^2 2.
+  // The residuals are (-1, 2, -1) ln(2)/3, so sse = 6/9 ln^2 2 with one degree of freedom, and
+  // Sxx = 2 ln^2 2.
   EXPECT_NEAR(*found.a_standard_error, std::sqrt(1.0 / 3.0), 1e-14);
 }
 
 TEST(PowerFit, TheThesisJoinsEstimationAndProductionIntoOneLaw) {
-  // Thesis sec. 4: S_ME = 0.6663 I^0.6386, S_MP = 0.3761 I^1.206, joined 0.5145 I^0.9021.
+  // Thesis, sec. 4: S_ME = 0.6663 I^0.6386 and S_MP = 0.3761 I^1.206 combine to 0.5145
+  // I^0.9021.
   const PowerFit found = power_between({0.6663, 0.6386}, {0.3761, 1.206}, kScale);
   EXPECT_NEAR(*found.k, 0.51453, 5e-6);
   EXPECT_NEAR(*found.a, 0.90188, 5e-6);
@@ -108,7 +110,8 @@ TEST(PowerFit, MagnitudesAllAlikeHaveNoRSquared) {
   for (const PowerMethod method : {PowerMethod::kNonlinear, PowerMethod::kLogLog}) {
     std::vector<Magnitude> data;
     for (double intensity = 1.0; intensity < 12.0; intensity += 1.0) {
-      data.push_back({intensity, 0.6});  // Eleven logarithms, whose mean rounding moves.
+      // Rounding changes the mean of these eleven logarithms.
+      data.push_back({intensity, 0.6});
       const PowerFit found = fit_power(data, method);
       if (data.size() < 2) continue;
       ASSERT_EQ(found.status, FitStatus::kOk);
@@ -208,7 +211,7 @@ TEST(PowerFit, RowsAtIntensityZeroTellNothingAndAreNoDegreesOfFreedom) {
 }
 
 TEST(PowerFit, SomethingFeltAtZeroDoesNotHideAFallingLaw) {
-  // 0^a is infinite for a < 0: 20 there is no row of its magnitude less 0.
+  // 0^a is infinite for a < 0, so the row of 20 at 0 cannot have the residual 20 - 0.
   const PowerFit found = fit_power({{0, 20}, {1, 10}, {2, 5}, {4, 2.6}, {8, 1.2}});
   EXPECT_NEAR(*found.a, -0.993, 5e-4);
   EXPECT_GT(*found.r_squared, 0.99);

@@ -8,7 +8,7 @@
 
 namespace jnd::analysis {
 
-/// The tick of a recording at 1 kHz that the formulas of data/reference/movement make: strokes
+/// Returns a tick of a recording at 1 kHz by the formulas of data/reference/movement: strokes
 /// along (0.8, 0.6) with a tremor, and 0.4 s of rest in the middle of one.
 inline core::Sample made_up_sample(std::int64_t tick) {
   constexpr double kPi = std::numbers::pi;

@@ -8,7 +8,7 @@
 namespace jnd::analysis {
 namespace commissioning_figures_test {
 
-/// A device of 2 N s/m and 0.5 N, whose force is 10 % too weak; up is its y.
+/// A device of 2 N s/m and 0.5 N, whose force is 10 % too weak; its y points up.
 ForceFit force_by_hand() {
   ForceFit fit{.gain = {0.9, 0.89, 0.91},
                .offset_n = {0.0, -1.0, 0.0},

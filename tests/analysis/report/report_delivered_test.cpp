@@ -25,7 +25,7 @@ StudyResults results_with(const Estimate& estimate) {
   return results;
 }
 
-/// 0.6 as commanded, 0.3 as delivered.
+/// The fraction is 0.6 as commanded and 0.3 as delivered.
 DeliveredReport delivered_by_hand() {
   Estimate estimate = fraction(0.3, 0.2, 0.45);
   estimate.device_ci95 = {0.29, 0.31};
@@ -70,7 +70,7 @@ TEST(ReportDelivered, WhatTheDeviceHasNoPartInIsNotCompared) {
   write_delivered(html, results_with(fraction(0.6, 0.4, 0.9)), delivered, {});
   EXPECT_EQ(html.text(), "");
   EXPECT_TRUE(delivered_figures(results_with(fraction(0.6, 0.4, 0.9)), delivered, {}).empty());
-  // Nor what is none of the primary values, or is not among those commanded.
+  // Values that are not primary, or not among the commanded ones, do not appear either.
   delivered = delivered_by_hand();
   delivered.results.sections[0].estimates[0].primary = false;
   write_delivered(html, results_with(fraction(0.6, 0.4, 0.9)), delivered, {});

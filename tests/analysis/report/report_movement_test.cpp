@@ -62,7 +62,7 @@ TEST(ReportMovement, DoesNotWarnOfATenth) {
   EXPECT_FALSE(has(html, "Caution"));
 }
 
-/// Two people in free space and honey, in which one of them came to no whole stroke.
+/// Two people explored free space and honey. One of them made no whole stroke there.
 MovementAnalysis explored() {
   MovementAnalysis movement;
   for (const char* name : {"P01", "P02"}) {

@@ -14,7 +14,7 @@ constexpr double kReferencePaS = 1.853;
 constexpr std::array kLevelsPaS = {1.093, 1.237, 1.646, 1.7495, 2.203, 2.553, 3.185, 3.883};
 const ResultsOptions kQuick = {.num_resamples = 50, .seed = 1};
 
-/// Five answers a level, that many of them "more than the reference".
+/// Adds five answers at each level, of which this many are "more than the reference".
 void add_person(HandMadeStudy& study, const std::string& name,
                 const std::array<int, kLevelsPaS.size()>& num_yes) {
   study.add(name);
@@ -42,7 +42,8 @@ const ParticipantEstimate& own(const StudyResults& of, const std::string& person
   return *found;
 }
 
-/// One whose bias no curve through the reference describes, one whom it describes well.
+/// No curve through the reference describes the biased answers of one person; it describes the
+/// other's well.
 class DiscriminationOwnValues : public ::testing::Test {
  protected:
   DiscriminationOwnValues() {
@@ -56,8 +57,9 @@ class DiscriminationOwnValues : public ::testing::Test {
   HandMadeStudy study_;
 };
 
-// glm(cbind(k, 5 - k) ~ u, binomial(probit)) of R 4.2.2 with u = ln(x / 1.853), with and
-// without intercept; the p value over 4000 redraws there: 0.0002 and 0.947.
+// The values are those of glm(cbind(k, 5 - k) ~ u, binomial(probit)) in R 4.2.2, with u = ln(x
+// / 1.853), with and without intercept. The p values over 4000 redraws there are 0.0002 and
+// 0.947.
 TEST_F(DiscriminationOwnValues, HaveTheCurveWithItsPlaceFreeAndWhetherTheDataBearEach) {
   const StudyResults of = results();
   EXPECT_NEAR(*own(of, "BIASED", "group_d.weber_fraction").value, 1.84565093, 1e-6);

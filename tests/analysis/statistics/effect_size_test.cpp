@@ -9,9 +9,9 @@ namespace jnd::analysis {
 namespace effect_size_test {
 
 TEST(EffectSize, HedgesFactorIsTheExactOneAndTendsToOne) {
-  // gamma(1) / (sqrt(1) gamma(1/2)) at two degrees of freedom.
+  // With two degrees of freedom it is gamma(1) / (sqrt(1) gamma(1/2)).
   EXPECT_NEAR(hedges_factor(2.0), 1.0 / std::sqrt(std::numbers::pi), 1e-14);
-  // Close to 1 - 3 / (4 m - 1).
+  // It is close to 1 - 3 / (4 m - 1).
   EXPECT_NEAR(hedges_factor(24.0), 1.0 - 3.0 / 95.0, 1e-4);
   EXPECT_NEAR(hedges_factor(1e6), 1.0, 1e-6);
 }
@@ -30,7 +30,7 @@ TEST(EffectSize, TheIntervalOfTheNoncentralityHoldsTAndTurnsWithItsSign) {
 }
 
 TEST(EffectSize, WithoutEffectTheIntervalIsTheNormalOne) {
-  // T is 0 exactly where the numerator is, whatever the degrees of freedom.
+  // T is 0 exactly if the numerator is, whatever the degrees of freedom.
   const Interval interval = noncentrality_ci95(0.0, 7.0);
   EXPECT_NEAR(*interval.low, -1.959963984540054, 1e-9);
   EXPECT_NEAR(*interval.high, 1.959963984540054, 1e-9);
@@ -56,8 +56,8 @@ TEST(EffectSize, OfGroupsDoesNotChangeWithTheUnit) {
   EXPECT_GT(*small.hedges_g_ci95.high, *small.hedges_g);
 }
 
-/// Variances 9 and 1, and errors 9 / 2 and 1 / 3 of them, by hand: g over the root of 5, its
-/// degrees of freedom (1)(2) 10^2 / (2 9^2 + 1 1^2).
+/// The variances 9 and 1 contribute 9 / 2 and 1 / 3 to the error. By hand, g is divided by the
+/// root of 5, and its degrees of freedom are (1)(2) 10^2 / (2 9^2 + 1 1^2).
 TEST(EffectSize, OfGroupsTakesTheirSpreadsAsTheyAre) {
   Comparison comparison;
   add_effect_of_groups(comparison, {.mean = 4.0, .standard_deviation = 3.0, .num_values = 2},
@@ -70,8 +70,8 @@ TEST(EffectSize, OfGroupsTakesTheirSpreadsAsTheyAre) {
   EXPECT_NEAR(*comparison.hedges_g_ci95.high, factor * *t.high * std::sqrt(error / 5.0), 1e-9);
 }
 
-/// Eight values that vary and 24 that do not: by the pooled standard deviation the interval was
-/// 0.07 to 1.69 beside a p of .20.
+/// Eight values vary and 24 do not. With the pooled standard deviation the interval was 0.07 to
+/// 1.69, although p was .20.
 TEST(EffectSize, OfGroupsAgreesWithWelchsTest) {
   const Comparison found =
       welch_t_test({3.55, 5.56, 5.23, -1.37, -.04, 1.84, -.25, -2.28},

@@ -11,7 +11,7 @@ using namespace jnd::analysis;
 using Values = std::vector<double>;
 
 TEST(KendallCorrelation, WithoutTiesIsExact) {
-  // 15 pairs, 12 of them concordant. R 4.2.2: cor.test(method = "kendall").
+  // Of 15 pairs 12 are concordant. R 4.2.2: cor.test(method = "kendall").
   const Comparison found = kendall_correlation({1, 2, 3, 4, 5, 6}, {2, 1, 4, 3, 6, 5});
   EXPECT_NEAR(*found.estimate, 0.6, 1e-12);
   EXPECT_EQ(found.statistic, 12.0);
@@ -34,7 +34,7 @@ TEST(KendallCorrelation, AColumnOfOneValueHasNone) {
 }
 
 TEST(SignTest, CountsSignsAndLeavesEqualPairsOut) {
-  // Differences 1, 2, 1, 4, 0: four above 0 of four, so p = 2 / 16.
+  // The differences are 1, 2, 1, 4, 0. Four of four are above 0, so p = 2 / 16.
   const Comparison found = sign_test({1, 3, 4, 8, 5}, {0, 1, 3, 4, 5});
   EXPECT_EQ(found.statistic, 4.0);
   EXPECT_EQ(found.num_zeros, 1);
@@ -44,7 +44,8 @@ TEST(SignTest, CountsSignsAndLeavesEqualPairsOut) {
 }
 
 TEST(SignTest, TheIntervalOfTheMedianIsByOrder) {
-  // Of ten, the second and the ninth: P(fewer than 2 of 10) = 11 / 1024 on either side.
+  // These are the second and the ninth of ten: P(fewer than 2 of 10) = 11 / 1024 on either
+  // side.
   Values a;
   for (int i = 1; i <= 10; ++i) a.push_back(i);
   const Comparison found = sign_test(a, Values(10, 0.0));

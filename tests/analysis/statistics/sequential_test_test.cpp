@@ -11,7 +11,7 @@ SequentialBoundaries two_looks(Tail tail = Tail::kTwoSided) {
   return boundaries_of({.looks = {12, 24}, .tail = tail});
 }
 
-/// With 11 degrees of freedom.
+/// Returns an estimate with 11 degrees of freedom.
 EffectEstimate with_t(double t) { return {t * 0.1, 0.1, 11.0}; }
 
 TEST(SequentialTest, HasNominalLevelsOfItsBoundaries) {
@@ -57,8 +57,8 @@ TEST(SequentialTest, TakesTheFirstPeopleByGroup) {
   EXPECT_FALSE(estimate_of_first(people, 4, 2)) << "one person in a group tells no spread";
 }
 
-// The significance level approach holds the level of few people, too: in 10,000 studies without
-// an effect the standard error of 5 % is 0.22 %.
+// The test keeps its level also with few people. In 10,000 studies without an effect, the
+// standard error of 5 % is 0.22 %.
 TEST(SequentialTest, FindsWhatIsNotThereInAtMostFivePercent) {
   for (const auto spending : {SpendingFunction::kObrienFleming, SpendingFunction::kPocock}) {
     const SequentialBoundaries boundaries =

@@ -50,7 +50,7 @@ TEST_F(BackupCommandTest, ASessionThatDiedGoesOnInWhatIsMadeOfItsBackup) {
                           "--headless", "--seed", "7", "--acknowledge"},
                          options_);
     for (int line = 0; line < 30; ++line) ASSERT_TRUE(child.read_line());
-    // While it runs, and after it was killed.
+    // The backup is taken while the session runs, and again after it was killed.
     EXPECT_EQ(jnd({"backup", "a.study", "--to", "copy"}).exit_code, 0);
     child.send_signal(SIGKILL);
     (void)child.wait();

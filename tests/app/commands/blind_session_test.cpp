@@ -27,15 +27,17 @@ using test_support::RunningProgram;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 
-/// All that left the program while a session ran.
+/// Everything that left the program while a session ran.
 struct Outgoing {
-  std::string printed;       ///< Lines of the terminal.
-  std::string stream_bytes;  ///< The description of the markers' stream, and each on the wire.
-  std::vector<std::string> markers;  ///< Their words, without what counts or names the session.
+  std::string printed;  ///< Lines of the terminal.
+  /// The description of the markers' stream, and each marker on the wire.
+  std::string stream_bytes;
+  std::vector<std::string> markers;  ///< Their words, without numbers and names of the session.
   std::vector<unsigned char> pulses;
 };
 
-/// Whole double-blind sessions of the real program, everything at once that tells others of it.
+/// Runs whole double-blind sessions of the real program, with everything at once that tells
+/// others about it.
 class BlindSessionTest : public CommandTest {
  protected:
   BlindSessionTest() { write_file(path("blind.json"), kBlindOrderStudy); }
@@ -107,7 +109,7 @@ TEST_F(BlindSessionTest, NothingThatGoesOutTellsALevelOrWhichOrderItWas) {
         << "what is searched is whole: " << session.printed;
     EXPECT_NE(session.stream_bytes.find("session_completed"), std::string::npos);
   }
-  // A recorder may have come a moment late: what both heard is the same.
+  // A recorder may have come a moment late, so only what both heard is compared.
   ASSERT_GT(std::min(one.markers.size(), other.markers.size()), 20U);
   const auto heard =
       static_cast<std::ptrdiff_t>(std::min(one.markers.size(), other.markers.size()));
@@ -117,7 +119,7 @@ TEST_F(BlindSessionTest, NothingThatGoesOutTellsALevelOrWhichOrderItWas) {
   const std::set<int> codes(one.pulses.begin(), one.pulses.end());
   EXPECT_THAT(codes, UnorderedElementsAre(0, 1, 2, 10, 20, 32));
 
-  // What somebody types afterwards, and what they may not.
+  // Commands that somebody may type afterwards, and some that are refused.
   std::string printed;
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"verify", "a.study"},
@@ -138,7 +140,7 @@ TEST_F(BlindSessionTest, NothingThatGoesOutTellsALevelOrWhichOrderItWas) {
     EXPECT_FALSE(std::filesystem::exists(path(written))) << written;
   }
 
-  // The other way round: these words are what is looked for.
+  // The opposite case: now these words have to appear.
   ASSERT_EQ(jnd({"unblind", "a.study", "--reason", "done"}).exit_code, 0);
   const ProgramOutcome results = jnd({"results", "a.study"});
   EXPECT_THAT(told_by(results.out + results.err), ::testing::Not(IsEmpty()));

@@ -42,7 +42,7 @@ TEST(ExportCommand, WritesTheTablesAndRefusesAFolderThatIsNotEmpty) {
   EXPECT_EQ(read_file(temporary.path() / "out/of/way/trials.csv"), before);
 }
 
-/// Whatever the machine's usual rights are: persons' data are nobody else's.
+/// Personal data are for their owner alone, whatever the machine's default rights are.
 TEST(ExportCommand, WhatItWritesIsForItsOwnerOnly) {
   const test_support::TemporaryFolder temporary(test_support::memory_folder());
   const test_support::ProgramOptions options{.folder = temporary.path(), .environment = {}};
@@ -84,7 +84,7 @@ TEST(ExportCommand, CarriesOneRowAnAnsweredTrial) {
   EXPECT_EQ(std::count(trials.begin(), trials.end(), '\n'), 1 + 3 * kTinyTrials);
 }
 
-/// Two simulated participants of the tiny study, recorded.
+/// A recorded study of two simulated participants.
 class RecordedStudy {
  public:
   RecordedStudy() {
@@ -164,7 +164,7 @@ TEST(ExportCommand, AFullDiskIsOneSentenceAndLeavesNothing) {
   }
 }
 
-/// The parent of such a folder is of another disk: nothing can be renamed from there.
+/// The parent of such a folder is on another disk, so nothing can be renamed from there.
 TEST(ExportCommand, AnEmptyMountPointIsFilledOnItsOwnDisk) {
   const RecordedStudy study;
   fs::create_directory(study.path("disk"));
@@ -208,7 +208,7 @@ TEST(ExportCommand, ASignalEndsItInOneSentenceAndLeavesNothing) {
   const RecordedStudy study;
   const std::set<std::string> before = study.names();
   ProgramOutcome outcome;
-  // It may have finished before the signal came.
+  // The export may have finished before the signal came.
   for (int attempt = 0; attempt < 20 && outcome.exit_code != 1; ++attempt) {
     fs::remove_all(study.path("out"));
     test_support::RunningProgram program(
@@ -239,7 +239,7 @@ TEST(ExportCommand, AFolderThatCannotBeWrittenIsOneSentence) {
   }
 }
 
-/// Where `./dev test` installs it, or npm keeps what is installed for all; "" if nowhere.
+/// Returns the validator where `./dev test` installs it, or npm's global one, or "".
 std::string bids_validator() {
   const std::string in_module = "/bids-validator/bin/bids-validator";
   const std::string local =

@@ -10,16 +10,16 @@
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
-// What jnd fit and jnd compare make of files and words that are wrong: one sentence that names
-// the place, what was expected and what was found, and the exit code of the contract.
+// Tests how jnd fit and jnd compare respond to wrong files and words: one sentence that names
+// the place, what was expected and what was found, and the documented exit code.
 
 namespace jnd::app {
 namespace fit_bad_input_test {
 
 struct Case {
   std::string name;
-  std::string text;                ///< Of t.csv.
-  std::vector<std::string> words;  ///< After `jnd`.
+  std::string text;                ///< Content of t.csv.
+  std::vector<std::string> words;  ///< Words after `jnd`.
   int exit_code = 1;
   std::vector<std::string> said;  ///< Parts of the one line on stderr.
 };
@@ -45,7 +45,7 @@ std::string row(const std::string& cells) { return kHeader + cells + "\n"; }
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> kCases = {
-      // The file.
+      // Wrong files.
       {"missing file",
        kGood,
        {"fit", "weber", "--csv", "no.csv", "--reference", "8"},
@@ -93,7 +93,7 @@ const std::vector<Case>& cases() {
        kPaired,
        1,
        {"t.csv:1: expected every column once", "\"a\""}},
-      // Columns.
+      // Wrong columns.
       {"missing column",
        "intensity,num_yes,trials\n1,1,2\n",
        kWeber,
@@ -115,7 +115,7 @@ const std::vector<Case>& cases() {
        with(kWeber, {"--group-by", "colour"}),
        1,
        {"t.csv:1: colour: expected a column", "num_trials"}},
-      // Cells.
+      // Wrong cells.
       {"text",
        row("5,many,20"),
        kWeber,
@@ -155,7 +155,7 @@ const std::vector<Case>& cases() {
        kWeber,
        1,
        {"t.csv:2: num_yes: expected a whole number >= 0, found \"1.5\""}},
-      // Usage.
+      // Wrong usage.
       {"reference 0",
        kGood,
        weber_at("0"),

@@ -29,7 +29,7 @@ TEST(FitFigures, AddUpTheAnswersAtAnIntensity) {
   EXPECT_EQ(points[1].num_trials, 20.0);
 }
 
-// By hand: half way at the pse, Phi(1) at pse (1 + w), between the ends that lapses leave.
+// By hand: half way at the pse, and Phi(1) at pse (1 + w), between the ends that lapses leave.
 TEST(FitFigures, DrawTheWeberCurveBetweenItsEnds) {
   analysis::PsychometricFit fit{.status = FitStatus::kOk, .weber_fraction = 0.5};
   fit.pse = 2.0;
@@ -80,7 +80,7 @@ class FigureCommands : public FitFixture {
           "C,x,1.5\nC,y,3\nC,z,2.9\n");
     table("two.csv", "a,b\n1,2\n2,2.5\n3,5\n4,4.5\n");
   }
-  /// Draws, and says the size of what was written.
+  /// Draws, and returns the size of what was written.
   std::uintmax_t drawn(std::vector<std::string> arguments, int exit_code = 0) {
     const std::string name = "figure" + std::to_string(++num_figures_) + ".svg";
     arguments.insert(arguments.end(), {"--figure", name});

@@ -221,7 +221,7 @@ TEST_F(FitCommandTest, AnswersThatFallAreWarnedOf) {
     EXPECT_EQ(warning.find("--overdispersion"), std::string::npos) << "nor do they scatter";
   }
   EXPECT_NE(fit(words, false).out.find("note: the answers fall"), std::string::npos);
-  // Also where there is no curve.
+  // This also holds if there is no curve.
   table("f.csv", "intensity,num_yes,num_trials\n0.5,9,10\n2,1,10\n");
   const auto none = document(fit(words).out);
   EXPECT_EQ(none["status"], "degenerate");
@@ -263,7 +263,8 @@ TEST_F(FitCommandTest, AnswersOfSeveralPeopleInOneCurveAreWarnedOf) {
             std::string::npos);
 }
 
-/// A true w of .2 and 5 % lapses at both ends: without lapses in the model .42 (.32 .. .59).
+/// The true w is .2, with 5 % lapses at both ends. Without lapses in the model it is .42 (.32
+/// .. .59).
 TEST_F(FitCommandTest, LapsesThatAreNotInTheModelAreWarnedOf) {
   table("l.csv",
         "intensity,num_yes,num_trials\n"
@@ -285,7 +286,7 @@ TEST_F(FitCommandTest, LapsesThatAreNotInTheModelAreWarnedOf) {
   EXPECT_NE(warnings({"--lapse", "free"}).find("looks like a lapse"), std::string::npos);
 }
 
-/// Three rounds of yes at every level, then three of no.
+/// Three rounds have "yes" at every level, then three have "no".
 TEST_F(FitCommandTest, SingleAnswersThatScatterAreWarnedOfWhateverTheInterval) {
   std::string text = "intensity,num_yes,num_trials\n";
   for (int round = 0; round < 24; ++round) {
@@ -322,7 +323,7 @@ TEST_F(FitCommandTest, RowsOfSeveralPeopleInOnePowerLawAreWarnedOf) {
   }
 }
 
-/// Four people at four intensities, each with an exponent of their own.
+/// Returns magnitudes of four people at four intensities, each with an exponent of their own.
 std::string magnitudes_of_people() {
   std::string text = "who,condition,intensity,magnitude\n";
   const char* rows[4][4] = {{"10", "14", "23", "30"},
@@ -355,8 +356,8 @@ TEST_F(FitCommandTest, PowerLawOfAGroupHasTheGroupsExponentAndEverybodys) {
   EXPECT_EQ(json["interval_method"], "t");
   EXPECT_EQ(json["degrees_of_freedom"], 3);
   ASSERT_EQ(json["people"].size(), 4U);
-  // Where everybody judged the same, the group's exponent is the mean of the own ones, and its
-  // interval that of the mean.
+  // If everybody judged the same stimuli, the group's exponent is the mean of the own ones, and
+  // its interval is that of the mean.
   const auto alone =
       document(fit({"power", "--csv", "p.csv", "--method", "loglog", "--group-by", "who"})
                    .out)["groups"];

@@ -10,8 +10,8 @@
 #include "support/places.h"
 #include "support/program.h"
 
-// A study as an author would write it after the shipped one: numbers of one's own, in the order
-// of a Williams square, with the eyes open and shut.
+// A study as an author would derive it from the shipped one: with a free modulus, in the order
+// of a Williams square, and with the eyes open and shut.
 
 namespace jnd::app {
 namespace free_modulus_test {

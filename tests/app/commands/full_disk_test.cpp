@@ -42,7 +42,7 @@ TEST_F(FullDiskTest, ASessionSaysSoKeepsWhatItAcknowledgedAndGoesOnOnceThereIsRo
     if (!acknowledged.empty()) {
       ++num_in_session;
       EXPECT_EQ(sentence_flaw(outcome.err, {"full", "jnd resume disk/a.study"}), "");
-      // Still full: the same sentence again, and no harm.
+      // The disk is still full: the same sentence comes again, without harm.
       EXPECT_EQ(jnd({"resume", "disk/a.study", "--headless"}).exit_code, 1);
     }
     ASSERT_TRUE(disk.resize(20000));

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kFewer = test_support::kIsSanitized ? 5 : 1;
 
-/// When a program is killed: after so many lines, or after so long.
+/// When a program is killed: after this many lines, or after this time.
 struct Moment {
   std::optional<std::size_t> lines;
   Clock::duration elapsed{};
@@ -52,8 +52,8 @@ class KillTest : public CommandTest {
     return words;
   }
 
-  /// Every third at any moment, while the folder is being made included; the others right
-  /// after an acknowledgement, when most is under way.
+  /// Draws a moment. Every third is any moment, including the making of the folder. The others
+  /// are right after an acknowledgement, when most is under way.
   Moment draw_moment() {
     if (random_() % 3 == 0) {
       const double ratio = std::uniform_real_distribution<double>(0.0, 1.0)(random_);
@@ -62,8 +62,8 @@ class KillTest : public CommandTest {
     return {.lines = 1 + random_() % num_events_};
   }
 
-  /// Runs these words until they are killed (or done before), adds what they acknowledged, and
-  /// expects all of it to be there and `verify` to find nothing wrong.
+  /// Runs these words until they are killed or done, and adds what they acknowledged. Expects
+  /// that all of it is there and that `verify` finds nothing wrong.
   void killed(const std::string& study, const std::vector<std::string>& words,
               const Moment& moment, std::vector<std::string>& acknowledged) {
     {
@@ -82,18 +82,18 @@ class KillTest : public CommandTest {
       num_killed_ += outcome.signal == SIGKILL ? 1 : 0;
       for (const std::string& line : whole_lines_of(outcome.out)) acknowledged.push_back(line);
     }
-    if (acknowledged.empty()) return;  // Nothing was promised yet.
+    if (acknowledged.empty()) return;  // Nothing has been promised yet.
     check_acknowledged(opened(study), acknowledged);
     const ProgramOutcome verified = jnd({"verify", study, "--json"});
     EXPECT_EQ(verified.exit_code, 0) << verified.out;
     EXPECT_EQ(document(verified.out)["complete"], true);
   }
 
-  /// However far it came: what a person does next brings it to its end.
+  /// However far it came, what a person does next brings it to its end.
   void finish(const std::string& study) {
     ProgramOutcome outcome = jnd(resume_words(study));
     if (outcome.exit_code != 0 || !outcome.out.starts_with("EVENT")) {
-      // Killed before its folder or its session was made, or finished before.
+      // It was killed before its folder or its session was made, or finished before.
       const bool is_finished = outcome.exit_code == 0 && !opened(study).sessions().empty();
       if (!is_finished) outcome = jnd(run_words(study));
     }
@@ -102,8 +102,8 @@ class KillTest : public CommandTest {
     EXPECT_EQ(verified.exit_code, 0) << verified.out;
   }
 
-  /// Same order, stimuli and items; same answers to every trial before which nothing in its
-  /// block was interrupted (a later estimate leans on the one before).
+  /// Expects the same order, stimuli and items, and the same answers to every trial before
+  /// which nothing in its block was interrupted. (A later estimate depends on the one before.)
   void expect_as_uninterrupted(const std::string& study) {
     const core::StudyStore whole = opened("whole.study");
     const core::StudyStore store = opened(study);
@@ -148,7 +148,7 @@ TEST_P(KilledAtAnyMomentTest, ItLosesNothingThatItAcknowledgedAndGoesOnAsIfUnint
     const std::string study = "killed" + std::to_string(round) + ".study";
     std::vector<std::string> acknowledged;
     killed(study, run_words(study), draw_moment(), acknowledged);
-    // Those who take over may be killed as well, more than once.
+    // The programs that take over may be killed as well, more than once.
     for (int again = 0; again < 2 && !acknowledged.empty(); ++again) {
       if (random_() % 2 == 0) killed(study, resume_words(study), draw_moment(), acknowledged);
     }
@@ -156,7 +156,7 @@ TEST_P(KilledAtAnyMomentTest, ItLosesNothingThatItAcknowledgedAndGoesOnAsIfUnint
     if (!acknowledged.empty()) check_acknowledged(opened(study), acknowledged);
     expect_as_uninterrupted(study);
   }
-  // Otherwise there is little that this has shown.
+  // Otherwise this test has shown little.
   EXPECT_GT(num_killed_, 10 / kFewer);
   EXPECT_GT(num_compared_, 25 / kFewer);
 }
@@ -164,7 +164,8 @@ TEST_P(KilledAtAnyMomentTest, ItLosesNothingThatItAcknowledgedAndGoesOnAsIfUnint
 INSTANTIATE_TEST_SUITE_P(Seeds, KilledAtAnyMomentTest, ::testing::Values(1U, 2U));
 
 TEST_F(KillTest, WithinTheLoopInRealTimeItLosesNothingEither) {
-  // While the hand moves freely, right after that, at rest, and in the first stroke.
+  // These are moments while the hand moves freely, right after that, at rest, and in the first
+  // stroke.
   for (const std::size_t lines : {9U, 10U, 14U, 15U}) {
     SCOPED_TRACE(lines);
     const std::string study = "realtime" + std::to_string(lines) + ".study";

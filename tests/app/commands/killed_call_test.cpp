@@ -20,7 +20,7 @@ namespace killed_call_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-/// Little to copy and to read back, for that is done hundreds of times.
+/// The study is short, because it is copied and read back hundreds of times.
 constexpr const char* kShortStudy = R"json({
   "format": 1, "name": "short", "languages": ["en"], "title": {"en": "Short"},
   "authors": ["A. Author"],
@@ -32,20 +32,21 @@ constexpr const char* kShortStudy = R"json({
   ]
 })json";
 
-/// What changes files. A sync does not, as far as a program that dies is concerned.
+/// Calls that change files. A sync does not, as far as a dying program is concerned.
 constexpr const char* kChanging =
     "openat,write,pwrite64,rename,renameat,renameat2,unlink,unlinkat,ftruncate,mkdir,mkdirat,"
     "fallocate,link,linkat,rmdir";
 
-/// Kill the program as it enters its nth call of this name.
+/// Kills the program as it enters its nth call of this name.
 struct Point {
   std::string name;
   int nth = 0;
-  std::string text;  ///< The call, as strace prints it.
+  std::string text;  ///< The call as strace prints it.
 };
 
-/// The calls that change a file of the folder. Of many in a row on one file, the first and
-/// every 50th: what lies between them is half of one transaction.
+/// Returns the calls that change a file of the folder. Of many calls in a row on one file it
+/// takes the first and every 50th, because those in between are in the middle of one
+/// transaction.
 std::vector<Point> points_in(const std::string& trace, const std::string& folder) {
   static const std::regex kCall(R"(^\d+ +(\w+)\((\d+<[^>]*>)?.*)");
   std::map<std::string, int> num_calls;
@@ -60,7 +61,7 @@ std::vector<Point> points_in(const std::string& trace, const std::string& folder
     const int nth = ++num_calls[name];
     const bool reads = name == "openat" && line.find("O_CREAT") == std::string::npos &&
                        line.find("O_TRUNC") == std::string::npos;
-    // What SQLite makes anew whenever a database is opened.
+    // SQLite makes this file again whenever a database is opened.
     const bool is_index = match[2].str().ends_with("-shm>");
     if (reads || is_index || line.find(folder) == std::string::npos) continue;
     const std::string same = name + match[2].str();
@@ -75,14 +76,14 @@ std::vector<Point> points_in(const std::string& trace, const std::string& folder
 std::string bytes_in(const fs::path& folder) {
   std::ostringstream bytes;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    // An empty file would set the stream's mark of failure.
+    // An empty file would set the stream's failure bit.
     if (!entry.is_regular_file() || entry.file_size() == 0) continue;
     bytes << std::ifstream(entry.path(), std::ios::binary).rdbuf();
   }
   return std::move(bytes).str();
 }
 
-/// What `verify` says of the folder: "" if it is complete.
+/// Returns what `verify` says about the folder, or "" if it is complete.
 std::string problems_of(const fs::path& folder) try {
   std::string text;
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
@@ -125,8 +126,8 @@ class KilledCall : public CommandTest {
         words, {.folder = temporary_.path(), .environment = {}, .wrapper = wrapper});
   }
 
-  /// Kills the words at each of their calls in turn, always from what is in "now" when it is
-  /// called, and has what is left looked at.
+  /// Kills the words at each of their calls in turn, always starting from the state of "now",
+  /// and calls `check` on what is left.
   template <typename Check>
   void sweep(const std::vector<std::string>& words, const Check& check) {
     fs::copy(path("now"), path("before"), fs::copy_options::recursive);
@@ -142,11 +143,11 @@ class KilledCall : public CommandTest {
           {"-e", "inject=" + point.name + ":signal=KILL:when=" + std::to_string(point.nth)});
       ASSERT_EQ(killed.signal, SIGKILL) << killed.exit_code << killed.err;
       check();
-      if (HasFailure()) return;  // One is enough to read.
+      if (HasFailure()) return;  // One failure is enough to read.
     }
   }
 
-  /// Something of the first person can be read in the folder.
+  /// Whether something of the first person can be read in the folder.
   [[nodiscard]] bool holds_person(const std::string& folder) const {
     return bytes_in(now(folder)).find(kMark) != std::string::npos ||
            fs::exists(now(folder) / "recordings" / "0001.sqlite");

@@ -44,8 +44,8 @@ inline void add_listed(const std::vector<std::string>& words, std::vector<Listed
   }
 }
 
-/// Every command of the program and what each takes, read from what people are shown rather
-/// than from the tables that it is made of.
+/// Returns every command of the program with all that it takes. They are read from the help
+/// text that people see, and not from the tables behind it.
 inline const std::vector<ListedCommand>& listed_commands() {
   static const std::vector<ListedCommand> kAll = [] {
     std::vector<ListedCommand> all;

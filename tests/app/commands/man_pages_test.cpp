@@ -32,7 +32,7 @@ class ManPagesTest : public CommandTest {
   }
 };
 
-/// As the page writes it.
+/// Returns the option as the page writes it.
 std::string typed(const std::string& option) {
   return std::regex_replace(option, std::regex("-"), "\\-");
 }
@@ -104,7 +104,7 @@ TEST_F(ManPagesTest, APageIsTheSameOnEveryMachine) {
   }
 }
 
-// Each example is a call of its command, by options that the command has.
+// Each example calls its command with options that the command has.
 TEST_F(ManPagesTest, EveryCommandHasExamplesOfOptionsThatItHas) {
   static const std::regex kOption("--[a-z][a-z0-9-]*");
   for (const ListedCommand& command : listed_commands()) {

@@ -1,5 +1,5 @@
-// The whole way of a laboratory that brings its own driver: built with the header alone, used
-// by the program, and lost in the middle of a session.
+// Tests the whole way of a laboratory with its own driver: it is built with the header alone,
+// used by the program, and lost in the middle of a session.
 #include <signal.h>
 
 #include <fstream>
@@ -44,7 +44,7 @@ class PluginCommandTest : public CommandTest {
     return {"run",    "short_tour", "--study",    "tour.study", "--participant", "P01",
             "--seed", "7",          "--headless", "--device",   device};
   }
-  /// The process in which the driver of this test runs; -1: none.
+  /// Returns the process in which this test's driver runs, or -1.
   [[nodiscard]] pid_t host() const {
     for (const auto& entry : fs::directory_iterator("/proc")) {
       std::ifstream stream(entry.path() / "cmdline", std::ios::binary);
@@ -64,7 +64,7 @@ TEST_F(PluginCommandTest, AWholeStudyRunsThroughTheExample) {
   EXPECT_TRUE(opened("tour.study").completed(1));
   EXPECT_EQ(jnd({"verify", "tour.study"}).exit_code, 0);
   EXPECT_EQ(host(), -1) << "its process is gone";
-  // Whoever is simulated feels what the driver let through: thicker is more.
+  // Simulated people feel what the driver lets through: thicker fluids feel stronger.
   const auto results = jnd({"results", "tour.study", "--json"});
   EXPECT_EQ(results.exit_code, 0) << results.err;
 }
@@ -269,10 +269,10 @@ TEST_F(PluginCommandTest, DevicesTellsWhatADriverSaysOfItself) {
   EXPECT_EQ(jnd({"devices", "--device", "lumped"}).exit_code, 2);
 }
 
-/// Whoever has a driver on one machine and the window on another.
+/// A laboratory with a driver on one machine and the window on another.
 class ServedPluginTest : public PluginCommandTest {
  protected:
-  /// Starts to serve the example; where it is.
+  /// Starts to serve the example and returns its address.
   std::string serve(const std::string& as) {
     server_.emplace(std::vector<std::string>{"device-server", "--device",
                                              "plugin:example:" + as, "--port", "0"},

@@ -11,7 +11,7 @@
 #include "support/places.h"
 #include "support/program.h"
 
-// Studies as an author would write them after the shipped one: fluids are rated, and confidence
+// Studies as an author would derive them from the shipped one: fluids are rated, and confidence
 // is asked, with and without noise.
 
 namespace jnd::app {
@@ -116,9 +116,9 @@ TEST_F(RatingContrastsTest, OfRatingsHavePowerForAnEffectAndTheirLevelWithoutOne
   EXPECT_NEAR(loud["bias"], 0.0, 0.1);
   EXPECT_GT(loud["coverage"], 0.85);
   const json without = power({"--null"});
-  // 200 runs: at most 21 of them with a probability of 99.9 %.
+  // Of 200 runs, at most 21 are significant with a probability of 99.9 %.
   EXPECT_LE(without["sizes"][0]["tests"][0]["power"], 0.105);
-  // Of which estimate and test are from one split, they are those of one process.
+  // If estimate and test come from one split, they equal those of one process.
   const ProgramOutcome confidence =
       jnd({"power", "sure.json", "--participants", "6", "--runs", "4"});
   EXPECT_NE(confidence.out.find("contrast loud_against_quiet (of a question after the trials)"),

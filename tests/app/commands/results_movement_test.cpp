@@ -36,7 +36,7 @@ class ResultsMovementTest : public CommandTest {
     }
     return nullptr;
   }
-  /// Infinity where there is none.
+  /// Returns infinity if there is no value.
   static double value(const nlohmann::json& results, const std::string& name) {
     for (const auto& one : results["sections"]) {
       for (const auto& estimate : one["estimates"]) {

@@ -1,4 +1,4 @@
-// Every study that is shipped, as its author would try it: checked, planned, simulated,
+// Every shipped study is tried as its author would try it: checked, planned, simulated and
 // analysed.
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ class ShippedStudyTest : public ::testing::TestWithParam<std::string> {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
-/// Whatever is null says why.
+/// Expects a reason for every null.
 void expect_reasons(const nlohmann::json& results) {
   for (const auto& section : results["sections"]) {
     for (const char* list : {"estimates", "participants"}) {

@@ -103,7 +103,7 @@ TEST_F(VerifyCommandTest, RowsAndEventsThatDisagreeAreFound) {
 }
 
 TEST_F(VerifyCommandTest, AnInterruptedBeginningIsRolledBackByWhoeverLooks) {
-  // A rollback journal that its program did not live to remove.
+  // Leaves a rollback journal, as a program does that died before it could remove it.
   const fs::path file = temporary_.path() / "a.study" / "study.sqlite";
   const pid_t child = ::fork();
   if (child == 0) {

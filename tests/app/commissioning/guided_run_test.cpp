@@ -18,7 +18,7 @@
 namespace jnd::app {
 namespace guided_run_test {
 
-/// A twin with a clock of its own: it is measured in real time, and watched over.
+/// A twin with a clock of its own, so that it is measured in real time and watched.
 class TimedTwin final : public device::HapticDevice {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return twin_.name(); }

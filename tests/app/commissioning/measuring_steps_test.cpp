@@ -18,7 +18,7 @@ using device::TwinDevice;
 
 const StepProgress kQuiet = [](double, const std::string&) {};
 
-/// How often a quantity's interval held what the twin was made with.
+/// Counts how often a quantity's interval contained the twin's true value.
 class Tally {
  public:
   void count(const std::string& name, bool held) { counts_[name] += held ? 1 : 0; }
@@ -38,7 +38,8 @@ TEST(MeasuringSteps, RecoverWhatTwinsWereMadeWith) {
     const analysis::NoiseFit noise = measure_noise(twin, *twin.bench(), plan, kQuiet);
     const double sd_m =
         std::hypot(truth.position_sd_m, truth.position_resolution_m / std::sqrt(12.0));
-    // Steps that are larger than the noise are no noise that could be added to it.
+    // If the resolution exceeds the noise, its rounding is no independent noise that could be
+    // added.
     if (truth.position_resolution_m < 2.0 * truth.position_sd_m) {
       EXPECT_NEAR(noise.position_sd_m.value, sd_m, 0.05 * sd_m) << seed;
     }
@@ -79,16 +80,16 @@ TEST(MeasuringSteps, HomingTellsHowFarTheZeroIsOffAndWhetherTheToolStays) {
   EXPECT_EQ(fell.homed_m.size(), 3U);
   EXPECT_GT(fell.spread_m, 0.0003);
   EXPECT_LT(fell.spread_m, 0.01);
-  // Half a kilogram with a newton left over falls by a quarter of a metre in half a second.
+  // Half a kilogram with one newton unbalanced falls by a quarter of a metre in half a second.
   EXPECT_GT(fell.moved_m, 0.05);
   EXPECT_LT(fell.moved_m, 0.1) << "it is held again as soon as it is seen to fall";
 }
 
-/// The damping or the stiffness from which on a twin without noise, friction and cogging swings
-/// ever further, worked out from its own steps of motion and nothing else.
+/// Returns the damping or the stiffness from which on a twin without noise, friction and
+/// cogging oscillates more and more. It uses only the twin's own steps of motion.
 double own_limit(const TwinDevice::Parameters& twin, bool is_stiffness) {
   constexpr double kStep_s = 1e-4;
-  constexpr int kSteps = 10;  // A tick.
+  constexpr int kSteps = 10;  // Steps in a tick.
   const auto late = static_cast<int>(std::lround(twin.delay_s / kStep_s));
   const int num_writes = late / kSteps + 2;
   const auto grows = [&](double amount) {
@@ -107,7 +108,7 @@ double own_limit(const TwinDevice::Parameters& twin, bool is_stiffness) {
         position_m += 0.5 * kStep_s * (velocity_m_per_s + next_m_per_s);
         velocity_m_per_s = next_m_per_s;
       }
-      // Under a fluid nothing brings the mass back to a place, so that is left out.
+      // In a fluid nothing pulls the mass back to a place, so the position is left out.
       tick(0, column) = is_stiffness ? position_m : 0.0;
       tick(1, column) = velocity_m_per_s;
       tick(2, column) = written_n;
@@ -123,9 +124,9 @@ double own_limit(const TwinDevice::Parameters& twin, bool is_stiffness) {
   return stable;
 }
 
-// Every sixth of the twins, for time's sake; the document's table has them all.
+// Only every sixth twin is tested, to save time; the document's table has them all.
 TEST(MeasuringSteps, LimitsOfStabilityLieBelowTheTwinsOwnButNotFar) {
-  constexpr double kShape_m = 1.7760;  // Of a viscous fluid.
+  constexpr double kShape_m = 1.7760;  // For a viscous fluid.
   constexpr double kThickest_pa_s = 512.0;
   for (int seed = 1; seed <= 20; seed += 6) {
     TwinDevice twin(device::drawn_twin(static_cast<std::uint64_t>(seed)));

@@ -12,7 +12,7 @@ namespace jnd::app::gui {
 namespace theme_test {
 
 struct Rgb {
-  double red, green, blue;  // 0 to 255
+  double red, green, blue;  // Each is 0 to 255.
 };
 
 Rgb rgb(const Theme& theme, Colour colour) {
@@ -26,7 +26,7 @@ Rgb over(const Rgb& above, const Rgb& below, double alpha) {
           mix(above.blue, below.blue)};
 }
 
-// WCAG 2.1, relative luminance and contrast ratio.
+// WCAG 2.1 defines relative luminance and contrast ratio.
 double luminance(const Rgb& colour) {
   const auto linear = [](double value) {
     const double c = value / 255;
@@ -48,7 +48,8 @@ constexpr Colour kMeanings[] = {Colour::kBlue, Colour::kGreen, Colour::kAmber, C
 
 TEST(Theme, TheContrastHereIsThatOfWcag) {
   EXPECT_NEAR(contrast({0, 0, 0}, {255, 255, 255}), 21.0, 1e-12);
-  EXPECT_NEAR(contrast({119, 119, 119}, {255, 255, 255}), 4.48, 0.005);  // The known #777.
+  // This is the well-known #777.
+  EXPECT_NEAR(contrast({119, 119, 119}, {255, 255, 255}), 4.48, 0.005);
 }
 
 TEST(Theme, WordsAreReadableOnEveryGroundInBothModes) {
@@ -90,7 +91,7 @@ TEST(Theme, WordsAreReadableOnFilledButtons) {
 }
 
 TEST(Theme, LinesStandOutFromTheCard) {
-  constexpr double kVisible = 3.0;  // WCAG 2.1, 1.4.11: graphical objects
+  constexpr double kVisible = 3.0;  // WCAG 2.1, 1.4.11: graphical objects.
   for (const bool dark : {false, true}) {
     const Theme theme(1.0f, dark);
     for (const Colour colour : kMeanings) {
@@ -112,8 +113,8 @@ TEST(Theme, PacksColoursAsImGuiDoes) {
 }
 
 TEST(Theme, LinesCanBeToldFromTheCardForThoseWhoSeeNoRedOrGreen) {
-  // Blue and amber, the two that plots rely on, also differ in what is left of blue against the
-  // rest: the axis that a red-green deficiency keeps.
+  // Plots use blue and amber. They also differ in blue against the other colours, the axis that
+  // a red-green deficiency keeps.
   for (const bool dark : {false, true}) {
     const Theme theme(1.0f, dark);
     const Rgb blue = rgb(theme, Colour::kBlue);
@@ -137,7 +138,7 @@ TEST(Theme, LettersGrowAsFarAsEveryViewHasRoom) {
   EXPECT_EQ(scale_with_room(1.0f, 1024, 640), 1.0f);
   EXPECT_EQ(scale_with_room(2.0f, 1024, 640), 1.0f);
   EXPECT_EQ(scale_with_room(0.5f, 1024, 640), 0.5f);
-  // 1280 / 1024 is 1.25, and 700 / 640 a little more than 1.05.
+  // 1280 / 1024 is 1.25, and 700 / 640 is a little more than 1.05.
   EXPECT_EQ(scale_with_room(2.0f, 1280, 800), 1.25f);
   EXPECT_EQ(scale_with_room(2.0f, 1280, 700), 1.05f);
   EXPECT_EQ(scale_with_room(2.0f, 3840, 2160), 2.0f);
@@ -158,7 +159,7 @@ TEST(Theme, EveryFontHasTheSignsThatUnitsKeysAndNamesNeed) {
 }
 
 TEST(Theme, AFontsSizeIsItsEmSquareAtEveryScale) {
-  // Inter's capital H is 0.727 of the em square high.
+  // Inter's capital H has a height of 0.727 em.
   for (const float scale : {1.0f, 1.5f, 2.0f}) {
     HeadlessUi ui(800, 600, scale);
     if (!ui.theme().missing_fonts().empty()) GTEST_SKIP() << ui.theme().missing_fonts().front();

@@ -21,8 +21,8 @@ namespace words_test {
 namespace fs = std::filesystem;
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
-/// A language that nobody speaks: its words are English ones in capitals, and its plurals are
-/// three, as in Polish.
+/// An invented language: its words are English ones in capitals, and it has three plurals, as
+/// Polish does.
 constexpr const char* kPseudoLanguage = R"po(msgid ""
 msgstr ""
 "Language: xx\n"
@@ -69,7 +69,8 @@ class WordsTest : public testing::Test {
   [[nodiscard]] fs::path folder() const { return temporary_.path() / "languages"; }
   [[nodiscard]] fs::path temporary_path() const { return temporary_.path(); }
 
-  /// What `say` says in a process of its own, for a language is begun once.
+  /// Returns what `say` says in a process of its own, because a language is started only once
+  /// in a process.
   [[nodiscard]] std::string said(const Environment& environment,
                                  const std::function<std::string()>& say,
                                  const std::string& chosen = "") const {
@@ -187,7 +188,8 @@ TEST_F(WordsTest, LanguagesAreCalledAsTheirCataloguesSay) {
   }
 }
 
-/// The pseudo-language by the name of one that writes decimal commas, or of one that does not.
+/// The pseudo-language is installed by the name of a language that writes decimal commas, or of
+/// one that does not.
 TEST_F(WordsTest, OfALanguageWithDecimalCommasHaveThemUnderstood) {
   const auto says_comma = [this](const Environment& environment, const std::string& chosen) {
     return said(

@@ -47,10 +47,10 @@ TEST_F(ManualPlaceTest, TheInstalledSiteComesFirstThenTheInstalledMarkdown) {
 TEST_F(ManualPlaceTest, ATreeHasItsSiteOnceItIsBuiltAndItsMarkdownBefore) {
   put(tree() / "docs/README.md");
   EXPECT_EQ(manual_place(tree(), "docs/README.md").file, tree() / "docs/README.md");
-  // mkdocs makes index.html of a README.
+  // mkdocs makes index.html from a README.
   put(tree() / "build/docs/docs/index.html");
   EXPECT_EQ(manual_place(tree(), "docs/README.md").file, tree() / "build/docs/docs/index.html");
-  // A page that is younger than the site is shown as Markdown.
+  // A page that is newer than the site is shown as Markdown.
   put(tree() / "docs/how-to/new.md");
   EXPECT_EQ(manual_place(tree(), "docs/how-to/new.md").file, tree() / "docs/how-to/new.md");
 }

@@ -120,7 +120,7 @@ TEST_F(AnswerControlsTest, AMappedStopStopsPastEverything) {
   EXPECT_FALSE(controls_->is_let_go());
 }
 
-// A device that is ours alone types nowhere: its Escape would be lost.
+// A device that is taken exclusively types nowhere, so its Escape would be lost.
 TEST_F(AnswerControlsTest, EscapeOfADeviceThatIsOursStaysTheStop) {
   controls_->set("first", key("KEY_B"));
   begin_session();

@@ -39,7 +39,7 @@ TEST(ColumnRoles, TheCellThatIsAYesIsGuessedWhereTheAnswersAreOthers) {
   // Counts have none.
   request = with_role(request, some_preview(), "n", ColumnRole::kTrials);
   EXPECT_EQ(request.yes_value, "");
-  // One that somebody chose stays.
+  // A value that somebody chose stays.
   request.yes_value = "left";
   request = with_role(request, some_preview(), "x", ColumnRole::kIntensity);
   EXPECT_EQ(request.yes_value, "left");

@@ -16,7 +16,7 @@ class InterleavedViewTest : public OperatedSessionTest {
     open(kInterleavedStudy);
     return act(operate::Begin{});
   }
-  /// The trial that waits, answered, and what is asked after it.
+  /// Answers the waiting trial and the questions after it.
   SessionView answer_now(double value) {
     answer_trial(view(), value);
     if (view().step == Step::kItem) {

@@ -44,11 +44,11 @@ class HurtfulHand final : public device::HapticDevice {
   core::PointVectors acted_n_ = core::zero_vectors();
 };
 
-/// A simulated hand behind the network, at a clock of its own; gone without a word when it is
-/// destroyed, as a process that was killed.
+/// A simulated hand across the network, with a clock of its own. When it is destroyed it
+/// disappears silently, like a killed process.
 class ServedHand {
  public:
-  /// Port 0: any that is free.
+  /// Port 0 is any free port.
   explicit ServedHand(std::uint64_t first_stream_id, std::uint16_t port = 0,
                       std::unique_ptr<device::HapticDevice> hand = device::make_device("lumped",
                                                                                        1000.0))
@@ -89,7 +89,7 @@ class NetworkSessionTest : public RealtimeSessionTest {
  protected:
   ~NetworkSessionTest() override { session_.reset(); }
 
-  /// Up to the first trial, in real time.
+  /// Continues to the first trial, in real time.
   SessionView begin() {
     hand_.emplace(1);
     device_ = "network:" + hand_->place() + ",simulated";
@@ -99,12 +99,12 @@ class NetworkSessionTest : public RealtimeSessionTest {
     return until([](const SessionView& now) { return now.step == Step::kReady; });
   }
 
-  /// The device dies; a fault is raised.
+  /// Kills the device, which raises a fault.
   void kill_device() {
     hand_.reset();
     until([](const SessionView& now) { return now.step == Step::kFault; });
   }
-  /// As often as it takes: a connection has to be good for a while first.
+  /// Arms as often as necessary, because a connection has to be good for a while first.
   SessionView rearm() {
     return until([this](const SessionView& now) {
       if (now.step == Step::kFault) session_->request(operate::Rearm{now.telemetry.num_faults});
@@ -116,7 +116,7 @@ class NetworkSessionTest : public RealtimeSessionTest {
     hand_.emplace(2, static_cast<std::uint16_t>(std::stoi(port)));
   }
 
-  /// Felt and answered; returns what comes next.
+  /// Presents and answers the trial, and returns what comes next.
   SessionView answer(std::int64_t trial) {
     present(trial, "test");
     session_->request(operate::Answer{trial, 12.0});
@@ -230,7 +230,7 @@ TEST_F(NetworkSessionTest, ARealDeviceRunsByTheProfileThatTheSessionKeeps) {
   EXPECT_FALSE(store_->session(session_number_).device_profile_sha256.empty());
   session_->request(operate::Begin{});
   until([](const SessionView& now) { return now.step != Step::kBegin; });
-  // What the device says of itself is kept besides.
+  // What the device says about itself is stored as well.
   const std::vector<core::EventRow> events = store_->events(session_number_);
   EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const core::EventRow& event) {
     return event.kind == "loop_started" &&
@@ -238,7 +238,7 @@ TEST_F(NetworkSessionTest, ARealDeviceRunsByTheProfileThatTheSessionKeeps) {
   }));
 }
 
-/// A connection may be armed only once it has been good for a while, and `arm` waits for that.
+/// A connection may be armed only after it has been good for a while, and `arm` waits for that.
 TEST(NetworkArming, ADeviceThatCanHurtIsArmedWhereSomebodySaysSo) {
   for (const bool arm : {false, true}) {
     ServedHand hand(1, 0, std::make_unique<HurtfulHand>());

@@ -21,11 +21,11 @@
 
 namespace jnd::app {
 
-/// An operator at the simulated hand, in simulated time: what is pressed is a request, what is
-/// seen is a view.
+/// An operator at the simulated hand, in simulated time. What is pressed is a request, and what
+/// is seen is a view.
 class OperatedSessionTest : public ::testing::Test {
  protected:
-  /// A new folder with one session, and the session opened.
+  /// Makes a new folder with one session and opens the session.
   void open(const std::string& study_text = kTinyStudy) {
     study_ = std::make_unique<experiments::Study>(experiments::read_study_text(
         may_miss_ticks_
@@ -46,7 +46,8 @@ class OperatedSessionTest : public ::testing::Test {
     reopen();
   }
 
-  /// As a program started again: the session from its log, on a device that has these faults.
+  /// Acts like a restarted program: opens the session from its log, on a device with these
+  /// faults.
   void reopen(const std::vector<device::ScheduledFault>& faults = {}) {
     session_.reset();
     session_ = std::make_unique<OperatedSession>(
@@ -68,7 +69,7 @@ class OperatedSessionTest : public ::testing::Test {
     pass(0.1);
   }
 
-  /// As beside a window: the session is looked after every now and then.
+  /// Lets time pass as in a window, which updates the session regularly.
   void pass(double duration_s) {
     constexpr double kGlanceS = 0.010;
     for (double passed_s = 0.0; passed_s < duration_s; passed_s += kGlanceS) {
@@ -76,7 +77,7 @@ class OperatedSessionTest : public ::testing::Test {
     }
   }
 
-  /// The request, carried out; returns what is seen then.
+  /// Carries out the request and returns what is seen then.
   SessionView act(OperatorRequest request) {
     session_->request(std::move(request));
     pass(0.01);
@@ -98,7 +99,7 @@ class OperatedSessionTest : public ::testing::Test {
     return view();
   }
 
-  /// Whatever is asked, answered somehow.
+  /// Answers whatever is asked, in some way.
   void step_on(const SessionView& now) {
     switch (now.step) {
       case Step::kItem:
@@ -145,8 +146,8 @@ class OperatedSessionTest : public ::testing::Test {
     act(operate::Answer{trial, value});
   }
 
-  /// A trial that was put off is not the next one; answered with the rest of its block, it is
-  /// there once, as its second attempt.
+  /// Expects that a trial that was put off is not the next one, and that after the rest of its
+  /// block was answered it is there once, as its second attempt.
   void expect_it_comes_later(std::int64_t put_off) {
     EXPECT_NE(view().trial->trial, put_off) << "not right after half of it was felt";
     while (view().step == Step::kReady) answer_trial(view(), 1.0);
@@ -179,14 +180,15 @@ class OperatedSessionTest : public ::testing::Test {
   std::unique_ptr<experiments::Study> study_;
   std::unique_ptr<core::StudyStore> store_;
   std::int64_t session_number_ = 0;
-  std::string device_ = "lumped";  ///< Of sessions opened from now on, as what follows.
-  KnownProfile profile_;           ///< Without a text: none.
+  /// Applies to sessions opened from now on, like the following members.
+  std::string device_ = "lumped";
+  KnownProfile profile_;  ///< Without a text, there is none.
   std::map<std::string, std::string> fitting_;
   bool realtime_ = false;
   bool asks_about_answers_ = false;  ///< Tests answer sooner than any person.
-  bool may_miss_ticks_ = true;       ///< A test in real time must not hang on the machine.
-  SoundChoice sound_;                ///< Of a study that has sound.
-  std::filesystem::path stops_;      ///< Where stops are remembered; "": nowhere.
+  bool may_miss_ticks_ = true;       ///< A test in real time must not depend on the machine.
+  SoundChoice sound_;                ///< For a study with sound.
+  std::filesystem::path stops_;      ///< Where stops are stored; "" for nowhere.
   std::function<void(const core::Sample&)> on_sample_;
   std::unique_ptr<OperatedSession> session_;
 };

@@ -45,7 +45,7 @@ TEST_F(OperatedSessionTest, AnAnswerCountsForTheTrialThatWasSeenAndNoOther) {
   pass(0.5);
   act(operate::Present{trial, "test"});
   pass(0.5);
-  // The key bounces: twice in one transition.
+  // The key bounces and gives two answers in one step.
   session_->request(operate::Answer{trial, 1.0});
   const SessionView after = act(operate::Answer{trial, 1.0});
   EXPECT_EQ(after.trial->trial, trial + 1);
@@ -328,7 +328,7 @@ TEST_F(OperatedSessionTest, AHeldKeyDoesNotPileUpSteps) {
   }
   for (int i = 0; i < 10; ++i) pass(0.06);
   EXPECT_EQ(std::ranges::count(kinds(), "intensity_adjusted"), 1);
-  // Three taps are three steps, however fast.
+  // Three taps are three steps, however fast they are.
   for (int tap = 0; tap < 3; ++tap) session_->request(operate::Adjust{.trial = trial});
   for (int i = 0; i < 10; ++i) pass(0.06);
   EXPECT_EQ(std::ranges::count(kinds(), "intensity_adjusted"), 4);
@@ -459,7 +459,7 @@ TEST_F(OperatedSessionTest, ADoubleBlindViewHoldsNoLevelNoForceAndNoName) {
       EXPECT_EQ(answer.answer, "set");
     }
   }
-  // Nor a path or anything of a picture.
+  // Nor does it contain a path or anything of a picture.
   const core::Sample& sample = now.telemetry.sample;
   EXPECT_EQ(sample.tip_position_m, decltype(sample.tip_position_m){});
   EXPECT_EQ(sample.tip_velocity_m_per_s, decltype(sample.tip_velocity_m_per_s){});

@@ -81,7 +81,7 @@ TEST(ParticipantPlace, IsChosenAmongTheOtherMonitorsOrBesideWhereThereIsNone) {
   options = screen_options({}, {kOurs});
   ASSERT_EQ(options.size(), 2U);
   EXPECT_EQ(options[1].choice.where, Where::kWindow);
-  // What stands but cannot be had stays among them.
+  // A place that is set but not available stays among the options.
   options = screen_options(kOnTheirs, {kOurs});
   ASSERT_EQ(options.size(), 3U);
   EXPECT_EQ(options[1].choice, kOnTheirs);

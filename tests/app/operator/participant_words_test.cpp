@@ -16,7 +16,7 @@ Labels labels_of(const ParticipantScreen& screen) {
   return labels;
 }
 
-/// The test of a trial is being felt, everything about it is in the view.
+/// Returns a view in which the test of a trial is being felt, with everything about it.
 SessionView trial_of(AnswerKind kind, const std::string& language = "en") {
   SessionView view{.language = language, .step = Step::kPresenting};
   view.trial = TrialView{.answer = kind,

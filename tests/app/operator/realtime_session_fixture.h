@@ -10,7 +10,7 @@
 
 namespace jnd::app {
 
-/// A session in real time, beside a window that lives.
+/// A session in real time, with a window that is alive.
 class RealtimeSessionTest : public OperatedSessionTest {
  protected:
   ~RealtimeSessionTest() override {

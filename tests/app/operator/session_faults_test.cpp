@@ -11,10 +11,11 @@
 namespace jnd::app {
 namespace session_faults_test {
 
-/// Faults that come in a row, and pauses around them.
+/// Faults in a row, and pauses around them.
 class SessionFaultsTest : public OperatedSessionTest {
  protected:
-  /// In a block, at its next trial, on a device that goes wrong so, from then on, in seconds.
+  /// Continues in a block at its next trial, on a device with this fault between these times in
+  /// seconds.
   SessionView go_on_with(device::Injection injection, double from_s, double to_s) {
     open();
     run_to_block("comparison");
@@ -126,7 +127,7 @@ TEST_F(SessionFaultsTest, AFaultThatFollowsOnArmingIsToldAndKeptLikeTheFirst) {
   EXPECT_NE(faults_stored().back().find(start), std::string::npos) << faults_stored().back();
   EXPECT_EQ(num_flight_records(), 2U);
 
-  // The same again is a fault of its own.
+  // The same fault again is a new fault.
   armed = rearm();
   EXPECT_EQ(armed.fault_name, "outside_workspace");
   EXPECT_EQ(faults_stored().size(), 3U);
@@ -140,7 +141,7 @@ TEST_F(SessionFaultsTest, AFaultThatFollowsOnArmingIsToldAndKeptLikeTheFirst) {
   EXPECT_TRUE(core::verify(*store_).problems.empty());
 }
 
-/// Left with the stop pressed, by a program that ends: the exchange is a new one.
+/// The program ended with the stop pressed, so the next one has a new exchange.
 TEST_F(SessionFaultsTest, AStopHoldsForTheNextSessionAndTheNextStart) {
   stops_ = temporary_.path() / "state";
   open();

@@ -10,10 +10,10 @@ namespace session_refusals_test {
 
 using experiments::Direction;
 
-/// What cannot be done leaves what is under way as it was.
+/// A refused request leaves everything under way as it was.
 class SessionRefusalsTest : public OperatedSessionTest {
  protected:
-  /// Tries each and compares: step, events and the medium in force.
+  /// Tries each request and compares step, events and the medium in force.
   void refuse_all(const std::vector<std::pair<std::string, OperatorRequest>>& requests) {
     for (const auto& [name, request] : requests) {
       const SessionView before = view();

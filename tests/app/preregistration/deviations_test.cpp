@@ -20,14 +20,14 @@ using analysis::Deviation;
 
 constexpr std::int64_t kRegistered_ns = 1'000'000'000'000;
 
-/// How the study is run, in everything as it was registered.
+/// How the study is run; by default everything is as registered.
 struct Conducted {
   std::string text;  ///< Study file of the sessions.
   int num_participants = 4;
   std::int64_t started_ns = kRegistered_ns + 1;
   std::string device = "lumped";
-  std::string version{};                        ///< Of the program; "": this one.
-  std::string last_ends = "session_completed";  ///< "" leaves the last one open.
+  std::string version{};                        ///< Version of the program; "" for this one.
+  std::string last_ends = "session_completed";  ///< "" leaves the last session open.
   bool first_comes_again = false;
   bool sets_a_trial_aside = false;
   bool sets_all_aside = false;  ///< The session's other one as well.
@@ -166,7 +166,7 @@ TEST(Deviations, NoneIsInvented) {
   EXPECT_EQ(told(Folder(run).deviations({})), "");
 }
 
-/// One change to a run as planned, and what is to be told of it.
+/// One change to a run as planned, and what has to be reported about it.
 struct Seeded {
   std::string topic;  ///< Beginning of the one deviation.
   std::function<void(Conducted&)> change;
@@ -189,7 +189,7 @@ void mixes_the_last_blocks(Conducted& run) {
 
 const std::vector<Seeded>& seeded() {
   static const std::vector<Seeded> kAll = {
-      // Of the design.
+      // Changes of the design.
       {"contrast fluids, alpha", text_with("\"alpha\": 0.01", "\"alpha\": 0.05")},
       {"contrast fluids, direction",
        text_with(R"("direction": "greater")", R"("direction": "less")")},
@@ -214,7 +214,7 @@ const std::vector<Seeded>& seeded() {
        text_with("\"authors\": [", "\"blinding\": \"participant\", \"authors\": [")},
       {"study file", text_with("Stir.", "Stir it.")},
       {"interleaved mixed", mixes_the_last_blocks},
-      // Of how it was run.
+      // Changes of how it was run.
       {"number of participants", [](Conducted& run) { run.num_participants = 3; }},
       {"number of participants", [](Conducted& run) { run.num_participants = 5; }},
       {"time of registration", [](Conducted& run) { run.started_ns = kRegistered_ns - 1000; }},
@@ -222,7 +222,7 @@ const std::vector<Seeded>& seeded() {
       {"program", [](Conducted& run) { run.version = "0.0.9"; }},
       {"exclusions", [](Conducted& run) { run.sets_a_trial_aside = true; }},
       {"blinding", [](Conducted& run) { run.unblinds = true; }},
-      // Of how it was analysed.
+      // Changes of how it was analysed.
       {"analysis", [](Conducted& run) { run.choices.delivered = true; }},
       {"analysis", [](Conducted& run) { run.choices.inverted_out = true; }},
       {"analysis", [](Conducted& run) { run.choices.with_pilots = true; }},

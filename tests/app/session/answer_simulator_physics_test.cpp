@@ -23,19 +23,19 @@ using namespace experiments;
 
 const std::filesystem::path kSource = test_support::source_folder();
 
-/// Answers of a block, of everybody: with a device simulated to every tick, and calculated.
+/// Everybody's answers in a block: simulated with a device in every tick, and calculated.
 struct Both {
   std::vector<std::pair<PlannedTrial, double>> simulated, calculated;
-  double simulated_s = 0.0, calculated_s = 0.0;  ///< In which all of it was felt.
+  double simulated_s = 0.0, calculated_s = 0.0;  ///< Duration of all presentations.
 };
 
-/// The hand trails behind the arm by what nobody calculates; nothing is faster than it.
+/// The hand trails behind the arm, which is not calculated, so the calculation is never slower.
 void expect_alike_felt(const Both& both) {
   EXPECT_LE(both.calculated_s, both.simulated_s);
   EXPECT_GE(both.calculated_s, 0.65 * both.simulated_s);
 }
 
-/// The same persons by both, with the same random numbers.
+/// Returns answers of the same persons by both methods, with the same random numbers.
 std::map<std::string, Both> answers_of(const std::string& study_name, int num_participants) {
   const std::filesystem::path file = kSource / "protocols" / (study_name + ".json");
   const Study study = read_study(file);
@@ -98,7 +98,8 @@ double pooled_weber_fraction(const std::vector<std::pair<PlannedTrial, double>>&
       .weber_fraction.value();
 }
 
-/// Of the means, on logarithms; production's are its intensities at the targets.
+/// Returns the exponent of the means, from logarithms. Productions use the intensities at the
+/// targets.
 double exponent(const std::vector<std::pair<PlannedTrial, double>>& answers) {
   std::map<double, std::pair<double, int>> sums;
   for (const auto& [planned, response] : answers) {
@@ -147,8 +148,9 @@ TEST(AnswerSimulatorPhysics, TheSamePersonsEstimateAndProduceAlikeWithAndWithout
       ratio_ln += std::log(both.calculated[trial].second / both.simulated[trial].second);
       ++num;
     }
-    // Where strokes begin, the hand lags: in water, felt by its square, a few percent are lost
-    // that are not calculated, more of production's single stroke.
+    // At the beginning of a stroke the hand lags. In water, whose force is quadratic, this
+    // loses a few percent that are not calculated, and more in the single stroke of a
+    // production.
     EXPECT_NEAR(ratio_ln / num, 0.0, 0.10);
     EXPECT_NEAR(exponent(both.calculated), exponent(both.simulated), 0.10);
     expect_alike_felt(both);

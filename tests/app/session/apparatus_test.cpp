@@ -25,7 +25,7 @@ double force_n(const Apparatus& apparatus) {
   return std::hypot(force[0], force[1], force[2]);
 }
 
-/// A window of which only its exchange with the session is left.
+/// A window of which only the exchange with the session exists.
 class ApparatusTest : public ::testing::Test {
  protected:
   [[nodiscard]] Apparatus::Parameters with_doors(const std::string& device, bool realtime) {
@@ -43,7 +43,8 @@ class ApparatusTest : public ::testing::Test {
     exchange_.pointer.publish(pointer_);
   }
 
-  /// Beats, if the window lives, until it is so; false if it never comes to that.
+  /// Waits until this is so, with a heartbeat if the window lives. Returns false if it never
+  /// becomes so.
   [[nodiscard]] bool wait_until(const std::function<bool()>& is_so, bool window_lives) {
     const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (std::chrono::steady_clock::now() < patience) {
@@ -178,14 +179,14 @@ TEST_F(ApparatusTest, InRealTimeAWindowThatFallsSilentFadesTheForceUntilItIsRear
   apparatus.render(core::viscous({.viscosity_pa_s = 8.0}));
   apparatus.begin_strokes({}, core::RandomStream(1, "stroke"));
   ASSERT_TRUE(wait_until([&] { return feels_force(apparatus); }, /*window_lives=*/true));
-  // Whoever waits for the disk beats no longer, either.
+  // A thread that waits for the disk does not beat either.
   const std::uint64_t beats = exchange_.heartbeat.count();
   apparatus.meter_strokes();
   (void)apparatus.finish_strokes();
   try {
     apparatus.run_for(0.05);
   } catch (const core::Error&) {
-    // On a machine this slow the silence is over its limit already.
+    // On a machine this slow, the silence has already exceeded its limit.
   }
   EXPECT_EQ(exchange_.heartbeat.count(), beats);
 
@@ -193,7 +194,7 @@ TEST_F(ApparatusTest, InRealTimeAWindowThatFallsSilentFadesTheForceUntilItIsRear
       [&] { return apparatus.telemetry().fault == core::Fault::kHeartbeatLost; }, false));
   ASSERT_TRUE(wait_until([&] { return apparatus.telemetry().authority_ratio == 0.0; }, false));
   EXPECT_EQ(force_n(apparatus), 0.0);
-  // A window that has come back does not bring the force: a person does.
+  // A window that comes back does not bring the force back; only a person does.
   const std::int64_t tick = apparatus.next_tick();
   ASSERT_TRUE(wait_until([&] { return apparatus.next_tick() > tick + 20; }, true));
   EXPECT_EQ(apparatus.telemetry().fault, core::Fault::kHeartbeatLost);

@@ -17,7 +17,8 @@ namespace device_run_test {
 
 using namespace std::chrono_literals;
 
-/// A hand that is pulled through a medium, on a device that can be stuck and that counts.
+/// A hand that is pulled through a medium, on a device that can get stuck and that counts
+/// calls.
 class StuckDevice final : public device::HapticDevice {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "stuck"; }
@@ -96,7 +97,7 @@ TEST(DeviceRun, TheEmergencyStopReachesTheDevice) {
 TEST(DeviceRun, TheHeartbeatGoesOnWhileSomebodyIsWaitedFor) {
   StuckDevice device;
   DeviceRun run(device, {});
-  std::this_thread::sleep_for(1s);  // More than three timeouts without a word from here.
+  std::this_thread::sleep_for(1s);  // This thread is silent for more than three timeouts.
   EXPECT_NE(run.telemetry().fault, core::Fault::kHeartbeatLost);
 }
 

@@ -64,7 +64,7 @@ TEST_F(LoosePointRunTest, TheTrialIsRepeatedOnceTheFingerHoldsAgain) {
 }
 
 TEST_F(LoosePointRunTest, AMediumOutsideOfTrialsIsFeltAgain) {
-  // Of two, half a second each, the second.
+  // There are two times, of half a second each, and this is the second.
   EXPECT_TRUE(run(800, 700).ended);
   EXPECT_EQ(count("paused"), 1);
   EXPECT_EQ(count("attempt_discarded"), 0);

@@ -14,7 +14,7 @@ namespace modulus_run_test {
 
 using namespace experiments;
 
-/// A standard felt in every second trial, and numbers of one's own.
+/// A study with a standard in every second trial, and with a free modulus.
 const std::string kModulusStudy = R"json({
   "format": 1, "name": "modulus", "languages": ["en"], "title": {"en": "Modulus"},
   "authors": ["A. Author"],

@@ -35,7 +35,7 @@ class SessionStreamsTest : public ::testing::Test {
             .recording = temporary_.path() / "0003.sqlite",
             .network = network_};
   }
-  /// The stream of ours of this type, from outside.
+  /// Opens our stream of this type from outside.
   [[nodiscard]] std::unique_ptr<core::StreamInlet> listen(const std::string& type) const {
     core::StreamNetwork network = network_;
     network.peers = {"127.0.0.1"};
@@ -202,7 +202,7 @@ TEST_F(SessionStreamsTest, SamplesOfADoubleBlindStudyAreNotSent) {
       core::find_streams(network, core::query_for(network, "type", "Haptics"), 0.7).empty());
 }
 
-/// Whatever an event holds of levels and answers, no byte of it goes out.
+/// Whatever an event says about levels and answers, no byte of it is sent.
 TEST_F(SessionStreamsTest, NoLevelIsInAnyByteOfTheMarkers) {
   SessionStreams streams(parameters({.markers = true}));
   const auto markers = listen("Markers");

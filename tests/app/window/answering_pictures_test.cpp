@@ -3,7 +3,7 @@
 namespace jnd::app {
 namespace answering_pictures_test {
 
-/// A stimulus that has to be felt for a while and ends by itself, an answer with a deadline, no
+/// A stimulus that must be felt for a while and ends by itself, an answer with a deadline, no
 /// way back, and "cannot tell".
 const std::string kInTime = R"json({
   "format": 1, "name": "in_time", "languages": ["en"], "title": {"en": "In good time"},

@@ -10,10 +10,10 @@ namespace fs = std::filesystem;
 
 class BlindWindowTest : public WindowTest {
  protected:
-  /// The whole session, with the participant's screen beside it.
+  /// Runs the whole session with the participant's screen beside it.
   void run_session() {
     begin(kBlindStudy);
-    // On the only monitor: a window beside.
+    // With only one monitor, the participant's screen is a second window.
     window_->press("F9");
     window_->use("screen_1");
     window_->use("screen_close");
@@ -43,14 +43,14 @@ class BlindWindowTest : public WindowTest {
     window_->use("screen_0");
     window_->use("screen_close");
   }
-  /// There and back, while something is felt.
+  /// Goes to the apparatus and back while something is felt.
   void look_at_apparatus() {
     window_->use("apparatus");
     window_->wait_for_text("none of them is shown");
     window_->use("apparatus");
     window_->wait_for_view("session");
   }
-  /// Every other view of the study.
+  /// Visits every other view of the study.
   void look_around() {
     window_->use("to_sessions");
     window_->wait_for_view("overview");
@@ -115,7 +115,7 @@ TEST_F(BlindWindowTest,
   EXPECT_FALSE(fs::exists(path("a-csv")));
   EXPECT_FALSE(fs::exists(path("a-report")));
 
-  // The other way round: these words are what is looked for.
+  // The opposite case: now these words have to appear.
   ASSERT_EQ(jnd({"unblind", path("a.study").string(), "--reason", "done"}).exit_code, 0);
   window_->start({"run", path("study.json").string(), "--study", path("a.study").string(),
                   "--participant", "P02", "--device", "lumped"});

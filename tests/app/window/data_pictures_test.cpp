@@ -5,7 +5,7 @@ namespace data_pictures_test {
 
 namespace fs = std::filesystem;
 
-/// Somebody without a study and without a device, with a table of answers.
+/// A person without a study and without a device, with a table of answers.
 class DataPicturesTest : public PicturesWindowTest {
  protected:
   void open(const std::string& name, const std::string& text) {

@@ -6,7 +6,7 @@ namespace record_pictures_test {
 
 namespace fs = std::filesystem;
 
-/// What is stored of a session, where a study stands, and who comes when.
+/// What is stored of a session, the state of a study, and the appointments.
 class RecordPicturesTest : public PicturesWindowTest {
  protected:
   void open_sessions(const fs::path& folder) {

@@ -8,12 +8,12 @@
 
 namespace jnd::app {
 
-/// What the window shows, as it says itself.
+/// What the window shows, as it reports itself.
 struct Screen {
   struct Widget {
     std::string name, label;
     std::string key;                          ///< As printed on it: "Ctrl Z".
-    int x = 0, y = 0, width = 0, height = 0;  ///< Pixels of the window.
+    int x = 0, y = 0, width = 0, height = 0;  ///< In pixels of the window.
     bool enabled = false;
   };
   std::string view;
@@ -22,18 +22,19 @@ struct Screen {
   std::vector<std::string> texts;
 
   [[nodiscard]] const Widget* find(std::string_view name) const;
-  /// It is there, to be seen and enabled.
+  /// Whether the widget is visible and enabled.
   [[nodiscard]] bool offers(std::string_view name) const;
-  /// Some text contains it.
+  /// Whether some text contains it.
   [[nodiscard]] bool shows(std::string_view part) const;
-  /// The first text that begins with this; "" if none does.
+  /// Returns the first text that begins with this, or "".
   [[nodiscard]] std::string text_after(std::string_view beginning) const;
 };
 
-/// What the program wrote for its last frame that showed anything new; empty before the first.
+/// Reads what the program wrote about its last frame that showed anything new. Empty before the
+/// first one.
 [[nodiscard]] Screen read_screen(const std::filesystem::path& file);
 
-/// The same in words, for whoever waited for something else.
+/// Returns the same in words, for a test that waited for something else.
 [[nodiscard]] std::string described(const Screen& screen);
 
 }  // namespace jnd::app

@@ -24,7 +24,7 @@ constexpr char kHeard[] = R"json({
      "question": {"en": "Thicker?"}, "expected_trial_s": 5}]
 })json";
 
-/// A machine whose only output is a file, which is calibrated.
+/// A machine whose only output is a calibrated file.
 class FileAsOutput {
  public:
   explicit FileAsOutput(const std::filesystem::path& folder)

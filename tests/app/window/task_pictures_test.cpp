@@ -3,7 +3,7 @@
 namespace jnd::app {
 namespace task_pictures_test {
 
-/// Blocks of every task, few trials each, after the handedness that arms are balanced over.
+/// Blocks of every task, with few trials each, after the handedness by which arms are balanced.
 const std::string kTasks = R"json({
   "format": 1, "name": "tasks", "languages": ["en"], "title": {"en": "Every task"},
   "authors": ["A. Author"], "blinding": "none",
@@ -83,7 +83,7 @@ const std::string kTasks = R"json({
 
 class TaskPicturesTest : public PicturesWindowTest {
  protected:
-  /// Does what the card asks for, after a picture of it; false at the end.
+  /// Takes a picture of the card and does what it asks. Returns false at the end.
   bool step_on(int number) {
     static const std::vector<std::string> kCards = {
         "begin",   "finish_break", "answer_first", "answer_yes",

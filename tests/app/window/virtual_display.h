@@ -7,26 +7,26 @@
 
 namespace jnd::app {
 
-/// What a tool came to.
+/// Result of a tool.
 struct ToolOutcome {
   int exit_code = -1;  ///< -1 if it could not be started, or a signal ended it.
-  std::string out;     ///< All it wrote, complaints included.
+  std::string out;     ///< All its output, including errors.
 };
 
-/// Runs a program of the system to its end, on this display; "" for none.
+/// Runs a program of the system to its end on this display; "" for none.
 [[nodiscard]] ToolOutcome run_tool(const std::vector<std::string>& words,
                                    const std::string& display);
 
-/// Has this process and whatever it starts run before others, where the system allows it: a
-/// window that is not drawn for 250 ms stops the force, and on a machine full of compilers one
-/// without a graphics card would be such a window. Into a session of its own, for a shell's
-/// would stay like that.
+/// Lets this process, and everything that it starts, run before others, if the system allows
+/// it. A window that is not drawn for 250 ms stops the force, and on a machine that is busy
+/// compiling, a window without a graphics card would be like that. The process gets a session
+/// of its own, because that of a shell would keep the setting.
 void go_first();
 
-/// Why no window can be driven here: "" if one can.
+/// Returns why no window can be driven here, or "" if one can.
 [[nodiscard]] std::string what_windows_lack();
 
-/// A screen that nobody sees, of its own for every test: Xvfb on a free display, gone with the
+/// An invisible screen of its own for every test: Xvfb on a free display, which ends with the
 /// test. A held key repeats after 0.25 s, 25 times a second.
 class VirtualDisplay {
  public:
@@ -38,7 +38,7 @@ class VirtualDisplay {
 
   /// ":12"
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  /// As when its cable is cut.
+  /// Ends the display, as if its cable were cut.
   void lose();
 
  private:

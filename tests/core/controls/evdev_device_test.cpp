@@ -41,7 +41,7 @@ using test_support::comes_about;
 
 constexpr char kPreloaded[] = "JND_UMOCKDEV_IS_PRELOADED";
 
-/// Preloads umockdev, which cannot come later; the test then runs in the program it becomes.
+/// umockdev has to be preloaded. The test runs itself again in a program that has it preloaded.
 bool is_preloaded() { return std::getenv(kPreloaded) != nullptr; }
 
 int run_preloaded(const char* name) {
@@ -56,7 +56,7 @@ int run_preloaded(const char* name) {
                          .c_str());
 }
 
-/// The kernel's side of a pedal: what it is asked and what it says.
+/// The kernel's side of a pedal: which requests it gets and which events it sends.
 class MockedPedal {
  public:
   MockedPedal(std::vector<unsigned> keys, bool is_mouse)
@@ -101,7 +101,7 @@ class MockedPedal {
     UMockdevIoctlData* arg = umockdev_ioctl_client_get_arg(client);
     if (_IOC_TYPE(request) != 'E') return umockdev_ioctl_client_complete(client, -1, ENOTTY);
     if (request == EVIOCGRAB) {
-      // The number itself is the argument, not where it stands.
+      // The argument is the number itself and no pointer to it.
       guint8* bytes = nullptr;
       gint count = 0;
       umockdev_ioctl_data_retrieve(arg, &bytes, &count);
@@ -179,7 +179,7 @@ TEST(EvdevDevice, IsOpenedByItsNameWithTheMonotonicClockAndTakenOnlyWhenAsked) {
   EXPECT_FALSE(source->is_keyboard());
   EXPECT_EQ(pedal.clock, CLOCK_MONOTONIC);
   EXPECT_EQ(pedal.grab, -1) << "whoever only listens takes nothing";
-  // Down for a second.
+  // The pedal is down for a second.
   pedal.press(
       "E: 0.000000 0001 0030 1\nE: 0.000000 0000 0000 0\n"
       "E: 1.000000 0001 0030 0\nE: 1.000000 0000 0000 0\n");

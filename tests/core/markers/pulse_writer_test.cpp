@@ -22,11 +22,12 @@ double clock_s() {
       .count();
 }
 
-/// What a parallel port, or any other, was told: codes with their times, 0 for an end.
+/// What a parallel port, or any other, was told: codes with their times, and 0 for the end of a
+/// pulse.
 struct Told {
   std::mutex mutex;
   std::vector<std::pair<int, double>> codes;
-  std::atomic<int> fails_after{1000};  ///< So many pulses are written.
+  std::atomic<int> fails_after{1000};  ///< The port writes this many pulses before it fails.
 
   [[nodiscard]] std::vector<std::pair<int, double>> all() {
     const std::lock_guard guard(mutex);

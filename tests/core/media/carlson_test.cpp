@@ -11,7 +11,8 @@ namespace jnd::core {
 namespace carlson_test {
 
 TEST(Carlson, GivesThePublishedValues) {
-  // Carlson (1995), Numerical computation of real or complex elliptic integrals, section 3.
+  // The values are those of Carlson (1995), Numerical computation of real or complex elliptic
+  // integrals, section 3.
   EXPECT_NEAR(carlson_rf(2.0, 3.0, 4.0), 0.58408284167715, 1e-14);
   EXPECT_NEAR(carlson_rd(2.0, 3.0, 4.0), 0.16510527294261, 1e-14);
 }

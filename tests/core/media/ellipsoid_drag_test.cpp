@@ -26,7 +26,7 @@ TEST(EllipsoidDrag, OfASphereIsStokes) {
 }
 
 TEST(EllipsoidDrag, OfProlateSpheroidsIsTheClosedForm) {
-  // Kim and Karrila (1991), Microhydrodynamics, table 3.4: 6 pi a X and 6 pi a Y.
+  // Kim and Karrila (1991), Microhydrodynamics, table 3.4, give 6 pi a X and 6 pi a Y.
   for (const double ratio : {1.5, 2.0, 5.0, 20.0}) {
     const double e = std::sqrt(1.0 - 1.0 / (ratio * ratio));
     const double l = std::log((1.0 + e) / (1.0 - e));
@@ -40,7 +40,7 @@ TEST(EllipsoidDrag, OfProlateSpheroidsIsTheClosedForm) {
 }
 
 TEST(EllipsoidDrag, OfOblateSpheroidsIsTheClosedForm) {
-  // Kim and Karrila (1991), table 3.6.
+  // The resistances are those of Kim and Karrila (1991), table 3.6.
   for (const double ratio : {1.5, 2.0, 5.0, 20.0}) {
     const double e = std::sqrt(1.0 - 1.0 / (ratio * ratio));
     const double minor = std::sqrt(1.0 - e * e);
@@ -54,15 +54,15 @@ TEST(EllipsoidDrag, OfOblateSpheroidsIsTheClosedForm) {
 }
 
 TEST(EllipsoidDrag, OfAThinDiscIsThePublishedLimit) {
-  // Happel and Brenner (1965), sec. 5-11: broadside 16 mu a, edge on 32/3 mu a.
+  // Happel and Brenner (1965), sec. 5-11, give 16 mu a broadside and 32/3 mu a edge on.
   const auto k = damping({1.0, 1.0, 1e-6});
   EXPECT_NEAR(k[2], 16.0, 1e-4);
   EXPECT_NEAR(k[0], 32.0 / 3.0, 1e-4);
 }
 
 TEST(EllipsoidDrag, HasPerrinsShapeFactor) {
-  // Perrin (1936): relative to the sphere of the same volume, over all orientations,
-  // F = sqrt(1 - q^2) / (q^(2/3) ln((1 + sqrt(1 - q^2)) / q)), q = minor / major.
+  // Perrin (1936) gives the mean over all orientations relative to the sphere of the same
+  // volume: F = sqrt(1 - q^2) / (q^(2/3) ln((1 + sqrt(1 - q^2)) / q)), q = minor / major.
   for (const double ratio : {2.0, 5.0, 10.0}) {
     const double q = 1.0 / ratio;
     const double root = std::sqrt(1.0 - q * q);
@@ -77,7 +77,7 @@ TEST(EllipsoidDrag, AFlatHandIsEasiestAlongItsFingersAndHardestHeadOn) {
   const auto k = EllipsoidDrag({.viscosity_pa_s = 1.0}).damping_n_s_per_m();
   EXPECT_LT(k[0], k[1]);
   EXPECT_LT(k[1], k[2]);
-  // All between the spheres inside and outside of it.
+  // All axes lie between the spheres inside and outside of the ellipsoid.
   EXPECT_GT(k[0], 6.0 * kPi * 0.014);
   EXPECT_LT(k[2], 6.0 * kPi * 0.10);
 }

@@ -47,10 +47,10 @@ TEST(GodObject, WithoutFrictionItOnlyPushesOutward) {
 TEST(GodObject, SticksWithinTheFrictionAndSlidesBeyondIt) {
   Touch touch({.stiffness_n_per_m = 1000.0, .friction_ratio = 0.5});
   EXPECT_NEAR(touch.at({0.0, 0.0, -0.004}).z(), 4.0, 1e-12);
-  // 1 mm aside: 1 N of at most 2 N, and back again without a trace.
+  // 1 mm aside gives 1 N of at most 2 N, and the point comes back without a trace.
   EXPECT_NEAR(touch.at({0.001, 0.0, -0.004}).x(), -1.0, 1e-12);
   EXPECT_NEAR(touch.at({0.0, 0.0, -0.004}).x(), 0.0, 1e-12);
-  // 10 mm aside: it has slid to 2 mm behind the point.
+  // 10 mm aside the surface point has slid to 2 mm behind the hand's.
   EXPECT_NEAR(touch.at({0.010, 0.0, -0.004}).x(), -2.0, 1e-12);
   EXPECT_NEAR(touch.at({0.008, 0.0, -0.004}).x(), 0.0, 1e-12);
   EXPECT_NEAR(touch.at({0.006, 0.0, -0.004}).x(), 2.0, 1e-12);
@@ -104,7 +104,7 @@ TEST(GodObject, APointThatBeginsInsideIsPushedOutGently) {
   for (int tick = 0; tick < 1000; ++tick) {
     const double force =
         point.force_n(amounts, kUp, 0.02, inside, Eigen::Vector3d::Zero(), kPeriodS).z();
-    // 5 cm/s of 1000 N/m.
+    // The surface rises at 5 cm/s, and its stiffness is 1000 N/m.
     ASSERT_LE(force - last, 0.05 + 1e-9);
     ASSERT_GE(force, last - 1e-12);
     last = force;
@@ -142,7 +142,7 @@ TEST(GodObject, OnTheWayOutItKeepsWhatItHasSunk) {
   };
   (void)at_depth(0.02);
   (void)at_depth(0.005);
-  // It came out by itself: pressed in again, the surface is where it got to.
+  // The point came out to 5 mm by itself. Pressed in again, it meets the surface there.
   EXPECT_NEAR(at_depth(0.010), 5.0, 0.11);
 }
 

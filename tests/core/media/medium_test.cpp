@@ -49,7 +49,7 @@ TEST(MediumRamp, StartsInFreeSpaceAndHasArrived) {
   EXPECT_EQ(ramp.advance(0.001).damping_n_s_per_m, 0.0);
 }
 
-/// Every amount another number.
+/// Gives every amount another number.
 MediumAmounts all_different(double scale = 1.0) {
   MediumAmounts amounts;
   double value = 0.0;

@@ -12,7 +12,7 @@ namespace jnd::core {
 namespace viscous_drag_test {
 
 TEST(ViscousDrag, TheShapeConstantsAreThoseOfTheThesis) {
-  // Thesis, B.4: 1.7760 and 1.2322 m.
+  // The thesis, B.4, gives 1.7760 and 1.2322 m.
   EXPECT_NEAR(ViscousDrag({.viscosity_pa_s = 1.0}).shape_constant_m(), 1.7760, 1e-12);
   EXPECT_NEAR(ViscousDrag({.viscosity_pa_s = 1.0, .shape = ViscousDrag::Shape::kSphere})
                   .shape_constant_m(),

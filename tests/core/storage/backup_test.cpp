@@ -91,7 +91,7 @@ TEST_F(BackupTest, ACopyThatHoldsMoreThanTheStudyIsLeftAsItIs) {
   (void)back_up_now();
   kept_.add_session("P02");
   (void)withdraw(kept_.folder(), "P01", 5);
-  // The arguments the wrong way round: P02 and the withdrawal would be undone.
+  // With the arguments the wrong way round, P02 and the withdrawal would be undone.
   const std::string before = read_file(kept_.folder() / "study.sqlite");
   try {
     (void)back_up(copy(), kept_.folder(), 9);
@@ -102,7 +102,7 @@ TEST_F(BackupTest, ACopyThatHoldsMoreThanTheStudyIsLeftAsItIs) {
   }
   EXPECT_EQ(read_file(kept_.folder() / "study.sqlite"), before);
 
-  // A session that went on in its backup.
+  // Somebody uses this backup as a study, and its last session goes on there.
   kept_.add_session("P03");
   (void)back_up(kept_.folder(), kept_.beside("second"), 10);
   fs::remove(kept_.beside("second") / kBackupMark);
@@ -234,7 +234,7 @@ TEST_F(BackupTest, AnInterruptedOneIsToldAndTheEarlierCopyIsWhole) {
   const BackupReport report = back_up_now();
   EXPECT_TRUE(report.integrity.complete);
   EXPECT_TRUE(report.integrity.remarks.empty());
-  // Without such a mark the recording of no session is a problem.
+  // Without such a mark, the recording of no session is a problem.
   fs::copy_file(kept_.recording(2), copy() / "recordings" / "0009.sqlite");
   EXPECT_FALSE(verify(StudyStore(copy(), StudyStore::Mode::kReadOnly)).complete);
 }
@@ -308,7 +308,7 @@ TEST_F(BackupTest, OfACopyAStudyIsMadeInWhichSessionsCanBeRun) {
   EXPECT_EQ(report.integrity.num_samples, 1000);
   EXPECT_FALSE(is_backup(restored));
   EXPECT_NO_THROW(StudyStore(restored, StudyStore::Mode::kReadWrite));
-  // The copy goes on as the restored study's copy, and a withdrawal reaches it.
+  // The copy becomes the restored study's copy, and a withdrawal reaches it.
   EXPECT_TRUE(back_up(restored, copy(), ++time_ns_).integrity.complete);
   EXPECT_EQ(withdraw(restored, "P01", ++time_ns_).backups.size(), 1U);
 }

@@ -20,7 +20,7 @@ class ExportNoteTest : public ::testing::Test {
     kept_.add_session("P01");
     kept_.add_session("P02");
   }
-  /// As an export does: remembered, then written.
+  /// Does what an export does: it is noted first and then written.
   void write(const std::string& name, const std::vector<std::int64_t>& sessions,
              const fs::path& folder) {
     note_export(folder, {.place = kept_.beside(name),
@@ -77,7 +77,8 @@ TEST_F(ExportNoteTest, WhatAnInterruptedExportLeftBesideItsPlaceIsNamed) {
   fs::create_directory(kept_.beside("other.unfinished-Ab12Cd"));
   EXPECT_EQ(named("P01"), Names{"cut.unfinished-Ab12Cd"});
   EXPECT_EQ(named("P02"), Names{});
-  // The place itself is written anew, without the person; what was left is still there.
+  // The place itself is written anew, without the person; what the interrupted export left is
+  // still there.
   write("cut", {2});
   EXPECT_EQ(named("P01"), Names{"cut.unfinished-Ab12Cd"});
 }

@@ -146,7 +146,8 @@ TEST(SampleCodec, RefusesNumbersOfADamagedRowInsteadOfAskingForAllMemory) {
   EXPECT_THROW((void)decode_samples(bytes, kLargest - 5, 10, "test"), Error);
 }
 
-/// Of a real loop: each tick late by some microseconds, the device's clock with its own.
+/// Gives the samples the times of a real loop: each tick is late by some microseconds, and the
+/// device's clock has its own origin.
 std::vector<Sample> timed(std::vector<Sample> samples) {
   RandomStream random(3, "lateness", {});
   for (Sample& sample : samples) {
@@ -267,7 +268,7 @@ TEST(SampleCodec, AChannelThatNobodyKnowsIsDamage) {
   EXPECT_THROW((void)decode_samples(encode_samples(samples), 5, 10, "here"), Error);
   const std::string good = encode_samples(sweep_with_channels(10, kAllChannels));
   for (std::size_t cut = 0; cut < good.size(); ++cut) {
-    // Without its last frames it is a chunk of a device without channels, or times.
+    // Without its last frames it is a chunk of a device without channels, or without times.
     try {
       const std::vector<Sample> back = decode_samples(good.substr(0, cut), 5, 10, "here");
       EXPECT_EQ(back.front().channels.bits, 0) << cut;

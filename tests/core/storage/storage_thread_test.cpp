@@ -39,7 +39,8 @@ TEST(StorageThread, CallsBackWhileItIsWaitedFor) {
   SpscQueue<Sample> samples(16);
   StorageThread storage(samples, {});
   std::atomic<int> num_calls{0};
-  // The work ends when it was heard of twice; without the calls it would end the test's time.
+  // The work ends when it has been reported twice; without the reports it would go on until the
+  // test times out.
   storage.after(
       -1,
       [&] {

@@ -27,7 +27,7 @@ std::int64_t format_of(const fs::path& folder) {
   return study_format_of(database);
 }
 
-/// Every table, column, view, index and trigger.
+/// The definition of every table, column, view, index and trigger.
 std::string schema_of(const fs::path& folder) {
   Database database(folder / "study.sqlite", Database::Mode::kReadOnly,
                     Durability::kEveryCommit);
@@ -44,7 +44,7 @@ class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
   [[nodiscard]] fs::path old() const { return temporary_.path() / "old.study"; }
   [[nodiscard]] static bool has(std::int64_t layout) { return GetParam() >= layout; }
 
-  /// What each layout holds that the one before does not; what there was before stays.
+  /// Each layout holds something that the one before does not; everything older stays.
   static void expect_all_of(const StudyStore& store) {
     ASSERT_FALSE(store.sessions().empty());
     EXPECT_EQ(store.sessions()[0].participant, "P01");
@@ -197,7 +197,7 @@ TEST_P(OldLayoutTest, KeepsWhatTheStepsBeforeABadOneDid) {
   {
     Database database(old() / "study.sqlite", Database::Mode::kReadWrite,
                       Durability::kEveryCommit);
-    // The last table of the sixth step, which can make all but it.
+    // The sixth step makes this table last, so that it can make all but this one.
     database.execute("CREATE TABLE adverse_event (in_the_way INTEGER)");
     EXPECT_THROW(bring_up_to_date(database), Error);
     EXPECT_EQ(study_format_of(database), 5);
@@ -223,7 +223,7 @@ class StudyFormatTest : public ::testing::Test {
 TEST_F(StudyFormatTest, EachStepOrNothing) {
   Database database(old() / "study.sqlite", Database::Mode::kReadWrite,
                     Durability::kEveryCommit);
-  // The second step makes this table; that it cannot leaves the first layout behind, whole.
+  // The second step makes this table. If it cannot, the first layout stays as it was, whole.
   database.execute("CREATE TABLE backup (in_the_way INTEGER)");
   EXPECT_THROW(bring_up_to_date(database), Error);
   EXPECT_EQ(study_format_of(database), 1);

@@ -72,7 +72,7 @@ TYPED_TEST(StudyRowsTest, EveryColumnHasANameOfItsOwn) {
   EXPECT_EQ(names.size(), num_columns);
 }
 
-/// Another value than that of a fresh row in every column.
+/// Gives every column another value than that of a fresh row.
 template <typename Row>
 Row filled() {
   Row row;

@@ -395,7 +395,7 @@ TEST_F(StudyStoreTest, AnOverviewCountsTheAnswersThatStand) {
   EXPECT_EQ(now.last_time_ns, 77);
   EXPECT_FALSE(now.completed || now.ended_early);
 
-  // A trial set aside is answered all the same, and whoever did that was no visitor.
+  // Setting a trial aside changes neither the number of answers nor the time of the last visit.
   Commit excluded = event(5, "trial_excluded");
   excluded.event.trial = 1;
   excluded.event.time_ns = 99;
@@ -474,7 +474,7 @@ TEST_F(AdaptiveTrialsTest, WhatWasDrawnWithTheTrialStays) {
   EXPECT_EQ(in_force(), (Trials{1, 2, 3}));
 }
 
-/// Of blocks whose trials are mixed.
+/// The trials of these blocks are mixed.
 TEST_F(AdaptiveTrialsTest, WhatWasDrawnForAnotherBlockStays) {
   draw(1, 1);
   draw(2, 2);
@@ -489,7 +489,7 @@ TEST_F(AdaptiveTrialsTest, WhatWasDrawnForAnotherBlockStays) {
   EXPECT_EQ(store_->overview().front().num_trials, 2);
 }
 
-/// The store looks for them in another order than the view does.
+/// The store looks for the trials in force in another order than the view does.
 TEST_F(AdaptiveTrialsTest, WhatIsInForceIsWhatTheViewSays) {
   RandomStream random(7, "acts of a session");
   std::int64_t num_trials = 0;

@@ -55,7 +55,7 @@ TEST_F(WithdrawalTest, NothingOfThePersonIsLeftButTheTombstone) {
   EXPECT_TRUE(verified(kept_.folder()).complete);
 }
 
-// It is of a device, and of sessions of others.
+// A device profile is of a device, and serves the sessions of others.
 TEST_F(WithdrawalTest, DeviceProfilesStayHereAndInEveryBackup) {
   {
     StudyStore store(kept_.folder(), StudyStore::Mode::kReadWrite, Durability::kAtClose);
@@ -104,13 +104,13 @@ TEST_F(WithdrawalTest, NeitherItsNumberIsGivenAgainNorRowsCanBeDeletedAfterwards
   }
 }
 
-/// A new table of people's data has to go with them.
+/// A new table of people's data has to be emptied with the others.
 TEST_F(WithdrawalTest, EmptiesEveryTableThatHoldsSessionsButThoseThatAreKept) {
   const std::set<std::string> emptied = {"acknowledgement", "question_answer", "answer",
                                          "presentation",    "trial",           "design",
                                          "event",           "session"};
-  // Tombstones, what an ethics committee is owed, which exports the session is in, and which
-  // numbers of sessions a planned look counted: no more than the tombstone tells.
+  // These keep tombstones, what an ethics committee is owed, which exports the session is in,
+  // and which numbers of sessions a planned look counted: no more than the tombstone tells.
   const std::set<std::string> kept = {"withdrawal", "adverse_event", "export_session",
                                       "sequential_look_session"};
   Database database(kept_.folder() / "study.sqlite", Database::Mode::kReadOnly,
@@ -161,14 +161,16 @@ TEST_F(WithdrawalTest, ABackupThatWasDeletedCanBeForgotten) {
   EXPECT_THROW(forget_backup(kept_.folder(), kept_.beside("other"), 6), Error);
   forget_backup(kept_.folder(), kept_.beside("gone"), 6);
   EXPECT_TRUE(withdraw(kept_.folder(), "P01", 7).remaining.empty());
-  (void)back_up(kept_.folder(), kept_.beside("gone"), 8);  // Made again, it is known again.
+  // A backup that is made again is known again.
+  (void)back_up(kept_.folder(), kept_.beside("gone"), 8);
   EXPECT_EQ(known_backups(kept_.folder()), std::vector<fs::path>{kept_.beside("gone")});
 }
 
 TEST_F(WithdrawalTest, ReachesTheBackupsOfBackups) {
   (void)back_up(kept_.folder(), kept_.beside("b"), 1);
   (void)back_up(kept_.beside("b"), kept_.beside("c"), 2);
-  (void)back_up(kept_.folder(), kept_.beside("b"), 3);  // Which forgets nothing.
+  // A repeated backup does not forget that it has a backup.
+  (void)back_up(kept_.folder(), kept_.beside("b"), 3);
   (void)withdraw(kept_.folder(), "P01", 5);
   EXPECT_FALSE(holds(kept_.beside("c"), "secret of P01"));
 }
@@ -190,7 +192,8 @@ TEST_F(WithdrawalTest, OneBackupOutOfOrderDoesNotKeepTheOthers) {
   (void)back_up(kept_.folder(), kept_.beside("a"), 1);
   (void)back_up(kept_.folder(), kept_.beside("z"), 2);
   fs::remove_all(kept_.beside("a"));
-  fs::create_symlink("a", kept_.beside("a"));  // Around in a circle: no status at all.
+  // The link leads to itself, so that it has no status at all.
+  fs::create_symlink("a", kept_.beside("a"));
   const WithdrawalReport report = withdraw(kept_.folder(), "P01", 5);
   EXPECT_EQ(report.remaining.size(), 1U);
   EXPECT_EQ(report.backups, std::vector<fs::path>{kept_.beside("z")});
@@ -251,7 +254,7 @@ TEST_F(WithdrawalTest, WhileItsBytesMayBeInTheFileVerifySaysSo) {
   EXPECT_TRUE(verified(kept_.folder()).complete);
 }
 
-/// The copy has the recording already, and not yet the session that it is of.
+/// The copy already has the recording, but not yet its session.
 TEST_F(WithdrawalTest, ReachesWhatAnInterruptedBackupLeft) {
   (void)back_up(kept_.folder(), kept_.beside("copy"), 1);
   kept_.add_session("P03");

@@ -23,7 +23,7 @@ inline StreamNetwork loopback_network() {
   return network;
 }
 
-/// Whether it came about within ten seconds, which only a failure takes.
+/// Whether it came about within ten seconds. Only a failure takes that long.
 inline bool comes_about(const std::function<bool()>& holds) {
   for (int i = 0; i < 2000; ++i) {
     if (holds()) return true;
@@ -32,7 +32,7 @@ inline bool comes_about(const std::function<bool()>& holds) {
   return holds();
 }
 
-/// So many samples of an inlet, or what came within ten seconds.
+/// Takes this many samples of an inlet, or those that came within ten seconds.
 inline std::vector<StreamSample> take_from(StreamInlet& inlet, std::size_t count) {
   std::vector<StreamSample> all;
   (void)comes_about([&] {

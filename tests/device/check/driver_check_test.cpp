@@ -121,7 +121,8 @@ TEST_P(EachWrongDriver, IsFoundByItsRuleAndByNoOther) {
   }
 }
 
-// One of other units has positions and velocities that agree, and moves far.
+// A driver of other units is tested apart: its positions and velocities agree, but it moves
+// far.
 INSTANTIATE_TEST_SUITE_P(Rules, EachWrongDriver,
                          ::testing::Values("opens", "pace", "time", "velocity", "description",
                                            "absent_points", "force_sign", "halt", "limits",
@@ -182,7 +183,7 @@ TEST(DriverCheck, ARealDeviceIsNeverAskedForMoreThanAGentlePush) {
 }
 
 TEST(DriverCheck, ADeviceThatCannotBeReadAnyMoreIsNotPushed) {
-  WrongDevice device("blind");  // From before the first push on.
+  WrongDevice device("blind");  // It cannot be read from before the first push on.
   const Told told = told_of(device, /*pushes=*/true);
   EXPECT_EQ(told.outcomes.at("force_sign").verdict, RuleOutcome::Verdict::kFailed);
   EXPECT_EQ(told.outcomes.at("velocity").verdict, RuleOutcome::Verdict::kFailed);

@@ -38,7 +38,7 @@ TEST(StabilityMap, AStiffPlaneIsUnstableForALooseFingerFirst) {
 }
 
 TEST(StabilityMap, ALimiterThatKnowsOfTheLooseFingerGivesItNoForceAtAll) {
-  // What the map measures with that knowledge switched off: here it is on.
+  // The map measures with that knowledge switched off; here it is on.
   ExoskeletonDevice exoskeleton({.rate_hz = kRate_hz, .attached = {}});
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;

@@ -167,7 +167,7 @@ TEST(LinkQuality, JudgedAnewItStillKnowsWhatItHasSeen) {
   EXPECT_EQ(quality.received(3), LinkQuality::Verdict::kNewest) << "of another stream";
 }
 
-/// So many of a rate, of which every tenth is lost from the middle on.
+/// Feeds states of this rate. From `lost_after_s` on, every tenth of them is lost.
 LinkQuality fed_at(double rate_hz, double seconds, double lost_after_s) {
   LinkQuality quality;
   quality.restart(rate_hz);

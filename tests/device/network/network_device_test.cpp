@@ -126,7 +126,7 @@ TEST_F(NetworkDeviceTest, ASecondProgramIsRefusedAndTheFirstFeelsNothing) {
   start();
   const auto second = make_device({}, kOtherProgram);
   second->ask();
-  // The first goes on meanwhile.
+  // The first program goes on in the meantime.
   const auto step = network.on_millisecond;
   network.on_millisecond = [this, step] {
     step();
@@ -376,7 +376,7 @@ TEST_F(NetworkDeviceTest, TheEmergencyStopReachesTheDeviceInOneTick) {
   EXPECT_EQ(total_now_n(), 0.0);
 }
 
-/// Answers as a device does, without a heap: for counting.
+/// Answers as a device does, without a heap, so that a test can count allocations.
 class AnsweringPort final : public DatagramPort {
  public:
   bool send(std::span<const std::byte> datagram, const Address&) noexcept override {

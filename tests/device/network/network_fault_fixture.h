@@ -6,8 +6,8 @@
 
 namespace jnd::device {
 
-/// Faults of the network with so many points attached. Whatever is asserted is asserted on the
-/// forces that the served device received.
+/// Tests of faults of the network with this many points attached. Every assertion about force
+/// is on the forces that the served device received.
 class NetworkFaultTest : public NetworkTest, public ::testing::WithParamInterface<int> {
  protected:
   void SetUp() override {

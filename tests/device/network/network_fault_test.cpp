@@ -150,7 +150,7 @@ TEST_P(NetworkFaultTest, ABadConnectionEndsTheForceAndIsNotArmed) {
     lose_every(4, to);
     run(700);
     EXPECT_EQ(fault(), Fault::kLinkLost);
-    // Each side has a guard of its own: of lost states the device knows nothing until our loop
+    // Each side has a guard of its own: the device knows nothing of lost states until our loop
     // halts it.
     EXPECT_EQ(server->counts().last_fault, to == kServer ? Fault::kLinkLost : Fault::kWatchdog);
     const std::size_t lost = mark();

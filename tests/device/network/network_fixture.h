@@ -27,8 +27,8 @@ class NetworkTest : public ::testing::Test {
     };
     serve({});
   }
-  /// What a test has put into the network refers to things of its own, which are gone; the
-  /// device still says goodbye.
+  /// The device still says goodbye, but `on_send` of a test refers to objects of the test that
+  /// are gone.
   ~NetworkTest() override { network.on_send = nullptr; }
 
   void serve(DeviceServer::Parameters parameters) {
@@ -78,14 +78,14 @@ class NetworkTest : public ::testing::Test {
     };
   }
 
-  /// Loses every so-manieth datagram to this address.
+  /// Loses every `nth` datagram to this address.
   void lose_every(int nth, const Address& to) {
     network.on_send = [this, nth, to, num = 0](const SimulatedNetwork::Sent& sent) mutable {
       if (!(sent.to == to) || ++num % nth != 0) network.post(sent);
     };
   }
 
-  /// Lets a controller of somebody else's speak: its states say what `change` makes of ours.
+  /// Plays a controller of somebody else's: `change` changes the states that our server sends.
   void change_states(std::function<void(wire::Header&, wire::State&)> change) {
     network.on_send = [this, change = std::move(change)](const SimulatedNetwork::Sent& sent) {
       wire::Datagram datagram;
@@ -113,7 +113,7 @@ class NetworkTest : public ::testing::Test {
     loop->rearm(published_telemetry.value().num_faults);
   }
 
-  /// So many of both sides' ticks; stops what the test has stopped.
+  /// Runs this many ticks of both sides, except of a side that the test has stopped.
   void run(int num_ms) {
     for (int i = 0; i < num_ms; ++i) {
       if (num_run++ % 500 == 0) {
@@ -151,8 +151,8 @@ class NetworkTest : public ::testing::Test {
     return max;
   }
 
-  /// Whatever happened: no force that is no number, none beyond the limits, none on a point
-  /// that is off the hand, and none that grew faster than the slew allows.
+  /// Expects that each force was safe whatever happened: it was a number, within the limits,
+  /// zero at a point that is off the hand, and grew no faster than the slew allows.
   void expect_safe_forces(std::size_t first = 0) const {
     constexpr double kMaxStep_n = 2000.0 * 1e-3;
     core::PointVectors last = core::zero_vectors();
@@ -191,7 +191,8 @@ class NetworkTest : public ::testing::Test {
   core::LatestValue<core::Telemetry> published_telemetry;
   core::EmergencyStop stop;
   std::unique_ptr<HapticLoop> loop;
-  std::optional<DeviceKey> key;  ///< Of both sides, from the next `serve` and `make_device` on.
+  /// The key of both sides, from the next `serve` and `make_device` on.
+  std::optional<DeviceKey> key;
   bool loop_runs = true, server_runs = true;
   int num_run = 0;
   std::uint64_t next_stream_id = 0;

@@ -9,8 +9,8 @@
 #include "device/plugin/jnd_device.h"
 #include "force_dimension_fixture.h"
 
-// What goes wrong with a device of Force Dimension: the force ends at the twin of its library,
-// which judges each one that it is given (`ForceDimensionTest::TearDown`).
+// Tests what goes wrong with a device of Force Dimension. The force has to end at the twin of
+// its library, which judges each force that it is given (`ForceDimensionTest::TearDown`).
 
 namespace jnd::device {
 namespace force_dimension_faults_test {
@@ -38,7 +38,7 @@ class ForceDimensionFaultsTest : public ForceDimensionTest {
         << fluid.told().total_force_n[0] << " N at " << fluid.told().hand_velocity_m_per_s[0]
         << " m/s, the twin is at " << page().position_m[1] << " m, on " << page().is_on;
   }
-  /// As a person does, who tries again where a busy machine was late with a reading.
+  /// Arms as a person does, who tries again where a busy machine was late with a reading.
   static void arm(HapticDevice& device, StrokedFluid& fluid) {
     Fault found = Fault::kLinkLost;
     for (int i = 0; i < 20 && was_late(found, fluid); ++i) {
@@ -51,13 +51,13 @@ class ForceDimensionFaultsTest : public ForceDimensionTest {
     }
     ASSERT_EQ(found, Fault::kNone) << core::name(found) << ": " << fluid.words();
   }
-  /// A busy machine kept the process of the driver waiting. The driver itself has no complaint,
-  /// for it says in words what the library refused.
+  /// Whether a busy machine kept the driver's process waiting. Then the driver itself has no
+  /// complaint: it says in words what the library refused.
   static bool was_late(Fault found, const StrokedFluid& fluid) {
     return found == Fault::kLinkLost ||
            (found == Fault::kDeviceReadFailed && fluid.words().empty());
   }
-  /// The force is gone, and none comes while the loop goes on.
+  /// Expects that the force is gone, and that none comes while the loop goes on.
   static void expect_no_force(StrokedFluid& fluid) {
     EXPECT_TRUE(comes_to([&] {
       (void)fluid.run(1);
@@ -71,7 +71,7 @@ class ForceDimensionFaultsTest : public ForceDimensionTest {
   struct Expected {
     int trouble;
     std::vector<Fault> faults;
-    std::string words;  ///< Of the device, "": none.
+    std::string words;  ///< What the device says; "": nothing.
   };
 };
 

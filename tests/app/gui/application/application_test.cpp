@@ -18,7 +18,7 @@ namespace application_test {
 
 namespace fs = std::filesystem;
 
-/// The window without its pixels, on a study of no sessions.
+/// The window without its pixels, on a study without sessions.
 class ApplicationTest : public ::testing::Test {
  protected:
   ApplicationTest() {
@@ -87,7 +87,7 @@ TEST_F(ApplicationTest, DataAreOpenedFromTheStartAndStayWhileOthersStandThere) {
   };
   finish();
   EXPECT_TRUE(ui_.drawn().shows("2 rows"));
-  // What cannot be saved is told.
+  // A failure to save is reported.
   after({letter('E'), true});
   ui_.press({letter('A'), true});
   ui_.type(table.string());
@@ -239,7 +239,7 @@ TEST_F(ApplicationTest, WhatCannotBeOpenedIsToldAndTheStartStays) {
 }
 
 TEST_F(ApplicationTest, FromTheKeysThePageOfTheManualAboutTheViewOpens) {
-  // A desktop of the test's own: what its xdg-open was given.
+  // A desktop of the test's own, which records what its xdg-open was given.
   const fs::path opened = temporary_.path() / "opened";
   fs::create_directory(temporary_.path() / "bin");
   const fs::path program = temporary_.path() / "bin" / "xdg-open";
@@ -275,7 +275,7 @@ TEST_F(ApplicationTest, FromTheKeysThePageOfTheManualAboutTheViewOpens) {
   EXPECT_EQ(test_support::read_file(opened), (pages / "how-to/read_the_results.md").string());
 }
 
-// Another window would take the keyboard, and with it Escape, from the one that stops.
+// Another window would take the keyboard, and with it Escape, from the window that stops.
 TEST_F(ApplicationTest, WhileASessionIsLiveTheManualsPlaceIsToldAndNothingOpens) {
   open({.study_folder = folder_,
         .participant = "P01",

@@ -22,7 +22,7 @@ SessionView felt() {
   return view;
 }
 
-/// Draws the view, and remembers what it was asked for.
+/// Draws the view and remembers what it requested.
 class ApparatusView : public ::testing::Test {
  protected:
   RunViewResult draw(const SessionView& view) {
@@ -36,7 +36,8 @@ class ApparatusView : public ::testing::Test {
   }
   [[nodiscard]] const Drawn& drawn() const { return ui_.drawn(); }
 
-  /// A second of a channel that is its number in the request, with a gap of two intervals.
+  /// Returns a second of a channel whose value is its index in the request, with a gap of two
+  /// intervals.
   static ScopePicture picture_of(const std::vector<std::string>& names) {
     ScopePicture picture{.newest_s = 30.0};
     for (std::size_t i = 0; i < names.size(); ++i) {

@@ -15,13 +15,13 @@
 #include "support/files.h"
 #include "support/places.h"
 
-// What stands on the participant's screen, on the smallest, the usual and the largest monitor:
-// all of it has room, and none of it tells a level or what a block is called.
+// On the smallest, the usual and the largest monitor, everything on the participant's screen
+// has room, and nothing tells a level or the name of a block.
 
 namespace jnd::app::gui {
 namespace participant_view_test {
 
-/// Whatever the operator may read and the participant must not is a word of its own.
+/// Everything that the operator may read and the participant must not is a unique word.
 const std::string kTelltaleStudy = R"json({
   "format": 1, "name": "treacly", "languages": ["en"], "title": {"en": "Gluey things"},
   "authors": ["A. Author"],
@@ -72,7 +72,7 @@ class ThreeMonitors {
           static_cast<float>(width) / scale, static_cast<float>(height) / scale, scale));
     }
   }
-  /// `may_read`: what was drawn on each.
+  /// `may_read` gets what was drawn on each.
   void look(const std::string& name, const ParticipantScreen& shown,
             const std::function<void(const Drawn&)>& may_read = {}) {
     for (const auto& one : screens_) {
@@ -198,7 +198,7 @@ TEST_F(ParticipantViewTest, NothingIsCutInAnyStateOfAnyProcedure) {
   EXPECT_GT(num_seen, 30);
 }
 
-/// What can stand there of a shipped study, in each of its languages.
+/// Everything that a shipped study may show, in each of its languages.
 class ShippedTexts {
  public:
   using Look = std::function<void(const std::string&, const ParticipantScreen&)>;

@@ -7,7 +7,7 @@
 namespace jnd::app::gui {
 namespace run_dialogs_test {
 
-/// What is asked before something is undone, or after it was paused.
+/// Questions before something is undone, or after a pause.
 class RunDialogs : public RunViewTest {
  protected:
   static SessionView paused() {
@@ -16,7 +16,7 @@ class RunDialogs : public RunViewTest {
     view.asks_why_paused = true;
     return view;
   }
-  /// P was pressed, and the pause holds.
+  /// Presses P and puts the session into the pause.
   void pause() {
     (void)after_key<operate::Pause>(comparison(), {letter('P')});
     draw(paused());
@@ -135,7 +135,7 @@ class CorrectDialogTest : public RunViewTest {
     draw(view_);
     draw(view_);
   }
-  /// Why, and Enter.
+  /// Types the reason, and Enter.
   std::vector<OperatorRequest> because(const std::string& reason) {
     draw(view_);
     ui_.type(reason);

@@ -79,7 +79,7 @@ TEST_F(RunView, TheIntervalsOfADrawnOrderAreFirstAndSecond) {
   EXPECT_EQ(after_key<operate::Present>(view, {Key::kSpace}).interval, "first");
 }
 
-/// Three intervals, of which the second one is being felt and the third is still to come.
+/// Of three intervals the second one is being felt, and the third is still to come.
 SessionView three_intervals() {
   SessionView view = two_intervals();
   view.trial->num_intervals = 3;
@@ -347,7 +347,7 @@ TEST_F(RunView, WhatCameOffIsToldWhereverSomethingWaitsToBeFeltAndCanBeGivenUpFo
     EXPECT_TRUE(ui_.drawn().shows("Came off: the index finger."));
     ui_.press({letter('G'), true});
     draw(view);
-    view.loose_bits = 0b11000;  // Meanwhile; the operator has not seen it.
+    view.loose_bits = 0b11000;  // This happened meanwhile, and the operator has not seen it.
     draw(view);
     ASSERT_NE(ui_.drawn().find("dialog_do"), nullptr);
     EXPECT_FALSE(ui_.drawn().find("dialog_do")->enabled) << "a reason is needed";
@@ -514,7 +514,8 @@ TEST_F(RunView, TheParticipantSeesTheQuestionAndNoLevel) {
   EXPECT_FALSE(drawn.shows("trial"));
 }
 
-/// Everything that can be used lies on the screen, whatever waits and however small it is.
+/// Everything that can be used is on the screen, whatever waits and however small the window
+/// is.
 class RunViewFits : public ::testing::TestWithParam<std::pair<float, float>> {};
 
 TEST_P(RunViewFits, EveryWidgetLiesOnTheScreen) {

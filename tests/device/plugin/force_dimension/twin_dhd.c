@@ -1,16 +1,19 @@
-/* A twin of Force Dimension's libdhd.so, for tests: the functions that the driver uses, over a
- * simulated device with a controller of its own, which behaves as far as the public
- * documentation says how, and otherwise as is assumed here and said so. Nothing of the maker's
- * is in it. It records every force that it is given and judges it (`judge`).
+/* A twin of Force Dimension's libdhd.so, for tests: it has the functions that the driver
+ * uses, over a simulated device with a controller of its own. It behaves as the public
+ * documentation says, as far as that says anything; otherwise it behaves as is assumed here
+ * and marked as such. Nothing of the maker's is in it. It records every force that it is
+ * given and judges it (`judge`).
  *
- * Told in our own words are, as (B), the documentation of the free Python bindings, which was
- * adapted from the maker's (github.com/EmDash00/forcedimension_core-python at
- * forcedimension_core/dhd/__init__.py and dhd/expert/__init__.py, and -python-docs at
- * docs/source/forcedimension_core.dhd-doc.rst); as (H), the declarations of version 3.7 in
- * WPI-AIM/ambf at external/DHD/include/dhdc.h; as (C), src/devices/CDeltaDevices.cpp of CHAI3D.
+ * It retells these sources in our own words: (B), the documentation of the free Python
+ * bindings, which was adapted from the maker's
+ * (github.com/EmDash00/forcedimension_core-python at forcedimension_core/dhd/__init__.py and
+ * dhd/expert/__init__.py, and -python-docs at docs/source/forcedimension_core.dhd-doc.rst);
+ * (H), the declarations of version 3.7 in WPI-AIM/ambf at external/DHD/include/dhdc.h; (C),
+ * src/devices/CDeltaDevices.cpp of CHAI3D.
  *
- * Built with -D for what a library may lack: LACKS_SET_FORCE, LACKS_WATCHDOG, LACKS_MAX_FORCE,
- * LACKS_COM_MODE. The test tells everything else by the page of twin_page.h. */
+ * Build it with -D for what a library may lack: LACKS_SET_FORCE, LACKS_WATCHDOG,
+ * LACKS_MAX_FORCE, LACKS_COM_MODE. The test tells everything else by the page of
+ * twin_page.h. */
 #define _GNU_SOURCE
 
 #include <fcntl.h>
@@ -28,7 +31,7 @@
 #define EXPORT __attribute__((visibility("default")))
 
 enum { TIME_GUARD = 1, SATURATED = 2, NUM_STATUS = 17, NUM_HISTORY = 256 };
-/* (H), the enumeration of errors. */
+/* The numbers are those of (H), the enumeration of errors. */
 enum {
   NO_ERROR,
   ERROR_COM = 2,
@@ -44,11 +47,11 @@ enum { CAUSE_BUTTON = 1, CAUSE_VELOCITY, CAUSE_WATCHDOG, CAUSE_SOFTWARE };
 
 static volatile struct twin_page* page;
 
-/* (B), error management: each thread has its own last error. */
+/* Each thread has its own last error: (B), error management. */
 static _Thread_local int last_error = NO_ERROR;
 
-/* The library's: its functions are thread-safe, (B), threading. And the controller's, which a
- * library that is stuck does not stop. */
+/* The first is the library's, whose functions are thread-safe: (B), threading. The second is
+ * the controller's, which a library that is stuck does not stop. */
 static pthread_mutex_t library_lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_mutex_t controller_lock = PTHREAD_MUTEX_INITIALIZER;
 
@@ -56,7 +59,7 @@ static bool is_open, is_mine, is_expert, has_failed, is_halted, is_ended_by_some
 static pthread_t opener;
 static double late_since_s;
 static double force_n[3];
-static double set_n[3]; /* What was set last, also while the motors are off. */
+static double set_n[3]; /* The force that was set last, also while the motors are off. */
 static double position_m[3], velocity_m_per_s[3];
 static double last_force_s, last_asked_s, known_m[3];
 static int off_cause;
@@ -96,7 +99,8 @@ static void act(double x_n, double y_n, double z_n) {
   if (magnitude(now_n) > page->most_force_n) page->most_force_n = magnitude(now_n);
 }
 
-/* (B), safety feature and electromagnetic brakes: where the force is ended, motors brake. */
+/* Where the force is ended, the motors brake: (B), safety feature and electromagnetic
+ * brakes. */
 static void end_force(int cause) {
   act(0.0, 0.0, 0.0);
   if (page->is_on) off_cause = cause;
@@ -105,7 +109,8 @@ static void end_force(int cause) {
   if (cause == CAUSE_BUTTON || cause == CAUSE_VELOCITY) is_ended_by_somebody = true;
 }
 
-/* Assumed, as the worst that may be: what was set last acts as soon as motors are on. */
+/* It is assumed, as the worst case, that the force that was set last acts as soon as the
+ * motors are on. */
 static void begin_force(void) {
   if (magnitude(set_n) != 0.0) unsafe(TWIN_SWITCHED_ON_PUSHING);
   page->is_on = 1;
@@ -116,8 +121,8 @@ static void begin_force(void) {
 
 /* ---- The controller: a mass in a hand, and what ends its force by itself ------------------ */
 
-/* 0.25 kg on a spring of 400 N/m and a damper of 8 N s/m that end where the hand wants to be;
- * brakes add 20 N s/m, and what is not carried weighs 1.5 N. */
+/* 0.25 kg hang on a spring of 400 N/m and a damper of 8 N s/m that end where the hand wants
+ * to be. Brakes add 20 N s/m, and the weight that is not carried is 1.5 N. */
 static void move(double dt_s, double time_s) {
   double wanted_m[3];
   for (int i = 0; i < 3; ++i) wanted_m[i] = page->held_m[i];
@@ -148,15 +153,15 @@ static void* control(void* unused) {
       pthread_mutex_unlock(&controller_lock);
       continue;
     }
-    /* Where the machine was held up, so is the hand: it must not leap. */
+    /* If the machine was held up, the hand was too: it must not leap. */
     last_s = fmax(last_s, time_s - 0.002);
     for (; last_s + 0.0005 <= time_s; last_s += 0.0005) {
       simulated_s += 0.0005;
       move(0.0005, simulated_s);
     }
     const int steps = page->watchdog_steps;
-    /* (B), setWatchdog: no new force for so many times 125 microseconds, and the firmware ends
-     * the force. */
+    /* If no new force comes for so many times 125 microseconds, the firmware ends the force:
+     * (B), setWatchdog. */
     if (page->is_on && steps != 0 && time_s - last_force_s > page->watchdog_step_s * steps) {
       ++page->num_watchdog_ends;
       end_force(CAUSE_WATCHDOG);
@@ -214,7 +219,7 @@ static void judge(const double asked_n[3]) {
   if (!page->is_on && off_cause == 0) unsafe(TWIN_BEFORE_ENABLED);
   if (!page->is_calibrated) unsafe(TWIN_NOT_CALIBRATED);
   if (has_failed) unsafe(TWIN_AFTER_ERROR);
-  /* One may be under way while another thread halts, if it is taken back at once. */
+  /* A force may be under way while another thread halts, if it is taken back at once. */
   if (is_halted && late_since_s != 0.0) unsafe(TWIN_AFTER_HALT);
   if (is_halted && late_since_s == 0.0) late_since_s = now_s();
 }
@@ -224,11 +229,12 @@ static void judge(const double asked_n[3]) {
 static bool unplugs_in(int phase) {
   if (page->unplugged_in == phase) page->trouble = TWIN_UNPLUGGED;
   if (page->trouble != TWIN_UNPLUGGED) return false;
-  /* Its motors have power of their own, and no computer: the watchdog ends the force. */
+  /* Its motors have power of their own, but no computer: the watchdog ends the force. */
   return true;
 }
 
-/* Assumed: a device that is gone answers nothing, with an error of communication. */
+/* It is assumed that every call to a device that is gone fails with an error of
+ * communication. */
 static bool is_gone(void) { return !is_open || unplugs_in(-1); }
 
 EXPORT void dhdGetSDKVersion(int* major, int* minor, int* release, int* revision) {
@@ -253,13 +259,14 @@ EXPORT const char* dhdErrorGetLastStr(void) {
   }
 }
 
-/* (B), getDeviceCount and getAvailableCount: the first counts those as well that another
- * program has locked. */
+/* The first of these counts the devices that another program has locked, too: (B),
+ * getDeviceCount and getAvailableCount. */
 EXPORT int dhdGetDeviceCount(void) { return page->num_devices; }
 EXPORT int dhdGetAvailableCount(void) { return page->num_available; }
 
-/* (B), open, openID, openSerial: the id, or -1. Assumed: a device that another program has is
- * "in use" (an error of this name is among (H)), and motors are off after opening. */
+/* These return the id, or -1: (B), open, openID, openSerial. It is assumed that a device
+ * that another program has is "in use" (an error of this name is among (H)), and that motors
+ * are off after opening. */
 static int opened(void) {
   if (unplugs_in(TWIN_IN_OPEN)) return fail(ERROR_COM);
   if (page->num_devices == 0) return fail(ERROR_NO_DEVICE);
@@ -273,7 +280,7 @@ static int opened(void) {
   page->is_on = 0;
   page->are_brakes_on = 1;
   page->watchdog_steps = page->has_watchdog ? 255 : 0;
-  page->time_guard_us = 100; /* Assumed: nobody tells what the maker's is. */
+  page->time_guard_us = 100; /* Assumed, as nobody tells what the maker's value is. */
   page->velocity_window_ms = 20;
   page->own_limit_n = -1.0;
   for (int i = 0; i < 3; ++i) position_m[i] = page->held_m[i];
@@ -316,7 +323,8 @@ EXPORT const char* dhdGetSystemName(char id) {
 EXPORT int dhdGetSerialNumber(unsigned short* serial, char id) {
   (void)id;
   if (is_gone()) return fail(ERROR_COM);
-  /* All Falcons say so: a comment in mtsForceDimension.cpp of jhu-saw/sawForceDimensionSDK. */
+  /* All Falcons say so, by a comment in mtsForceDimension.cpp of
+   * jhu-saw/sawForceDimensionSDK. */
   *serial = (unsigned short)(page->type == 60 ? 65535 : page->serial);
   return 0;
 }
@@ -327,7 +335,7 @@ EXPORT int dhdGetVersion(double* version, char id) {
   return 0;
 }
 
-/* (B), the fields of a status, whose places are those of (H). */
+/* The fields of a status are those of (B), and their places those of (H). */
 EXPORT int dhdGetStatus(int* status, char id) {
   (void)id;
   if (is_gone() || page->trouble == TWIN_STATUS_FAILS) return fail(ERROR_COM);
@@ -352,8 +360,8 @@ EXPORT bool dhdHasActiveWrist(char id) { return (void)id, false; }
 EXPORT bool dhdHasGripper(char id) { return (void)id, page->has_gripper != 0; }
 EXPORT bool dhdHasActiveGripper(char id) { return (void)id, page->has_gripper != 0; }
 
-/* (B), waitForReset: it goes into the mode in which a person calibrates it, and fails with
- * "timeout" when nobody has. */
+/* The device goes into the mode in which a person calibrates it, and fails with "timeout"
+ * when nobody has: (B), waitForReset. */
 EXPORT int dhdWaitForReset(int timeout_ms, char id) {
   (void)id;
   if (is_gone() || unplugs_in(TWIN_IN_CALIBRATION)) return fail(ERROR_COM);
@@ -387,7 +395,8 @@ EXPORT int dhdConfigLinearVelocity(int window_ms, int mode, char id) {
   return 0;
 }
 
-/* (B), TimeGuard: what is younger than its period is told anew, without asking the device. */
+/* What is younger than the guard's period is told anew, without asking the device: (B),
+ * TimeGuard. */
 EXPORT int dhdGetPosition(double* x_m, double* y_m, double* z_m, char id) {
   (void)id;
   if (is_gone() || unplugs_in(TWIN_IN_READ)) return fail(ERROR_COM);
@@ -424,8 +433,8 @@ EXPORT int dhdGetPosition(double* x_m, double* y_m, double* z_m, char id) {
   return result;
 }
 
-/* (B), getLinearVelocity: a difference over the window, which has to hold two positions at
- * least, or it fails with "timeout". */
+/* The velocity is a difference over the window, which has to hold at least two positions;
+ * otherwise the call fails with "timeout": (B), getLinearVelocity. */
 EXPORT int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
   (void)id;
   if (is_gone() || page->trouble == TWIN_VELOCITIES_FAIL) return fail(ERROR_COM);
@@ -483,7 +492,8 @@ EXPORT int dhdEnableForce(int on, char id) {
   return 0;
 }
 
-/* (B), setForce: 0, or "saturated", which is no error. It stands until the next one. */
+/* This returns 0, or "saturated", which is no error. The force stands until the next one:
+ * (B), setForce. */
 static int set_force(double x_n, double y_n, double z_n) {
   const double asked_n[3] = {x_n, y_n, z_n};
   const bool is_none = x_n == 0.0 && y_n == 0.0 && z_n == 0.0;
@@ -530,7 +540,7 @@ EXPORT int dhdSetBrakes(int on, char id) {
   return 0;
 }
 
-/* (B), stop: no force, and brakes. */
+/* The device gives no force, and brakes: (B), stop. */
 EXPORT int dhdStop(char id) {
   (void)id;
   if (page->unplugged_in == TWIN_IN_CLOSE && page->num_forces > 0) page->trouble = TWIN_UNPLUGGED;
