@@ -17,13 +17,14 @@ inline std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Those lines that have their end: the last one of a killed program may have been cut off.
+/// Returns the complete lines of `text`. A killed program may leave an incomplete last line,
+/// which is dropped.
 inline std::vector<std::string> whole_lines_of(const std::string& text) {
   return lines_of(text.substr(0, text.rfind('\n') + 1));
 }
 
-/// Every acknowledged line stands in the database as it was printed. Returns how many events
-/// there are.
+/// Expects that the database holds every acknowledged line as it was printed. Returns how many
+/// events the database holds.
 inline std::size_t check_acknowledged(const core::StudyStore& store,
                                       const std::vector<std::string>& lines) {
   const std::vector<core::EventRow> events = store.events(1);

@@ -4,8 +4,8 @@
 
 namespace jnd::app {
 
-/// Two blocks with a deadline, times of stimuli, no way back, and "cannot tell" in the first;
-/// in the second the answers decide what comes next.
+/// A study of two blocks. The first block has a deadline, stimuli with times, no way back, and
+/// the answer "cannot tell". In the second block the answers decide what comes next.
 inline const std::string kAnsweringStudy = R"json({
   "format": 1,
   "name": "answering",

@@ -5,8 +5,8 @@
 
 namespace jnd::app {
 
-/// A double-blind study. Every name and number in it that could
-/// tell a level is a word that nothing else says.
+/// A double-blind study. Each name and number that could reveal a level is a word that nothing
+/// else in the output contains.
 inline const std::string kBlindStudy = R"json({
   "format": 1, "name": "window", "languages": ["en"], "title": {"en": "Window"},
   "authors": ["A. Author"], "blinding": "double", "comment": "treacly",
@@ -31,8 +31,9 @@ inline const std::string kBlindStudy = R"json({
   ]
 })json";
 
-/// The same question twice, of other levels and in either order: what goes out of a session of
-/// one order is what goes out of one of the other.
+/// A study that asks the same question twice, about other levels and in either order. What
+/// leaves the program in a session of one order must equal what leaves it in a session of the
+/// other.
 inline const std::string kBlindOrderStudy = R"json({
   "format": 1, "name": "window", "languages": ["en"], "title": {"en": "Window"},
   "authors": ["A. Author"], "blinding": "double", "comment": "treacly",
@@ -56,7 +57,8 @@ inline const std::string kBlindOrderStudy = R"json({
   ]
 })json";
 
-/// Words and numbers of both studies, as they are written and as they would be shown.
+/// The revealing words and numbers of both studies, as the files write them and as the program
+/// would show them.
 inline std::vector<std::string> telltales() {
   return {"treacly", "gluey",  "Gluey",  "honeyed", "syrupy",  "tarry", "watery", "brothy",
           "soupy",   "0.137",  "0.1372", "0.272",   "0.2719",  "0.191", "0.1913", "0.832",
@@ -64,7 +66,7 @@ inline std::vector<std::string> telltales() {
           "6.05 ",   "14.885", "14.9 ",  "8.317",   "8.32 "};
 }
 
-/// The telltale words in a text, each with its line.
+/// Returns the telltale words that `text` contains, each with the line in which it stands.
 inline std::vector<std::string> told_by(const std::string& text) {
   std::vector<std::string> told;
   for (const std::string& word : telltales()) {

@@ -6,10 +6,10 @@
 
 namespace jnd::app {
 
-/// A variable of the environment set for a test, and as it was afterwards.
+/// Sets an environment variable for a test, and restores it afterwards.
 class EnvironmentVariable {
  public:
-  /// nullptr: not set at all.
+  /// If `value` is nullptr, the variable is unset.
   EnvironmentVariable(const char* name, const char* value) : name_(name) {
     if (const char* before = std::getenv(name)) before_ = before;
     put(value);

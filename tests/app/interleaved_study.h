@@ -2,8 +2,8 @@
 
 namespace jnd::app {
 
-/// Two groups of blocks whose trials are mixed, a fixed and an adaptive one with a question,
-/// and a block by itself between them.
+/// A study with two groups of blocks whose trials are mixed, and a separate block between them.
+/// One group has fixed levels. The other adapts and asks a question.
 inline constexpr char kInterleavedStudy[] = R"json({
   "format": 1, "name": "mixed", "languages": ["en"], "title": {"en": "Mixed"},
   "authors": ["A. Author"],

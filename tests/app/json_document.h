@@ -8,8 +8,8 @@
 
 namespace jnd::app {
 
-/// The one JSON document that the text is, up to its last line end; a failure of the test and
-/// null if there is anything else.
+/// Returns the one JSON document of which the text consists, with a final line end. If there is
+/// anything else, the test fails and the result is null.
 inline nlohmann::json document(const std::string& text) {
   const nlohmann::json parsed = nlohmann::json::parse(text, nullptr, false);
   EXPECT_FALSE(parsed.is_discarded()) << "expected one JSON document, found:\n" << text;

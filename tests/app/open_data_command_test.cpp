@@ -1,4 +1,4 @@
-// What the window shows of somebody's table is what the command prints that it tells.
+// What the window shows about a table equals what the command prints that the window offers.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using test_support::ProgramOutcome;
 
 class OpenDataCommand : public ::testing::Test {
  protected:
-  /// As somebody pastes it into a shell.
+  /// Runs the command as somebody pastes it into a shell.
   [[nodiscard]] ProgramOutcome in_a_shell(const std::string& command) const {
     const std::string programs =
         test_support::program_file().parent_path().string() + ":/usr/bin:/bin";
@@ -41,7 +41,7 @@ class OpenDataCommand : public ::testing::Test {
 
 std::string shown(const nlohmann::json& value) { return number(value.get<double>()); }
 
-/// What a window says of every group, against the command's document.
+/// Compares what the window says about every group with the command's document.
 void expect_same(const DataResults& results, const nlohmann::json& fits) {
   ASSERT_EQ(results.groups.size(), fits.size());
   for (std::size_t i = 0; i < fits.size(); ++i) {
@@ -80,7 +80,7 @@ TEST_F(OpenDataCommand, PrintsTheNumbersOfTheWindow) {
   EXPECT_EQ(view.comparison->contrasts[0].difference.value,
             shown(contrast["difference"]["value"]))
       << contrast.dump();
-  // What people read has the same digits.
+  // The text for people has the same digits.
   const std::string text = in_a_shell(view.command).out;
   for (const DataGroup& group : view.results->groups) {
     for (const std::string& part : {group.pse.value, group.pse.interval, group.jnd.interval}) {

@@ -14,8 +14,9 @@ inline std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// "" if the text is one sentence for a person, else what is wrong with it: one line after
-/// "jnd: ", no words of SQL or of a library, and each of `parts` in it.
+/// Returns "" if the text is one sentence for a person, and else what is wrong with it. The
+/// text must be one line after "jnd: ", contain no words of SQL or of a library, and contain
+/// each of `parts`.
 inline std::string sentence_flaw(const std::string& text,
                                  const std::vector<std::string>& parts = {}) {
   if (!text.starts_with("jnd: ")) return "does not begin with `jnd: `:\n" + text;

@@ -36,8 +36,8 @@ class RowText {
   std::ostringstream stream_;
 };
 
-/// "" for equal texts, else the first line in which they differ, of both. (EXPECT_EQ itself
-/// looks for the shortest edit, which for a recording takes all memory there is.)
+/// Returns "" if the texts are equal, and else the first line of both in which they differ.
+/// (EXPECT_EQ itself looks for the shortest edit, which takes all memory for a recording.)
 inline std::string difference(const std::string& a, const std::string& b) {
   if (a == b) return "";
   std::istringstream lines_a(a);
@@ -52,7 +52,7 @@ inline std::string difference(const std::string& a, const std::string& b) {
   return line_a + "\n" + line_b;
 }
 
-/// All columns of the rows but the number of their session, and another.
+/// Returns all columns of the rows except the number of the session and one other column.
 template <typename Row>
 std::string rows_text(const std::vector<Row>& rows, std::string_view left_out = "session") {
   RowText text;
@@ -66,7 +66,8 @@ std::string rows_text(const std::vector<Row>& rows, std::string_view left_out = 
   return text.text();
 }
 
-/// An interruption moves the events that draw, not what they draw.
+/// The event number is left out, because an interruption moves the events that draw and not
+/// what they draw.
 inline std::string design_text(const core::StudyStore& store, std::int64_t session) {
   return rows_text(store.design(session), "sequence");
 }
@@ -87,7 +88,7 @@ inline std::string answers_text(const core::StudyStore& store, std::int64_t sess
   return rows_text(store.answers(session));
 }
 
-/// Samples of the recording, or "" without one.
+/// Returns the samples of the recording, or "" if there is none.
 inline std::string samples_text(const core::StudyStore& store, std::int64_t session) {
   if (!std::filesystem::exists(store.recording_file(session))) return "";
   RowText text;
@@ -100,7 +101,7 @@ inline std::string samples_text(const core::StudyStore& store, std::int64_t sess
   return text.text();
 }
 
-/// Every table of a session but the samples.
+/// Returns every table of a session except the samples.
 inline std::string tables_text(const core::StudyStore& store, std::int64_t session) {
   std::string text;
   for (const core::SessionRow& r : store.sessions()) {
@@ -112,8 +113,9 @@ inline std::string tables_text(const core::StudyStore& store, std::int64_t sessi
          answers_text(store, session);
 }
 
-/// What was presented in each trial: in production what the steps began with, for where they
-/// lead is the participant's; in the others every intensity that came up, with its interval.
+/// Returns what was presented in each trial. For production this is the intensity at which the
+/// steps began, because the participant decides where they lead. For other procedures it is
+/// every intensity that was presented, with its interval.
 inline std::string stimuli_text(const core::StudyStore& store, std::int64_t session) {
   RowText text;
   std::int64_t trial = 0;

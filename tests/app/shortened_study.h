@@ -7,7 +7,7 @@
 
 namespace jnd::app {
 
-/// A study file with every level of its blocks so many times, in place of as often as it says.
+/// Returns a study file in which every level of each block is repeated `repetitions` times.
 inline std::string shortened_study(const std::filesystem::path& file, int repetitions) {
   std::ifstream stream(file);
   nlohmann::json study = nlohmann::json::parse(stream);

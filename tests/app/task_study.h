@@ -4,7 +4,8 @@
 
 namespace jnd::app {
 
-/// One block of each task, catch trials among them, and a practice with feedback.
+/// A study with one block for each task, some with catch trials, and a practice block with
+/// feedback.
 inline const std::string kTaskStudy = R"json({
   "format": 1,
   "name": "tasks",

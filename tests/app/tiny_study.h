@@ -7,7 +7,8 @@
 
 namespace jnd::app {
 
-/// All three procedures and a stage of most kinds in ten trials: under a second to run.
+/// A study of ten trials with all three procedures and most kinds of stages. It runs in less
+/// than a second.
 inline const std::string kTinyStudy = R"json({
   "format": 1,
   "name": "tiny",
@@ -43,7 +44,8 @@ inline constexpr int kTinyTrials = 10;
 using test_support::read_file;
 using test_support::write_file;
 
-/// The text with the first `from` turned into `to`; throws if there is none.
+/// Returns the text with the first `from` replaced by `to`. Throws if the text does not contain
+/// `from`.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   if (at == std::string::npos) throw std::logic_error("not in the text: " + from);

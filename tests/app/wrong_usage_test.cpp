@@ -15,7 +15,7 @@ using test_support::ProgramOutcome;
 
 struct Case {
   std::vector<std::string> words;
-  std::vector<std::string> parts;  ///< Of the sentence.
+  std::vector<std::string> parts;  ///< Parts of the printed sentence.
 };
 
 class WrongUsageTest : public ::testing::Test {

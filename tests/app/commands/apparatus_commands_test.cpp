@@ -46,7 +46,7 @@ TEST(LoopCommand, SaysWhatItWasGivenAndLosesNoSample) {
   EXPECT_EQ(json["priority"] == 80, json["scheduler"] == "SCHED_FIFO 80") << json;
   EXPECT_TRUE(json["cpus_kept_awake"].is_boolean());
   EXPECT_GT(json["cpu_time_ratio"], 0.0);
-  // It spins for a fifth of a period at most, and ticks in little more.
+  // The loop spins for at most a fifth of a period, and a tick adds little to that.
   EXPECT_LT(json["cpu_time_ratio"], 0.5);
 }
 

@@ -50,7 +50,7 @@ TEST_F(BackupCommandTest, ASessionThatDiedGoesOnInWhatIsMadeOfItsBackup) {
                           "--headless", "--seed", "7", "--acknowledge"},
                          options_);
     for (int line = 0; line < 30; ++line) ASSERT_TRUE(child.read_line());
-    // While it runs, and after it was killed.
+    // The study is backed up once while the program runs, and once after it was killed.
     EXPECT_EQ(jnd({"backup", "a.study", "--to", "copy"}).exit_code, 0);
     child.send_signal(SIGKILL);
     (void)child.wait();
@@ -98,7 +98,7 @@ TEST_F(BackupCommandTest, WithdrawDeletesHereAndInTheBackup) {
     EXPECT_EQ(jnd({"verify", study}).exit_code, 0);
   }
   EXPECT_EQ(jnd({"results", "a.study"}).exit_code, 0);
-  // The pseudonym is not given again.
+  // The program does not give the pseudonym to another person.
   const ProgramOutcome again = jnd({"run", "tiny.json", "--study", "a.study", "--participant",
                                     "P01", "--headless", "--seed", "7"});
   EXPECT_EQ(again.exit_code, 1);

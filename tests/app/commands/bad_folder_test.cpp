@@ -30,8 +30,8 @@ class BadFolderTest : public CommandTest {
     ASSERT_EQ(run(study, "P01").exit_code, 0);
   }
 
-  /// Whoever opens the folder says so in one sentence with these parts, and exits with 1;
-  /// `verify` lists it as a problem.
+  /// Expects that each command that opens the folder exits with 1 and prints one sentence with
+  /// these parts. Also expects that `verify` lists the problem.
   void expect_refused(const std::string& study, const std::vector<std::string>& parts) {
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"results", study},
@@ -54,7 +54,7 @@ class BadFolderTest : public CommandTest {
     expect_found(study, parts);
   }
 
-  /// `verify` has a problem with these parts, in words for a person.
+  /// Expects that `verify` finds a problem whose sentence contains these parts.
   void expect_found(const std::string& study, const std::vector<std::string>& parts) {
     const ProgramOutcome outcome = jnd({"verify", study, "--json"});
     EXPECT_EQ(outcome.exit_code, 1);

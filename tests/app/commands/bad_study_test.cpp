@@ -18,11 +18,12 @@ using test_support::ProgramOutcome;
 
 class BadStudyTest : public CommandTest {
  protected:
-  /// `study.json` is refused by all who read it, each naming `pointer` and `parts`.
+  /// Expects that every command that reads `study.json` refuses it, and that `validate` names
+  /// `pointer` and `parts`.
   void expect_refused(const std::string& pointer, const std::vector<std::string>& parts) {
     const ProgramOutcome json = jnd({"validate", "study.json", "--json"});
     EXPECT_EQ(json.exit_code, 1);
-    // Not `document`, for a study may have the word NaN in it.
+    // `document` is not used here, because a study may contain the word NaN.
     const auto problems = nlohmann::json::parse(json.out)["problems"];
     const bool named = std::any_of(problems.begin(), problems.end(), [&](const auto& problem) {
       const std::string message = problem["message"];
@@ -43,7 +44,7 @@ class BadStudyTest : public CommandTest {
       EXPECT_EQ(outcome.exit_code, 1) << joined(words);
       EXPECT_EQ(outcome.out, "") << joined(words);
       EXPECT_TRUE(outcome.err.starts_with("jnd: study.json")) << outcome.err;
-      // A line a problem and nothing more.
+      // The command prints one line for each problem, and nothing else.
       EXPECT_EQ(
           static_cast<std::size_t>(std::count(outcome.err.begin(), outcome.err.end(), '\n')),
           num_problems)

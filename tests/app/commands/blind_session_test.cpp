@@ -27,15 +27,18 @@ using test_support::RunningProgram;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 
-/// All that left the program while a session ran.
+/// Everything that left the program while a session ran.
 struct Outgoing {
-  std::string printed;       ///< Lines of the terminal.
-  std::string stream_bytes;  ///< The description of the markers' stream, and each on the wire.
-  std::vector<std::string> markers;  ///< Their words, without what counts or names the session.
+  std::string printed;       ///< What the program printed on the terminal, in lines.
+  std::string stream_bytes;  ///< The description of the stream of markers, and each marker as
+                             ///< it was sent.
+  std::vector<std::string> markers;  ///< The words of the markers, without what counts or names
+                                     ///< the session.
   std::vector<unsigned char> pulses;
 };
 
-/// Whole double-blind sessions of the real program, everything at once that tells others of it.
+/// Runs whole double-blind sessions of the real program, with every output that others could
+/// read.
 class BlindSessionTest : public CommandTest {
  protected:
   BlindSessionTest() { write_file(path("blind.json"), kBlindOrderStudy); }
@@ -107,7 +110,8 @@ TEST_F(BlindSessionTest, NothingThatGoesOutTellsALevelOrWhichOrderItWas) {
         << "what is searched is whole: " << session.printed;
     EXPECT_NE(session.stream_bytes.find("session_completed"), std::string::npos);
   }
-  // A recorder may have come a moment late: what both heard is the same.
+  // A recorder may have joined a moment late. So the test compares only the markers that both
+  // recorders heard.
   ASSERT_GT(std::min(one.markers.size(), other.markers.size()), 20U);
   const auto heard =
       static_cast<std::ptrdiff_t>(std::min(one.markers.size(), other.markers.size()));
@@ -117,7 +121,7 @@ TEST_F(BlindSessionTest, NothingThatGoesOutTellsALevelOrWhichOrderItWas) {
   const std::set<int> codes(one.pulses.begin(), one.pulses.end());
   EXPECT_THAT(codes, UnorderedElementsAre(0, 1, 2, 10, 20, 32));
 
-  // What somebody types afterwards, and what they may not.
+  // These commands are typed after the session. Some of them are forbidden.
   std::string printed;
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"verify", "a.study"},
@@ -138,7 +142,7 @@ TEST_F(BlindSessionTest, NothingThatGoesOutTellsALevelOrWhichOrderItWas) {
     EXPECT_FALSE(std::filesystem::exists(path(written))) << written;
   }
 
-  // The other way round: these words are what is looked for.
+  // As a counter-check, unblinded results do contain the words that the test looks for.
   ASSERT_EQ(jnd({"unblind", "a.study", "--reason", "done"}).exit_code, 0);
   const ProgramOutcome results = jnd({"results", "a.study"});
   EXPECT_THAT(told_by(results.out + results.err), ::testing::Not(IsEmpty()));

@@ -63,7 +63,7 @@ TEST(CharacterizeCommand, WrongArgumentsAreToldInOneSentence) {
 
 TEST(CharacterizeCommand, IsStoppedByCtrlC) {
   RunningProgram child({"characterize", "--repetitions", "1000"});
-  // Before it listens to the signal, that ends it, which is as good.
+  // A signal that arrives before the program listens to it ends the program, which is as good.
   child.send_signal(SIGINT);
   const ProgramOutcome outcome = child.wait();
   EXPECT_TRUE(outcome.exit_code == 1 || outcome.signal == SIGINT) << outcome.exit_code;

@@ -12,7 +12,7 @@
 
 namespace jnd::app {
 
-/// The program in a folder of its own, which goes with the test.
+/// Runs the program in a temporary folder, which is deleted after the test.
 class CommandTest : public ::testing::Test {
  protected:
   test_support::ProgramOutcome jnd(const std::vector<std::string>& words) const {

@@ -15,7 +15,8 @@ using test_support::ProgramOutcome;
 
 class CommissionCommandTest : public CommandTest {
  protected:
-  /// With the programs of these folders alone, and no profiles but its own.
+  /// Runs the program with the executables of `programs` alone, and with no profiles but those
+  /// of the test.
   ProgramOutcome jnd(const std::vector<std::string>& arguments,
                      const std::string& programs = "/nowhere") {
     return test_support::run_program(
@@ -42,7 +43,7 @@ TEST_F(CommissionCommandTest, WritesAReportBesideTheProfile) {
 TEST_F(CommissionCommandTest, AReportOfARecordNeedsNoDevice) {
   ASSERT_EQ(jnd({"commission", "twin:seed=3", "--only", "noise,frame"}).exit_code, 0);
   EXPECT_FALSE(fs::exists(path("twin_seed_3.report"))) << "there is no profile yet";
-  // Nothing of the device's name is asked of a registry.
+  // The report is made without looking up the device's name in the registry.
   fs::rename(path("twin_seed_3.commissioning.jsonl"), path("moved.jsonl"));
   ProgramOutcome outcome = jnd({"report", "--commissioning", "moved.jsonl", "--out", "first"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -109,7 +110,7 @@ TEST_F(CommissionCommandTest, AStudyOnItHasBothCommandedAndDeliveredInItsReport)
   EXPECT_NE(read_file(path("with/figures/delivered.csv"))
                 .find("group_d.weber_fraction_median_person"),
             std::string::npos);
-  // What the table of results says, the report says.
+  // The report says the same as the table of results.
   outcome = jnd({"results", "with.study", "--delivered", "--resamples", "100", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("ci95_device"), std::string::npos);
@@ -121,7 +122,7 @@ TEST_F(CommissionCommandTest, AStudyOnItHasBothCommandedAndDeliveredInItsReport)
             std::string::npos);
   EXPECT_FALSE(fs::exists(path("without/figures/delivered.csv")));
 
-  // That of another device.
+  // The profile of another device is refused.
   ASSERT_EQ(jnd({"commission", "twin:seed=3"}).exit_code, 0);
   outcome = with({"--study", "other.study", "--profile", "twin_seed_3.device.json"});
   EXPECT_NE(outcome.exit_code, 0);

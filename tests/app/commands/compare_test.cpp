@@ -41,7 +41,8 @@ TEST(CompareCommand, PrintsTheKeysOfTheContractForEveryTest) {
 }
 
 TEST(CompareCommand, PairedIsStudentsTOfTheDifferences) {
-  // Differences 1, 2, 1, 4: mean 2, sd sqrt 2, t = 2 / (sqrt 2 / 2) = 2.828.
+  // The differences are 1, 2, 1, 4. Their mean is 2, their sd sqrt 2, so t = 2 / (sqrt 2 / 2) =
+  // 2.828.
   const auto json = document(compared(kPairs, "paired").out);
   EXPECT_NEAR(json["estimate"].get<double>(), 2.0, 1e-12);
   EXPECT_NEAR(json["statistic"].get<double>(), 2.8284271247461903, 1e-9);
@@ -65,7 +66,7 @@ TEST(CompareCommand, ATableInLongFormatGivesWhatItsColumnsWouldAndNamesWhoIsLeft
   EXPECT_EQ(json["num_missing"], 1);
   words.insert(words.end(), {"--levels", "thick,thin"});
   EXPECT_EQ(document(compared(kLong, "paired", words).out)["estimate"], -2.0);
-  // Of two conditions F is t squared.
+  // With two conditions, F is t squared.
   const auto anova = document(
       compared(kLong, "anova", {"--value", "w", "--by", "fluid", "--pair", "who", "--json"})
           .out);
@@ -95,8 +96,8 @@ TEST(CompareCommand, OptionsOfLongFormatThatDoNotFitAreToldInASentence) {
 }
 
 TEST(CompareCommand, TellsWhetherConditionsAreTheSameWithinAMargin) {
-  // Differences 1, 2, 1, 4: mean 2, error sqrt(2) / 2; t with 3 degrees of freedom, 95
-  // %: 2.3534.
+  // The differences are 1, 2, 1, 4. Their mean is 2 and its standard error sqrt(2) / 2. The 95
+  // % quantile of t with 3 degrees of freedom is 2.3534.
   const auto within = document(
       compared(kPairs, "paired", {"--json", "--equivalence-margin", "4"}).out)["equivalence"];
   EXPECT_NEAR(within["estimate"].get<double>(), 2.0, 1e-12);

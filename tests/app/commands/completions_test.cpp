@@ -29,7 +29,7 @@ class CompletionsTest : public CommandTest {
         words, {.folder = temporary_.path(), .environment = {}, .program = program});
   }
 
-  /// What bash offers for the last of these words, one a line.
+  /// Returns what bash offers for the last of these words, one offer in each line.
   [[nodiscard]] std::string offered(const std::vector<std::string>& words) const {
     std::string line = "jnd";
     for (const std::string& word : words) line += " '" + word + "'";
@@ -75,7 +75,7 @@ TEST_F(CompletionsTest, BashOffersFilesAndFoldersWithBlanksInTheirNames) {
   EXPECT_EQ(offered({"results", "my"}), "my study.study\n");
 }
 
-// An argument may be called like a command.
+// An argument may have the name of a command.
 TEST_F(CompletionsTest, OnlyWhatIsACommandThereIsOne) {
   EXPECT_EQ(offered({"run", "fit", "--headl"}), "--headless\n");
   EXPECT_EQ(offered({"validate", "demo", "--js"}), "--json\n");

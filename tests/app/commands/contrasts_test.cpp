@@ -17,7 +17,7 @@ using Words = std::vector<std::string>;
 
 class ContrastsCommandTest : public CommandTest {
  protected:
-  /// Results of simulated people in the shipped study with contrasts.
+  /// Returns the results of simulated people in the shipped study that has contrasts.
   nlohmann::json results_with(const Words& effects, const std::string& study,
                               int participants) {
     Words words = {"simulate",       "viscosity_priming",
@@ -52,7 +52,7 @@ TEST_F(ContrastsCommandTest, RecoverAnEffectThatWasPutInAndReportNoneWhereNoneIs
   EXPECT_EQ(bias["equivalence"]["is_shown"], false);
   EXPECT_EQ(bias["n"], 10);
   EXPECT_EQ(with["laboratory_changed"], true) << "an effect is told as a change";
-  // Of discrimination nothing was put in but what the device does to thin fluids.
+  // The simulation adds no effect on discrimination, but the device itself changes thin fluids.
   EXPECT_GT(contrast(with, "thin_against_thick")["effect"], 1.2);
 
   const auto without = results_with({}, "without.study", 6);
@@ -96,7 +96,7 @@ TEST_F(ContrastsCommandTest, HavePowerForAnEffectAndTheirLevelWithoutOne) {
   EXPECT_EQ(test_of(with, "primed_against_unprimed")["planned"], true);
   EXPECT_LT(test_of(with, "primed_against_unprimed: equivalence")["power"], 0.1);
   const auto without = power({"--null"});
-  // 60 runs: at most 9 of them with a probability of 99.8 %.
+  // In 60 runs without an effect, at most 9 reject with a probability of 99.8 %.
   EXPECT_LT(test_of(without, "primed_against_unprimed")["power"], 0.16);
   EXPECT_LT(test_of(without, "fluid_by_priming")["power"], 0.16);
   bool names_times = false;

@@ -12,7 +12,7 @@
 namespace jnd::app {
 namespace csv_page_test {
 
-/// What stands between ```KIND and ``` on the page, one text for each block.
+/// Returns the text of each block of the page that stands between ```KIND and ```.
 std::vector<std::string> blocks(const std::string& page, const std::string& kind) {
   std::vector<std::string> found;
   std::istringstream lines(page);

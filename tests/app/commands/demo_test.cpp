@@ -34,7 +34,7 @@ TEST(DemoCommand, RunsBothStudiesAndOverwritesNothing) {
     EXPECT_TRUE(fs::exists(folder / "study.sqlite")) << study;
     EXPECT_EQ(test_support::run_program({"verify", folder.string()}).exit_code, 0) << study;
   }
-  // A page of the manual shows this very run.
+  // A page of the manual shows the output of this very run.
   constexpr const char* kPage = "docs/explanation/demonstration.md";
   const std::string page = read_file(test_support::source_folder() / kPage);
   for (const char* study : {"magnitude_of_virtual_water", "viscosity_discrimination"}) {

@@ -25,7 +25,7 @@ namespace device_simulator_command_test {
 using test_support::ProgramOutcome;
 using test_support::RunningProgram;
 
-/// Two trials, some ten seconds of real time.
+/// The study has two trials, which take some ten seconds of real time.
 const std::string kShortStudy = R"json({
   "format": 1,
   "name": "short",
@@ -46,7 +46,7 @@ class DeviceSimulatorTest : public CommandTest {
  protected:
   void SetUp() override { write_file(temporary_.path() / "short.json", kShortStudy); }
 
-  /// Starts one at this port and waits until it listens; tells where.
+  /// Starts a simulator at this port and waits until it listens. Returns its address.
   std::string start(const std::string& port = "0", const std::string& device = "lumped",
                     const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments = {"device-simulator", "--port", port, "--device",
@@ -205,8 +205,8 @@ TEST_F(DeviceSimulatorTest, NobodyThereIsToldInOneSentence) {
       << outcome.err;
 }
 
-/// The whole way with real processes: the device dies in the middle of a session, comes back,
-/// and the session goes on to its end.
+/// In this test of real processes, the device dies in the middle of a session and comes back,
+/// and the session continues to its end.
 TEST_F(DeviceSimulatorTest, ASessionSurvivesTheDevicesDeathAndRestart) {
   const std::string place = start();
   RunningProgram session(run_words(place), options_);

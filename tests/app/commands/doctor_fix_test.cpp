@@ -18,7 +18,7 @@ namespace doctor_fix_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-/// A system in a folder, as it is before anybody has set anything up.
+/// Imitates in a folder a system on which nobody has set anything up.
 class DoctorFixTest : public CommandTest {
  protected:
   void SetUp() override {
@@ -45,7 +45,7 @@ class DoctorFixTest : public CommandTest {
     words.insert(words.end(), more.begin(), more.end());
     return jnd(words);
   }
-  /// groupadd and usermod are the system's own.
+  /// The test needs the system's own groupadd and usermod.
   static bool has_tools() {
     return ::geteuid() == 0 && ::access("/usr/sbin/groupadd", X_OK) == 0;
   }
@@ -83,7 +83,8 @@ TEST_F(DoctorFixTest, WhoMayGivesItAllAndFindsItGivenTheNextTime) {
             std::string::npos);
   EXPECT_NE(read("etc/udev/rules.d/60-jnd.rules").find("GROUP=\"jnd\""), std::string::npos);
   EXPECT_EQ(read("sys/devices/system/cpu/cpufreq/policy0/scaling_governor"), "performance\n");
-  // Readable by everybody: udev and the login read them, and so may who looks for the reason.
+  // Everybody may read these files, because udev, the login and a person who looks for a cause
+  // read them.
   EXPECT_EQ(fs::status(root() / "etc/udev").permissions() & fs::perms::others_exec,
             fs::perms::others_exec);
 
@@ -97,7 +98,7 @@ TEST_F(DoctorFixTest, WithoutTheRightItPrintsTheCommandsAndSaysSo) {
   if (::geteuid() != 0 || ::access("/usr/bin/setpriv", X_OK) != 0) {
     GTEST_SKIP() << "needs root, and setpriv to be somebody else";
   }
-  // Somebody else has to reach the folder and the program.
+  // The program runs as another user, who must be able to reach the folder and the program.
   fs::permissions(temporary_.path(), fs::perms::all);
   const fs::path program = path("jnd");
   fs::copy_file(test_support::program_file(), program);
@@ -124,12 +125,12 @@ TEST_F(DoctorFixTest, WhatAnAdministratorWroteInstead) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out.find("lacks"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("Nothing is left"), std::string::npos) << outcome.out;
-  // For another member the rule of anna does not count.
+  // The rule for anna does not count for another member.
   EXPECT_NE(fix({"--user", "root", "--dry-run"}).out.find("no rule gives rtprio 95 to"),
             std::string::npos);
 }
 
-// Ports and pedals came later than the group.
+// Older versions wrote rules without ports and pedals.
 TEST_F(DoctorFixTest, RulesOfAnOlderVersionAreReplaced) {
   write("etc/udev/rules.d/60-jnd.rules",
         "KERNEL==\"cpu_dma_latency\", GROUP=\"jnd\", MODE=\"0660\"\n");
@@ -153,7 +154,7 @@ TEST_F(DoctorFixTest, ACommandThatFailsIsTold) {
   fs::remove(root() / "etc/passwd");
   fs::create_directory(root() / "etc/passwd");
   const ProgramOutcome outcome = fix({});
-  // Nobody is named: root calls for somebody else.
+  // Root has to name the user for whom the system is set up.
   EXPECT_NE(outcome.out.find("--user NAME"), std::string::npos) << outcome.out;
   fs::remove_all(root() / "etc/security");
   write("etc/security", "a file where a folder is due");

@@ -1,5 +1,5 @@
-// The second study, shortened, on the simulated exoskeleton: what was seen of people's movement
-// there comes out of the model, for nobody put it in.
+// Runs the second study, shortened, on the simulated exoskeleton. What was observed of people's
+// movement there follows from the model, because nobody put it in.
 
 #include <gtest/gtest.h>
 

@@ -42,7 +42,8 @@ TEST(ExportCommand, WritesTheTablesAndRefusesAFolderThatIsNotEmpty) {
   EXPECT_EQ(read_file(temporary.path() / "out/of/way/trials.csv"), before);
 }
 
-/// Whatever the machine's usual rights are: persons' data are nobody else's.
+/// Whatever the usual permissions of the machine are, only the owner may read the data of
+/// persons.
 TEST(ExportCommand, WhatItWritesIsForItsOwnerOnly) {
   const test_support::TemporaryFolder temporary(test_support::memory_folder());
   const test_support::ProgramOptions options{.folder = temporary.path(), .environment = {}};
@@ -84,7 +85,7 @@ TEST(ExportCommand, CarriesOneRowAnAnsweredTrial) {
   EXPECT_EQ(std::count(trials.begin(), trials.end(), '\n'), 1 + 3 * kTinyTrials);
 }
 
-/// Two simulated participants of the tiny study, recorded.
+/// Holds a recorded study with two simulated participants of the tiny study.
 class RecordedStudy {
  public:
   RecordedStudy() {
@@ -164,7 +165,7 @@ TEST(ExportCommand, AFullDiskIsOneSentenceAndLeavesNothing) {
   }
 }
 
-/// The parent of such a folder is of another disk: nothing can be renamed from there.
+/// The parent folder of a mount point is on another disk, so nothing can be renamed from there.
 TEST(ExportCommand, AnEmptyMountPointIsFilledOnItsOwnDisk) {
   const RecordedStudy study;
   fs::create_directory(study.path("disk"));
@@ -208,7 +209,7 @@ TEST(ExportCommand, ASignalEndsItInOneSentenceAndLeavesNothing) {
   const RecordedStudy study;
   const std::set<std::string> before = study.names();
   ProgramOutcome outcome;
-  // It may have finished before the signal came.
+  // The program may have finished before the signal arrived, so the test tries again.
   for (int attempt = 0; attempt < 20 && outcome.exit_code != 1; ++attempt) {
     fs::remove_all(study.path("out"));
     test_support::RunningProgram program(
@@ -239,7 +240,8 @@ TEST(ExportCommand, AFolderThatCannotBeWrittenIsOneSentence) {
   }
 }
 
-/// Where `./dev test` installs it, or npm keeps what is installed for all; "" if nowhere.
+/// Returns where `./dev test` or npm's global folder holds the validator, or "" if neither
+/// does.
 std::string bids_validator() {
   const std::string in_module = "/bids-validator/bin/bids-validator";
   const std::string local =

@@ -10,16 +10,17 @@
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
-// What jnd fit and jnd compare make of files and words that are wrong: one sentence that names
-// the place, what was expected and what was found, and the exit code of the contract.
+// Tests what `jnd fit` and `jnd compare` do with wrong files and words. They print one sentence
+// that names the place, what was expected and what was found, and exit with the documented
+// code.
 
 namespace jnd::app {
 namespace fit_bad_input_test {
 
 struct Case {
   std::string name;
-  std::string text;                ///< Of t.csv.
-  std::vector<std::string> words;  ///< After `jnd`.
+  std::string text;                ///< The content of t.csv.
+  std::vector<std::string> words;  ///< The words after `jnd`.
   int exit_code = 1;
   std::vector<std::string> said;  ///< Parts of the one line on stderr.
 };
@@ -45,7 +46,7 @@ std::string row(const std::string& cells) { return kHeader + cells + "\n"; }
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> kCases = {
-      // The file.
+      // Problems of the file.
       {"missing file",
        kGood,
        {"fit", "weber", "--csv", "no.csv", "--reference", "8"},
@@ -93,7 +94,7 @@ const std::vector<Case>& cases() {
        kPaired,
        1,
        {"t.csv:1: expected every column once", "\"a\""}},
-      // Columns.
+      // Problems of the columns.
       {"missing column",
        "intensity,num_yes,trials\n1,1,2\n",
        kWeber,
@@ -115,7 +116,7 @@ const std::vector<Case>& cases() {
        with(kWeber, {"--group-by", "colour"}),
        1,
        {"t.csv:1: colour: expected a column", "num_trials"}},
-      // Cells.
+      // Problems of single cells.
       {"text",
        row("5,many,20"),
        kWeber,
@@ -155,7 +156,7 @@ const std::vector<Case>& cases() {
        kWeber,
        1,
        {"t.csv:2: num_yes: expected a whole number >= 0, found \"1.5\""}},
-      // Usage.
+      // Problems of the command's words.
       {"reference 0",
        kGood,
        weber_at("0"),

@@ -29,7 +29,8 @@ TEST(FitFigures, AddUpTheAnswersAtAnIntensity) {
   EXPECT_EQ(points[1].num_trials, 20.0);
 }
 
-// By hand: half way at the pse, Phi(1) at pse (1 + w), between the ends that lapses leave.
+// Worked by hand: between the ends that lapses leave, the curve is half way up at the pse and
+// at Phi(1) at pse (1 + w).
 TEST(FitFigures, DrawTheWeberCurveBetweenItsEnds) {
   analysis::PsychometricFit fit{.status = FitStatus::kOk, .weber_fraction = 0.5};
   fit.pse = 2.0;
@@ -38,7 +39,7 @@ TEST(FitFigures, DrawTheWeberCurveBetweenItsEnds) {
   EXPECT_DOUBLE_EQ(both.probability(2.0), 0.5);
   EXPECT_NEAR(both.probability(3.0), 0.1 + 0.8 * 0.84134474606854293, 1e-12);
   EXPECT_DOUBLE_EQ(both.probability(0.0), 0.1);
-  EXPECT_TRUE(both.thresholds.empty());  // The pse was given.
+  EXPECT_TRUE(both.thresholds.empty());  // The caller gave the pse, so no threshold is drawn.
   fit.guess_rate = 0.5;
   fit.symmetric_lapse = false;
   fit.pse_ci95 = analysis::Interval{1.5, 2.5};
@@ -80,7 +81,7 @@ class FigureCommands : public FitFixture {
           "C,x,1.5\nC,y,3\nC,z,2.9\n");
     table("two.csv", "a,b\n1,2\n2,2.5\n3,5\n4,4.5\n");
   }
-  /// Draws, and says the size of what was written.
+  /// Draws a figure and returns its size in bytes.
   std::uintmax_t drawn(std::vector<std::string> arguments, int exit_code = 0) {
     const std::string name = "figure" + std::to_string(++num_figures_) + ".svg";
     arguments.insert(arguments.end(), {"--figure", name});

@@ -8,7 +8,7 @@
 
 namespace jnd::app {
 
-/// `jnd fit` on tables that the test writes.
+/// Runs `jnd fit` on tables that the test writes.
 class FitFixture : public CommandTest {
  protected:
   test_support::ProgramOutcome fit(std::vector<std::string> arguments, bool as_json = true) {

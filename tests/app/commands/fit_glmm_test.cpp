@@ -15,7 +15,7 @@ namespace fit_glmm_test {
 using test_support::ProgramOutcome;
 using Words = std::vector<std::string>;
 
-/// Four people at five levels of two conditions, counts of 20.
+/// Counts of 20 trials for four people at five levels of two conditions.
 std::string counts() {
   std::string text = "participant,condition,u,k,n\n";
   const int yes[4][2][5] = {{{1, 3, 8, 15, 19}, {2, 6, 12, 18, 20}},
@@ -39,7 +39,7 @@ class FitGlmm : public FitFixture {
     words.insert(words.begin(), "glmm");
     return fit(words, as_json);
   }
-  /// The fit of `counts` with more words.
+  /// Fits the table of `counts` with additional words.
   ProgramOutcome of_counts(const Words& more, bool as_json = true) {
     table("c.csv", counts());
     Words words = {"--csv", "c.csv", "--yes", "k", "--trials", "n"};
@@ -73,7 +73,7 @@ TEST_F(FitGlmm, PrintsTheKeysOfTheContract) {
   EXPECT_EQ(json["random"][1]["correlations"].size(), 1U);
   EXPECT_EQ(json["num_rows"], 40);
   EXPECT_EQ(json["groups"]["participant"], 4);
-  // Three of each condition, and their differences.
+  // There are three quantities for each condition, and their differences.
   ASSERT_EQ(json["derived"].size(), 9U);
   EXPECT_EQ(json["derived"][0]["name"], "PSE, condition A");
   const double a = json["fixed"][0]["estimate"], b = json["fixed"][1]["estimate"];
@@ -150,7 +150,8 @@ TEST_F(FitGlmm, RefusesWhatDoesNotGoTogether) {
   }
   const ProgramOutcome python = of_counts(with({"--script", "python"}), false);
   EXPECT_NE(python.err.find("statsmodels"), std::string::npos) << python.err;
-  // Quadrature has one grouping, and trials come one after the other.
+  // Quadrature allows only one grouping, and terms of history need single trials in their
+  // order.
   EXPECT_EQ(of_counts({"--fixed", "u", "--random", "(1 | participant) + (1 | condition)",
                        "--nodes", "5"})
                 .exit_code,
@@ -287,7 +288,7 @@ TEST_F(FitGlmm, GroupsAreByColumnsThatNoFormulaNames) {
   }
 }
 
-/// What stands behind "NAME " at the beginning of a line or behind a comma.
+/// Returns the number behind "NAME " at the beginning of a line or behind a comma.
 double printed(const std::string& text, const std::string& name) {
   for (const char* before : {"\n", ", "}) {
     const std::string words = before + name + " ";
@@ -321,7 +322,7 @@ TEST_F(FitGlmm, ItsScriptFindsTheSame) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err << script.out;
     const double log_likelihood = json["log_likelihood"];
     EXPECT_NEAR(printed(outcome.out, "log_likelihood"), log_likelihood, 1e-3) << script.out;
-    // The line of all fixed effects, behind the summary.
+    // The table of all fixed effects follows the summary.
     const std::string effects = outcome.out.substr(outcome.out.rfind("\n(Intercept) "));
     for (const auto& effect : json["fixed"]) {
       const double estimate = effect["estimate"], error = effect["standard_error"];

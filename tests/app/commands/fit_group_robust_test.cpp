@@ -9,7 +9,7 @@ namespace fit_group_robust_test {
 
 using test_support::ProgramOutcome;
 
-/// Four people, the last of whom answers one in three at random.
+/// Answers of four people, the last of whom answers one trial in three at random.
 constexpr char kPeople[] =
     "participant,intensity,num_yes,num_trials\n"
     "A,2,0,40\nA,5,2,40\nA,7,14,40\nA,9,26,40\nA,12,37,40\nA,32,40,40\n"

@@ -100,7 +100,7 @@ TEST_F(FitGroupCommandTest, LevelsTooHardToTellLapsesAreACaution) {
 }
 
 TEST_F(FitGroupCommandTest, AGuessRateIsThatOfAForcedChoice) {
-  // Right answers of two alternatives: half and half of what is not felt.
+  // Right answers with two alternatives: half of what is not felt is right by guessing.
   std::string right = "participant,intensity,num_yes,num_trials\n";
   for (const auto& [person, shift] : {std::pair{"A", 0}, {"B", 2}, {"C", -2}}) {
     for (const auto& [level, num] : {std::pair{2, 21}, {4, 24}, {8, 30}, {16, 37}, {32, 40}}) {
@@ -172,8 +172,8 @@ TEST_F(FitGroupCommandTest, OnePersonIsDegenerateWithTheReasonInJsonAndOnStderr)
   EXPECT_NE(outcome.err.find("fewer than two participants"), std::string::npos);
 }
 
-/// Sessions of one person whose criterion moves by whole standard deviations, and two people
-/// who keep theirs.
+/// Sessions of three people. The criterion of the first moves by whole standard deviations, and
+/// the two others keep theirs.
 constexpr char kSessions[] =
     "participant,session,intensity,num_yes,num_trials\n"
     "A,1,5,0,20\nA,1,7,0,20\nA,1,10,1,20\nA,1,14,5,20\n"

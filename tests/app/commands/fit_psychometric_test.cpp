@@ -58,7 +58,8 @@ TEST_F(FitPsychometric, PrintsTheKeysOfTheContract) {
 }
 
 TEST_F(FitPsychometric, AThresholdIsAskedForByTheProportionAsAnswered) {
-  // Right answers among two: 75 % right is half way up, 87.5 % three quarters of the way.
+  // With two alternatives, 75 % right is half way up the curve, and 87.5 % is three quarters of
+  // the way.
   table("a.csv", "x,r,n\n1,52,100\n2,58,100\n3,75,100\n4,92,100\n5,99,100\n");
   const std::vector<std::string> words = {
       "--csv", "a.csv", "--intensity", "x", "--yes", "r", "--trials", "n", "--task", "mafc:2"};
@@ -120,8 +121,8 @@ TEST_F(FitPsychometric, AsksWhetherAnswersAreRightOnes) {
   EXPECT_EQ(psychometric({"--csv", "a.csv", "--task", "yes-no"}).exit_code, 0);
 }
 
-/// A table as `jnd export csv` writes trials, of some columns, with answers that look like
-/// right ones of a choice among two.
+/// Returns some columns of a table of trials as `jnd export csv` writes it. The answers look
+/// like right answers with two alternatives.
 std::string exported_trials(const std::string& answered) {
   std::string text =
       "session,block,intensity,reference_intensity,response,is_test_chosen,is_felt,"
@@ -205,7 +206,7 @@ TEST_F(FitPsychometric, DrawsANewFileAndOverwritesNone) {
   EXPECT_EQ(psychometric(with({"--figure", "a.doc"})).exit_code, 1);
 }
 
-/// "location 1.5" in what a script printed about the first group.
+/// Returns 1.5 for "location 1.5" in what a script printed about the first group.
 double printed(const std::string& text, const std::string& name) {
   const std::size_t at = text.find(name + " ");
   return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + name.size() + 1));
@@ -245,16 +246,16 @@ TEST_F(FitPsychometric, ItsScriptsFindTheSameCurve) {
 }
 
 TEST_F(FitPsychometric, DetectionTellsSensitivityAndItsCorrection) {
-  // Rates 20.5 / 26 and 5.5 / 26 after the correction.
+  // After the log-linear correction the rates are 20.5 / 26 and 5.5 / 26.
   table("d.csv", "intensity,num_yes,num_trials\n0,5,25\n1,20,25\n");
   const auto json = document(fit({"detection", "--csv", "d.csv"}).out)["fits"][0];
   EXPECT_NEAR(json["hit_rate"].get<double>(), 20.5 / 26.0, 1e-12);
   EXPECT_NEAR(json["false_alarm_rate"].get<double>(), 5.5 / 26.0, 1e-12);
-  // z(20.5 / 26) = -z(5.5 / 26) = 0.80143...: no bias.
+  // z(20.5 / 26) = -z(5.5 / 26) = 0.80143..., so there is no bias.
   EXPECT_NEAR(json["criterion"].get<double>(), 0.0, 1e-12);
   EXPECT_GT(json["d_prime"].get<double>(), 1.5);
   EXPECT_LT(json["d_prime"].get<double>(), 1.7);
-  // A' of 0.8 and 0.2: 0.5 + 0.6 * 1.6 / (4 * 0.8 * 0.8)
+  // A' of the rates 0.8 and 0.2 is 0.5 + 0.6 * 1.6 / (4 * 0.8 * 0.8).
   EXPECT_NEAR(json["a_prime"].get<double>(), 0.875, 1e-12);
   EXPECT_NE(json["correction"].get<std::string>().find("log-linear"), std::string::npos);
   table("e.csv", "intensity,num_yes,num_trials\n1,20,25\n");

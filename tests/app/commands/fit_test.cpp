@@ -137,7 +137,7 @@ TEST_F(FitCommandTest, GroupsAreFittedOnTheirOwn) {
 }
 
 TEST_F(FitCommandTest, BetweenThePublishedCurvesIsThePublishedCurve) {
-  // Schmidt (2018), eq. D.3 to D.5: 0.5145 I^0.9021.
+  // Schmidt (2018), eq. D.3 to D.5, gives 0.5145 I^0.9021.
   const ProgramOutcome outcome =
       fit({"between", "--k1", "0.6663", "--a1", "0.6386", "--k2", "0.3761", "--a2", "1.206",
            "--intensities", "0,0.5,1,1.5,2,2.5,3,3.5,4"});
@@ -221,7 +221,7 @@ TEST_F(FitCommandTest, AnswersThatFallAreWarnedOf) {
     EXPECT_EQ(warning.find("--overdispersion"), std::string::npos) << "nor do they scatter";
   }
   EXPECT_NE(fit(words, false).out.find("note: the answers fall"), std::string::npos);
-  // Also where there is no curve.
+  // The warning also appears if there is no curve.
   table("f.csv", "intensity,num_yes,num_trials\n0.5,9,10\n2,1,10\n");
   const auto none = document(fit(words).out);
   EXPECT_EQ(none["status"], "degenerate");
@@ -263,7 +263,8 @@ TEST_F(FitCommandTest, AnswersOfSeveralPeopleInOneCurveAreWarnedOf) {
             std::string::npos);
 }
 
-/// A true w of .2 and 5 % lapses at both ends: without lapses in the model .42 (.32 .. .59).
+/// The true w is .2 and 5 % of the answers lapse at either end. A model without lapses finds
+/// .42 (.32 .. .59).
 TEST_F(FitCommandTest, LapsesThatAreNotInTheModelAreWarnedOf) {
   table("l.csv",
         "intensity,num_yes,num_trials\n"
@@ -285,7 +286,9 @@ TEST_F(FitCommandTest, LapsesThatAreNotInTheModelAreWarnedOf) {
   EXPECT_NE(warnings({"--lapse", "free"}).find("looks like a lapse"), std::string::npos);
 }
 
-/// Three rounds of yes at every level, then three of no.
+/// In the first twelve rounds every answer at the high levels and two of three at the low
+/// levels are yes. After that, one of three at the high levels and none at the low levels is
+/// yes.
 TEST_F(FitCommandTest, SingleAnswersThatScatterAreWarnedOfWhateverTheInterval) {
   std::string text = "intensity,num_yes,num_trials\n";
   for (int round = 0; round < 24; ++round) {
@@ -322,7 +325,7 @@ TEST_F(FitCommandTest, RowsOfSeveralPeopleInOnePowerLawAreWarnedOf) {
   }
 }
 
-/// Four people at four intensities, each with an exponent of their own.
+/// Magnitudes of four people at four intensities. Each person has another exponent.
 std::string magnitudes_of_people() {
   std::string text = "who,condition,intensity,magnitude\n";
   const char* rows[4][4] = {{"10", "14", "23", "30"},
@@ -355,8 +358,8 @@ TEST_F(FitCommandTest, PowerLawOfAGroupHasTheGroupsExponentAndEverybodys) {
   EXPECT_EQ(json["interval_method"], "t");
   EXPECT_EQ(json["degrees_of_freedom"], 3);
   ASSERT_EQ(json["people"].size(), 4U);
-  // Where everybody judged the same, the group's exponent is the mean of the own ones, and its
-  // interval that of the mean.
+  // If everybody judged the same intensities equally often, the group's exponent is the mean of
+  // the individual exponents, and its interval is that of this mean.
   const auto alone =
       document(fit({"power", "--csv", "p.csv", "--method", "loglog", "--group-by", "who"})
                    .out)["groups"];

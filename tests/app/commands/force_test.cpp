@@ -20,7 +20,7 @@ nlohmann::json force(std::vector<std::string> arguments) {
 TEST(ForceCommand, PrintsTheKeysOfTheContractForEveryLaw) {
   for (const char* law : {"free", "water", "map", "lift", "viscous", "viscous-stokes",
                           "viscous-schiller-naumann", "ellipsoid"}) {
-    // Slow enough for every law to hold.
+    // The speed is low enough for every law to hold.
     const auto json = force({law, "--velocity-m-per-s", "0.5,0,0"});
     EXPECT_EQ(keys(json), (std::set<std::string>{"total_n", "points", "drag_coefficient",
                                                  "reynolds_number"}))
@@ -48,7 +48,8 @@ TEST(ForceCommand, TheMapOfTheThesisIsItsWater) {
 
 TEST(ForceCommand, LiftIsAcrossTheMotion) {
   const auto json = force({"lift", "--angle-of-attack-rad", "0.7853981633974483"});
-  // The plate: C_N = 2 pi sin / (4 + pi sin) = 0.71412, C_L = C_N cos = 0.50496; 7.4 of it.
+  // The plate: C_N = 2 pi sin / (4 + pi sin) = 0.71412 and C_L = C_N cos = 0.50496. The force
+  // is 7.4 times C_L.
   EXPECT_NEAR(json["total_n"].get<double>(), 7.4 * 0.504962, 1e-5);
   for (const auto& point : json["points"])
     EXPECT_NEAR(point["force_n"][0].get<double>(), 0.0, 1e-12);

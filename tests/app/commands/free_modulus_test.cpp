@@ -10,8 +10,8 @@
 #include "support/places.h"
 #include "support/program.h"
 
-// A study as an author would write it after the shipped one: numbers of one's own, in the order
-// of a Williams square, with the eyes open and shut.
+// Tests a study as an author would derive it from the shipped one. People estimate with numbers
+// of their own choice, in the order of a Williams square, with the eyes open and shut.
 
 namespace jnd::app {
 namespace free_modulus_test {

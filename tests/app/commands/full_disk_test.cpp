@@ -42,7 +42,8 @@ TEST_F(FullDiskTest, ASessionSaysSoKeepsWhatItAcknowledgedAndGoesOnOnceThereIsRo
     if (!acknowledged.empty()) {
       ++num_in_session;
       EXPECT_EQ(sentence_flaw(outcome.err, {"full", "jnd resume disk/a.study"}), "");
-      // Still full: the same sentence again, and no harm.
+      // While the disk is still full, the program prints the same sentence again and damages
+      // nothing.
       EXPECT_EQ(jnd({"resume", "disk/a.study", "--headless"}).exit_code, 1);
     }
     ASSERT_TRUE(disk.resize(20000));

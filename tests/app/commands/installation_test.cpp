@@ -23,7 +23,8 @@ std::string text_of(const fs::path& path) {
   return text.str();
 }
 
-/// The program as `cmake --install` puts it below any folder, once for all tests of the file.
+/// Runs the program as `cmake --install` puts it below any folder. It is installed once for all
+/// tests of this file.
 class InstallationTest : public CommandTest {
  protected:
   static void SetUpTestSuite() {
@@ -53,7 +54,7 @@ class InstallationTest : public CommandTest {
 test_support::TemporaryFolder* InstallationTest::installed_ = nullptr;
 
 TEST_F(InstallationTest, ItsOwnStudiesAndDataAreUsedWhereverItIs) {
-  // The tree that it was built from has no such study.
+  // The source tree from which the program was built has no such study.
   fs::copy_file(prefix() / "share/jnd/protocols/short_tour.json",
                 prefix() / "share/jnd/protocols/only_installed.json");
   EXPECT_EQ(installed({"validate", "only_installed"}).exit_code, 0);
@@ -68,7 +69,7 @@ TEST_F(InstallationTest, DriversAreFoundAndRunInTheirOwnProgram) {
   const auto devices = installed({"devices"});
   EXPECT_NE(devices.out.find("force_dimension"), std::string::npos) << devices.out;
   EXPECT_TRUE(fs::exists(prefix() / "libexec/jnd/jnd-device-host"));
-  // The maker's library is not here, which the driver says from its own process.
+  // The maker's library is missing here, and the driver says so from its own process.
   const auto described = installed({"devices", "--device", "plugin:force_dimension"});
   EXPECT_EQ(described.err.find("jnd-device-host, in which"), std::string::npos)
       << described.err;
@@ -92,8 +93,8 @@ TEST_F(InstallationTest, ManualCompletionsIconsAndHeaderAreThere) {
             std::string::npos);
 }
 
-// Documents refer to one another, to pictures and to data; what is only in the source is not
-// installed.
+// Documents may refer to one another, to pictures and to data. Links to files that exist only
+// in the source would lead nowhere, because these are not installed.
 TEST_F(InstallationTest, LinksOfTheDocumentsLeadSomewhere) {
   static const std::regex kLink(R"re(\]\(([^)#:]+)(#[^)]*)?\))re");
   const fs::path folder = prefix() / "share/doc/jnd";

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kFewer = test_support::kIsSanitized ? 5 : 1;
 
-/// When a program is killed: after so many lines, or after so long.
+/// The moment at which a program is killed: after a number of lines, or after a time.
 struct Moment {
   std::optional<std::size_t> lines;
   Clock::duration elapsed{};
@@ -52,8 +52,8 @@ class KillTest : public CommandTest {
     return words;
   }
 
-  /// Every third at any moment, while the folder is being made included; the others right
-  /// after an acknowledgement, when most is under way.
+  /// Every third moment is any moment of the run, including the time in which the folder is
+  /// made. The others come right after an acknowledgement, when most work is under way.
   Moment draw_moment() {
     if (random_() % 3 == 0) {
       const double ratio = std::uniform_real_distribution<double>(0.0, 1.0)(random_);
@@ -62,8 +62,8 @@ class KillTest : public CommandTest {
     return {.lines = 1 + random_() % num_events_};
   }
 
-  /// Runs these words until they are killed (or done before), adds what they acknowledged, and
-  /// expects all of it to be there and `verify` to find nothing wrong.
+  /// Runs these words until the program is killed or done, and adds what it acknowledged.
+  /// Expects that all of this is stored and that `verify` finds no problem.
   void killed(const std::string& study, const std::vector<std::string>& words,
               const Moment& moment, std::vector<std::string>& acknowledged) {
     {
@@ -89,11 +89,12 @@ class KillTest : public CommandTest {
     EXPECT_EQ(document(verified.out)["complete"], true);
   }
 
-  /// However far it came: what a person does next brings it to its end.
+  /// Finishes the session as a person would, however far it came.
   void finish(const std::string& study) {
     ProgramOutcome outcome = jnd(resume_words(study));
     if (outcome.exit_code != 0 || !outcome.out.starts_with("EVENT")) {
-      // Killed before its folder or its session was made, or finished before.
+      // The program was killed before it had made the folder or the session, or it had
+      // finished.
       const bool is_finished = outcome.exit_code == 0 && !opened(study).sessions().empty();
       if (!is_finished) outcome = jnd(run_words(study));
     }
@@ -102,8 +103,9 @@ class KillTest : public CommandTest {
     EXPECT_EQ(verified.exit_code, 0) << verified.out;
   }
 
-  /// Same order, stimuli and items; same answers to every trial before which nothing in its
-  /// block was interrupted (a later estimate leans on the one before).
+  /// Expects the order, stimuli and items of the uninterrupted session. Expects the same
+  /// answers in every trial up to the first interruption of its block, because a later estimate
+  /// depends on the one before.
   void expect_as_uninterrupted(const std::string& study) {
     const core::StudyStore whole = opened("whole.study");
     const core::StudyStore store = opened(study);
@@ -148,7 +150,7 @@ TEST_P(KilledAtAnyMomentTest, ItLosesNothingThatItAcknowledgedAndGoesOnAsIfUnint
     const std::string study = "killed" + std::to_string(round) + ".study";
     std::vector<std::string> acknowledged;
     killed(study, run_words(study), draw_moment(), acknowledged);
-    // Those who take over may be killed as well, more than once.
+    // The programs that resume the session may be killed as well, more than once.
     for (int again = 0; again < 2 && !acknowledged.empty(); ++again) {
       if (random_() % 2 == 0) killed(study, resume_words(study), draw_moment(), acknowledged);
     }
@@ -156,7 +158,7 @@ TEST_P(KilledAtAnyMomentTest, ItLosesNothingThatItAcknowledgedAndGoesOnAsIfUnint
     if (!acknowledged.empty()) check_acknowledged(opened(study), acknowledged);
     expect_as_uninterrupted(study);
   }
-  // Otherwise there is little that this has shown.
+  // With fewer kills and comparisons, the test would show little.
   EXPECT_GT(num_killed_, 10 / kFewer);
   EXPECT_GT(num_compared_, 25 / kFewer);
 }
@@ -164,7 +166,8 @@ TEST_P(KilledAtAnyMomentTest, ItLosesNothingThatItAcknowledgedAndGoesOnAsIfUnint
 INSTANTIATE_TEST_SUITE_P(Seeds, KilledAtAnyMomentTest, ::testing::Values(1U, 2U));
 
 TEST_F(KillTest, WithinTheLoopInRealTimeItLosesNothingEither) {
-  // While the hand moves freely, right after that, at rest, and in the first stroke.
+  // The kills come while the hand moves freely, right after that, at rest, and in the first
+  // stroke.
   for (const std::size_t lines : {9U, 10U, 14U, 15U}) {
     SCOPED_TRACE(lines);
     const std::string study = "realtime" + std::to_string(lines) + ".study";

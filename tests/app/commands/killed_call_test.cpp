@@ -20,7 +20,7 @@ namespace killed_call_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-/// Little to copy and to read back, for that is done hundreds of times.
+/// The study is short, because the test copies and reads it hundreds of times.
 constexpr const char* kShortStudy = R"json({
   "format": 1, "name": "short", "languages": ["en"], "title": {"en": "Short"},
   "authors": ["A. Author"],
@@ -32,20 +32,20 @@ constexpr const char* kShortStudy = R"json({
   ]
 })json";
 
-/// What changes files. A sync does not, as far as a program that dies is concerned.
+/// The system calls that change files. A sync changes nothing for a program that dies.
 constexpr const char* kChanging =
     "openat,write,pwrite64,rename,renameat,renameat2,unlink,unlinkat,ftruncate,mkdir,mkdirat,"
     "fallocate,link,linkat,rmdir";
 
-/// Kill the program as it enters its nth call of this name.
+/// A point at which to kill the program: as it enters its nth call of this name.
 struct Point {
   std::string name;
   int nth = 0;
   std::string text;  ///< The call, as strace prints it.
 };
 
-/// The calls that change a file of the folder. Of many in a row on one file, the first and
-/// every 50th: what lies between them is half of one transaction.
+/// Returns the calls that change a file of the folder. Of many successive calls on one file it
+/// keeps the first and every 50th, because those between are parts of one transaction.
 std::vector<Point> points_in(const std::string& trace, const std::string& folder) {
   static const std::regex kCall(R"(^\d+ +(\w+)\((\d+<[^>]*>)?.*)");
   std::map<std::string, int> num_calls;
@@ -60,7 +60,7 @@ std::vector<Point> points_in(const std::string& trace, const std::string& folder
     const int nth = ++num_calls[name];
     const bool reads = name == "openat" && line.find("O_CREAT") == std::string::npos &&
                        line.find("O_TRUNC") == std::string::npos;
-    // What SQLite makes anew whenever a database is opened.
+    // SQLite makes this file anew whenever it opens a database.
     const bool is_index = match[2].str().ends_with("-shm>");
     if (reads || is_index || line.find(folder) == std::string::npos) continue;
     const std::string same = name + match[2].str();
@@ -75,14 +75,14 @@ std::vector<Point> points_in(const std::string& trace, const std::string& folder
 std::string bytes_in(const fs::path& folder) {
   std::ostringstream bytes;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    // An empty file would set the stream's mark of failure.
+    // An empty file would set the stream's failure flag.
     if (!entry.is_regular_file() || entry.file_size() == 0) continue;
     bytes << std::ifstream(entry.path(), std::ios::binary).rdbuf();
   }
   return std::move(bytes).str();
 }
 
-/// What `verify` says of the folder: "" if it is complete.
+/// Returns what `verify` says about the folder, or "" if the folder is complete.
 std::string problems_of(const fs::path& folder) try {
   std::string text;
   const core::StudyStore store(folder, core::StudyStore::Mode::kReadOnly);
@@ -125,8 +125,8 @@ class KilledCall : public CommandTest {
         words, {.folder = temporary_.path(), .environment = {}, .wrapper = wrapper});
   }
 
-  /// Kills the words at each of their calls in turn, always from what is in "now" when it is
-  /// called, and has what is left looked at.
+  /// Runs the command once for each of its calls and kills it at that call. Each run starts
+  /// from what folder "now" held when `sweep` was called, and `check` looks at what is left.
   template <typename Check>
   void sweep(const std::vector<std::string>& words, const Check& check) {
     fs::copy(path("now"), path("before"), fs::copy_options::recursive);
@@ -142,11 +142,11 @@ class KilledCall : public CommandTest {
           {"-e", "inject=" + point.name + ":signal=KILL:when=" + std::to_string(point.nth)});
       ASSERT_EQ(killed.signal, SIGKILL) << killed.exit_code << killed.err;
       check();
-      if (HasFailure()) return;  // One is enough to read.
+      if (HasFailure()) return;  // One failure is enough to read.
     }
   }
 
-  /// Something of the first person can be read in the folder.
+  /// Returns whether the folder still contains any data of the first person.
   [[nodiscard]] bool holds_person(const std::string& folder) const {
     return bytes_in(now(folder)).find(kMark) != std::string::npos ||
            fs::exists(now(folder) / "recordings" / "0001.sqlite");

@@ -11,9 +11,9 @@ namespace jnd::app {
 
 /// A command as `--help` prints it.
 struct ListedCommand {
-  std::vector<std::string> words;      ///< {"fit", "weber"}
-  std::vector<std::string> options;    ///< "--csv", "-h"
-  std::vector<std::string> arguments;  ///< "DIR"
+  std::vector<std::string> words;      ///< For example {"fit", "weber"}.
+  std::vector<std::string> options;    ///< For example "--csv" and "-h".
+  std::vector<std::string> arguments;  ///< For example "DIR".
 };
 
 inline void add_listed(const std::vector<std::string>& words, std::vector<ListedCommand>& all) {
@@ -44,8 +44,8 @@ inline void add_listed(const std::vector<std::string>& words, std::vector<Listed
   }
 }
 
-/// Every command of the program and what each takes, read from what people are shown rather
-/// than from the tables that it is made of.
+/// Returns every command of the program and what it takes. They are read from the help that
+/// people see, and not from the tables that make it.
 inline const std::vector<ListedCommand>& listed_commands() {
   static const std::vector<ListedCommand> kAll = [] {
     std::vector<ListedCommand> all;

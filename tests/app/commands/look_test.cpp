@@ -21,7 +21,7 @@ class LookTest : public CommandTest {
     test_support::write_file(path("looks.json"), with_looks(experiments::fluid_contrast()));
   }
 
-  /// A study with this contrast, which is called fluids, and looks at it.
+  /// Returns a study with this contrast, which is named fluids, and with planned looks at it.
   static std::string with_looks(const std::string& contrast) {
     std::string text = experiments::designed_study(contrast);
     const std::string at = "\"factors\":";
@@ -30,8 +30,7 @@ class LookTest : public CommandTest {
                            "spending": "pocock"}, "factors":)");
   }
 
-  /// So many people take part, in whom thin fluids have a Weber fraction that many times as
-  /// large.
+  /// Simulates so many people, whose Weber fraction is `factor` times as large in thin fluids.
   void simulate(int participants, const std::string& factor) {
     const ProgramOutcome outcome = jnd(
         {"simulate", "looks.json", "--participants", std::to_string(participants), "--study",
@@ -113,7 +112,7 @@ TEST_F(LookTest, TakesEveryLookThatIsDueAndEndsAtTheLast) {
 TEST_F(LookTest, IsKeptBeforeItIsToldAndStaysAsItWasTold) {
   simulate(6, "5");
   {
-    // Told to go on by a program that knew better.
+    // An earlier program decided that the study goes on.
     core::StudyStore store(path("s.study"), core::StudyStore::Mode::kReadWrite);
     store.add_look(
         {.look = 1, .decision = "go_on", .time_ns = 1, .sessions = {1, 2, 3, 4, 5, 6}});
@@ -166,7 +165,8 @@ TEST_F(LookTest, AStudyWithoutLooksIsRefusedInASentence) {
 }
 
 TEST_F(LookTest, PowerSimulatesTheRuleAndShardsGiveTheSame) {
-  // Groups of people: between fluids whose levels are so easy, half an answer would differ.
+  // The contrast compares groups of people. Between fluids, whose levels are so easy, only half
+  // an answer would differ.
   test_support::write_file(path("groups.json"),
                            with_looks(experiments::fluid_contrast(
                                "", "fluids", R"({"priming": {"primed": 1, "control": -1}})")));
@@ -181,7 +181,7 @@ TEST_F(LookTest, PowerSimulatesTheRuleAndShardsGiveTheSame) {
   const auto null = document(with({"--null", "--json"}))["sequential"];
   EXPECT_EQ(null["contrast"], "fluids");
   EXPECT_EQ(null["power_is"], "false_positive_rate");
-  // 40 runs: at most 7 of them with a probability of 99.9 %.
+  // In 40 runs without an effect, at most 7 reject with a probability of 99.9 %.
   EXPECT_LE(null["power"], 7.0 / 40.0);
   EXPECT_GT(null["expected_participants"], 12.0);
   const Words effect = {"--effect", "priming=primed:weber_fraction_factor=5"};

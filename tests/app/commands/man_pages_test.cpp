@@ -33,7 +33,7 @@ class ManPagesTest : public CommandTest {
   }
 };
 
-/// As the page writes it.
+/// Returns the option as the page writes it.
 std::string typed(const std::string& option) {
   return std::regex_replace(option, std::regex("-"), "\\-");
 }
@@ -92,7 +92,7 @@ TEST_F(ManPagesTest, APageIsTheSameOnEveryMachine) {
   }
 }
 
-// Each example is a call of its command, by options that the command has.
+// Each example calls the command that it belongs to, with options that the command has.
 TEST_F(ManPagesTest, EveryCommandHasExamplesOfOptionsThatItHas) {
   static const std::regex kOption("--[a-z][a-z0-9-]*");
   for (const ListedCommand& command : listed_commands()) {
@@ -102,7 +102,7 @@ TEST_F(ManPagesTest, EveryCommandHasExamplesOfOptionsThatItHas) {
     EXPECT_FALSE(examples.empty()) << name;
     for (const ManualExample& example : examples) {
       EXPECT_NE(example.call.find(name), std::string::npos) << example.call;
-      // The program's and a group's examples are of one of their commands.
+      // The examples of the program and of a group call one of their commands.
       if (command.words.empty() || command.words == std::vector<std::string>{"fit"}) continue;
       const std::set<std::string> known(command.options.begin(), command.options.end());
       for (std::sregex_iterator match(example.call.begin(), example.call.end(), kOption), end;

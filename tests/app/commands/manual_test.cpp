@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 class ManualTest : public CommandTest {
  protected:
-  /// A manual of its own, as it is installed, whatever else this machine has.
+  /// Installs a manual of the test's own, whatever else this machine has.
   void SetUp() override {
     for (const char* page : {"docs/README.md", "docs/how-to/run_a_session.md", "SAFETY.md"}) {
       fs::create_directories(page_file(page).parent_path());

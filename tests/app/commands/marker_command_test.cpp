@@ -20,7 +20,7 @@ using test_support::ProgramOutcome;
 using test_support::PseudoTerminal;
 using ::testing::ElementsAre;
 
-/// One trial: the machine has to keep up with a loop in real time.
+/// The study has one trial only, because the machine has to keep up with a loop in real time.
 constexpr char kPulsedStudy[] = R"json({
   "format": 1, "name": "pulsed", "languages": ["en"], "title": {"en": "Pulsed"},
   "authors": ["A. Author"], "blinding": "double",
@@ -51,7 +51,7 @@ TEST_F(MarkerCommandTest, ASessionSendsItsPulsesAndTheirTimesAreExported) {
   EXPECT_NE(outcome.err.find("jnd: markers: " + terminal.path() + ", bytes, pulses of 2 ms"),
             std::string::npos)
       << outcome.err;
-  // Each code and its end.
+  // Each code is followed by the byte that ends its pulse.
   const std::vector<unsigned char> bytes = terminal.received(1000, 200);
   std::vector<int> codes;
   for (std::size_t i = 0; i < bytes.size(); ++i) {

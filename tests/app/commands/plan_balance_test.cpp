@@ -19,7 +19,8 @@ using test_support::ProgramOutcome;
 
 class PlanBalanceTest : public CommandTest {
  protected:
-  /// Two blocks whose stimuli come in Williams squares: everybody has a row of each.
+  /// Writes a study of two blocks whose stimuli come in Williams squares. Each person has one
+  /// row of each square.
   void write_squares(std::size_t num_stimuli) {
     json study = json::parse(test_support::read_file(
         test_support::source_folder() / "protocols" / "viscosity_free_estimation.json"));

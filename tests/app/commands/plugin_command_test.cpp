@@ -1,5 +1,5 @@
-// The whole way of a laboratory that brings its own driver: built with the header alone, used
-// by the program, and lost in the middle of a session.
+// Follows a laboratory that brings its own driver. The driver is built with the header alone,
+// the program uses it, and the driver is lost in the middle of a session.
 #include <signal.h>
 
 #include <fstream>
@@ -35,7 +35,7 @@ class PluginCommandTest : public CommandTest {
     return {"run",    "short_tour", "--study",    "tour.study", "--participant", "P01",
             "--seed", "7",          "--headless", "--device",   device};
   }
-  /// The process in which the driver of this test runs; -1: none.
+  /// Returns the process in which the driver of this test runs, or -1 if there is none.
   [[nodiscard]] pid_t host() const {
     for (const auto& entry : fs::directory_iterator("/proc")) {
       std::ifstream stream(entry.path() / "cmdline", std::ios::binary);
@@ -55,7 +55,8 @@ TEST_F(PluginCommandTest, AWholeStudyRunsThroughTheExample) {
   EXPECT_TRUE(opened("tour.study").completed(1));
   EXPECT_EQ(jnd({"verify", "tour.study"}).exit_code, 0);
   EXPECT_EQ(host(), -1) << "its process is gone";
-  // Whoever is simulated feels what the driver let through: thicker is more.
+  // The simulated participant feels the force that the driver let through, so thicker fluids
+  // get larger numbers.
   const auto results = jnd({"results", "tour.study", "--json"});
   EXPECT_EQ(results.exit_code, 0) << results.err;
 }
@@ -175,10 +176,10 @@ TEST_F(PluginCommandTest, DevicesTellsWhatADriverSaysOfItself) {
   EXPECT_EQ(jnd({"devices", "--device", "lumped"}).exit_code, 2);
 }
 
-/// Whoever has a driver on one machine and the window on another.
+/// Tests a driver on one machine and the window on another.
 class ServedPluginTest : public PluginCommandTest {
  protected:
-  /// Starts to serve the example; where it is.
+  /// Starts to serve the example. Returns its address.
   std::string serve(const std::string& as) {
     server_.emplace(std::vector<std::string>{"device-server", "--device",
                                              "plugin:example:" + as, "--port", "0"},
@@ -193,7 +194,7 @@ class ServedPluginTest : public PluginCommandTest {
 TEST_F(ServedPluginTest, KeepsTheRulesOfADeviceAcrossTheNetwork) {
   const std::string at = serve("simulated");
   ProgramOutcome told = jnd({"device-check", at + ",simulated"});
-  // A busy machine may hold either side up.
+  // A busy machine may delay either side, so the check is repeated.
   for (int i = 0; i < 2 && told.exit_code != 0; ++i) {
     told = jnd({"device-check", at + ",simulated"});
   }

@@ -15,8 +15,8 @@ namespace power_slurm_test {
 
 namespace fs = std::filesystem;
 
-/// What `data/cluster/README.md` shows, for real: an array of four shards and the merge that
-/// waits for it, in a Slurm of this machine alone.
+/// Does what `data/cluster/README.md` shows in a Slurm of this machine alone: an array of four
+/// shards, and the merge that waits for it.
 TEST(PowerSlurm, AJobArrayAndItsMergeGiveTheBytesOfOneProcess) {
   if (::geteuid() != 0) GTEST_SKIP() << "slurmd runs jobs only as root";
   for (const char* program : {"slurmctld", "slurmd", "munged", "sbatch"}) {
@@ -25,7 +25,7 @@ TEST(PowerSlurm, AJobArrayAndItsMergeGiveTheBytesOfOneProcess) {
       GTEST_SKIP() << program << " is not installed: apt-get install slurm-wlm munge";
     }
   }
-  // Jobs see this folder as themselves: its name is short enough for a socket.
+  // Jobs see this folder under the same name, which is short enough for a socket.
   const test_support::TemporaryFolder temporary;
   const fs::path source = test_support::source_folder();
   const std::string words =

@@ -70,7 +70,7 @@ TEST_F(PowerCommandTest, AnySplitGivesTheSameBytesAsOneProcess) {
   for (const int count : {1, 2, 5}) {
     Words merge = {"power-merge"};
     const std::string folder = "shards" + std::to_string(count);
-    for (int i = count; i >= 1; --i) {  // Their order is of no account.
+    for (int i = count; i >= 1; --i) {  // Their order does not matter.
       const std::string shard = std::to_string(i) + "/" + std::to_string(count);
       const ProgramOutcome one = power({"--runs", "23", "--shard", shard, "--out", folder});
       ASSERT_EQ(one.exit_code, 0) << one.err;
@@ -97,7 +97,8 @@ TEST_F(PowerCommandTest, MagnitudesGiveExponentsAndNothingToCompare) {
   const auto& size = json["sizes"][0];
   EXPECT_TRUE(size["tests"].empty());
   EXPECT_EQ(size["estimates"][0]["name"], "magnitude_estimation.own_exponents");
-  // 160 people have a spread of about 0.15 and 0.25.
+  // The estimates of 160 people have a standard deviation of about 0.15 and 0.25, so the bias
+  // is tested at three standard errors.
   EXPECT_NEAR(size["estimates"][0]["bias"], 0.0, 0.04);
   EXPECT_NEAR(size["estimates"][1]["bias"], 0.0, 0.06);
   EXPECT_GT(size["estimates"][0]["coverage"], 0.75);
@@ -127,7 +128,7 @@ TEST_F(PowerCommandTest, TheNullHypothesisIsRejectedInAboutFivePercent) {
       power({"--runs", "2000", "--null", "--json"}, "viscosity_discrimination", "13");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto size = document(outcome.out)["sizes"][0];
-  // 5 % of 2000 with three standard deviations is 3.5 to 6.5 %.
+  // With 2000 runs, 5 % with three standard deviations is 3.5 to 6.5 %.
   EXPECT_NEAR(size["tests"][0]["power"], 0.05, 0.015);
   EXPECT_NEAR(size["tests"][0]["mean_difference"], 0.0, 0.02);
   EXPECT_EQ(size["estimates"][0]["true_value"], size["estimates"][1]["true_value"]);
@@ -268,7 +269,8 @@ TEST_F(PowerCommandTest, StoppedItLeavesNothingBehind) {
     test_support::RunningProgram child(words, options_);
     child.send_signal(SIGINT);
     const ProgramOutcome outcome = child.wait();
-    // Before it listens to the signal, that ends it, which is as good.
+    // A signal that arrives before the program listens to it ends the program, which is as
+    // good.
     EXPECT_TRUE(outcome.exit_code == 1 || outcome.signal == SIGINT) << outcome.exit_code;
     EXPECT_TRUE(fs::is_empty(temporary_.path()));
   }

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 class PredictiveCommandTest : public CommandTest {};
 
-/// Where we have an estimate of a published name already, it is the published statistic.
+/// If one of our estimates has a published name, it equals the published statistic.
 TEST_F(PredictiveCommandTest, OurEstimatesOfPublishedNamesAreThePublishedStatistics) {
   if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   int num_compared = 0;

@@ -1,5 +1,5 @@
-// A device that could hurt somebody, as far as the program knows: the example of drivers, used
-// as if it were a robot.
+// Uses the example driver as if it were a robot: for the program, this is a device that could
+// hurt somebody.
 #include <signal.h>
 
 #include <optional>
@@ -45,7 +45,8 @@ class ProfileCommandTest : public CommandTest {
                    "stages": [)json" +
            stage + "]}";
   }
-  /// In real time, as for a robot, with somebody beside it.
+  /// Returns the words of a session in real time with somebody beside the device, as for a
+  /// robot.
   [[nodiscard]] static std::vector<std::string> run_words(
       const std::string& study, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words = {"run",
@@ -67,7 +68,8 @@ class ProfileCommandTest : public CommandTest {
   fs::path measured() const {
     return test_support::write_wide_profile(path("profiles"), kModel, "simulated");
   }
-  /// A machine that is too busy for real time interrupts the session, which is gone on with.
+  /// Resumes the session until it is complete, because a machine that is too busy for real time
+  /// interrupts it.
   void finish(ProgramOutcome outcome) const {
     for (int i = 0; i < 20 && outcome.exit_code != 0; ++i) {
       ASSERT_NE(outcome.err.find("jnd resume s.study"), std::string::npos) << outcome.err;
@@ -190,7 +192,7 @@ TEST_F(ProfileCommandTest, DevicesTellsWhatWasMeasured) {
   };
   EXPECT_TRUE(told()["profile"].is_null());
   const fs::path file = measured();
-  // The example says of itself that it is simulated, whatever it is used as.
+  // The example says that it is simulated, whatever it is used as.
   EXPECT_EQ(told()["profile"]["file"], file.string());
   EXPECT_EQ(told()["profile"]["measured_on"], "2026-11-20");
 }

@@ -11,8 +11,8 @@
 #include "support/places.h"
 #include "support/program.h"
 
-// Studies as an author would write them after the shipped one: fluids are rated, and confidence
-// is asked, with and without noise.
+// Tests studies as an author would derive them from the shipped one. Fluids are rated, and
+// confidence is asked, with and without noise.
 
 namespace jnd::app {
 namespace rating_contrasts_test {
@@ -71,7 +71,7 @@ TEST_F(RatingContrastsTest, OfRatingsRecoverAnEffectAndReportNoneWhereNoneIs) {
   EXPECT_EQ(with["effect_is"], "difference");
   EXPECT_EQ(with["measure"], "rating");
   EXPECT_GT(with["ci95"][0], 0.5) << with["sentence"];
-  // At the last step nobody can rate higher.
+  // The simulated effect is 1, but nobody can rate above the last step.
   EXPECT_NEAR(with["effect"], 0.9, 0.3);
   EXPECT_LT(with["p_value"], 0.01);
   EXPECT_EQ(with["equivalence"]["is_shown"], false);
@@ -116,9 +116,9 @@ TEST_F(RatingContrastsTest, OfRatingsHavePowerForAnEffectAndTheirLevelWithoutOne
   EXPECT_NEAR(loud["bias"], 0.0, 0.1);
   EXPECT_GT(loud["coverage"], 0.85);
   const json without = power({"--null"});
-  // 200 runs: at most 21 of them with a probability of 99.9 %.
+  // In 200 runs without an effect, at most 21 reject with a probability of 99.9 %.
   EXPECT_LE(without["sizes"][0]["tests"][0]["power"], 0.105);
-  // Of which estimate and test are from one split, they are those of one process.
+  // A contrast may also be about the question after the trials.
   const ProgramOutcome confidence =
       jnd({"power", "sure.json", "--participants", "6", "--runs", "4"});
   EXPECT_NE(confidence.out.find("contrast loud_against_quiet (of a question after the trials)"),

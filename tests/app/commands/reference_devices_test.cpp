@@ -17,8 +17,8 @@
 #include "support/places.h"
 #include "support/program.h"
 
-// The devices of device/network/reference, which a laboratory takes as templates: each is
-// another program that was written from device/network/README.md alone.
+// Tests the devices of device/network/reference, which laboratories use as templates. Each is
+// another program, which was written from device/network/README.md alone.
 
 namespace jnd::app {
 namespace reference_devices_test {
@@ -40,12 +40,12 @@ bool is_installed(const std::string& program) {
   }
 }
 
-/// A device in a language, at a port of its own.
+/// Runs a device in one of the languages at a port of its own.
 class ReferenceDevice : public CommandTest {
  protected:
   void SetUp() override {
     options_.environment.emplace_back("XDG_CONFIG_HOME", path("config").string());
-    // Nothing is to be written beside the sources.
+    // Python must not write files beside the sources.
     options_.environment.emplace_back("PYTHONDONTWRITEBYTECODE", "1");
     if (!is_installed("python3")) GTEST_SKIP() << "python3 is not installed here";
   }
@@ -60,7 +60,7 @@ class ReferenceDevice : public CommandTest {
     return test_support::run_program(words, other("python3"));
   }
 
-  /// False where this machine lacks what it takes.
+  /// Returns false if this machine lacks what the language needs.
   bool start(const std::string& language, std::vector<std::string> words = {},
              const std::string& port = "0") {
     words.insert(words.begin(), {"--port", port});
@@ -82,16 +82,17 @@ class ReferenceDevice : public CommandTest {
     place_ = line.size() > begin.size() ? line.substr(begin.size()) : "";
     return true;
   }
-  /// Draws a key; the file that it is in.
+  /// Draws a key and returns its file.
   std::string drawn_key() {
     const ProgramOutcome drawn = jnd({"device-key", "robot", "--json"});
     EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
     return document(drawn.out)["file"].get<std::string>();
   }
-  /// What `jnd device-check` finds of a device that nobody uses.
+  /// Runs `jnd device-check` on a device that nobody uses.
   ProgramOutcome checked(const std::string& device) { return jnd({"device-check", device}); }
 
-  /// The shipped study, with fewer trials: in real time all of them take seven minutes.
+  /// Writes the shipped study with fewer trials, because all of them take seven minutes in real
+  /// time.
   void write_short_tour() {
     nlohmann::json tour = nlohmann::json::parse(
         std::ifstream(test_support::source_folder() / "protocols/short_tour.json"));
@@ -104,9 +105,9 @@ class ReferenceDevice : public CommandTest {
     tour["stages"][3]["repetitions"] = 1;
     test_support::write_file(path("short_tour.json"), tour.dump());
   }
-  /// Goes on until the session is over. A machine that is too busy for real time interrupts a
-  /// session, and may find the connection too bad to go on at once; a wrong device would never
-  /// come to the end.
+  /// Resumes the session until it is over. A machine that is too busy for real time interrupts
+  /// a session, and may find the connection too bad to continue at once. A wrong device would
+  /// never reach the end.
   ProgramOutcome resumed(ProgramOutcome ended) {
     for (int i = 0; i < 20 && (ended.exit_code == 1 || ended.exit_code == 3); ++i) {
       ended = jnd({"resume", "tour.study", "--headless", "--realtime"});
@@ -122,8 +123,8 @@ class EachReferenceDevice
     : public ReferenceDevice,
       public ::testing::WithParamInterface<std::tuple<std::string, std::string>> {
  protected:
-  /// Started with or without a key; then the words that a program needs to find it, and the
-  /// file.
+  /// Starts the device with or without a key, and sets the key's file and the words by which a
+  /// program finds the device.
   bool start_with_key() {
     const auto& [language, key] = GetParam();
     std::vector<std::string> words;
@@ -137,7 +138,7 @@ class EachReferenceDevice
     return true;
   }
 
-  /// The same device at the same place.
+  /// Starts the same device at the same port again.
   void start_again() {
     EXPECT_TRUE(start(std::get<0>(GetParam()), words_, place_.substr(place_.rfind(':') + 1)));
   }
@@ -152,8 +153,8 @@ std::string name_of(const ::testing::TestParamInfo<EachReferenceDevice::ParamTyp
 
 TEST_P(EachReferenceDevice, KeepsTheRules) {
   if (!start_with_key()) GTEST_SKIP() << "cc is not installed here";
-  // A busy machine may hold a device up, and it then disarms as it should; a rule that is
-  // broken is broken each time.
+  // A busy machine may delay a device, which then rightly disarms. A broken rule fails every
+  // time, so the check is repeated.
   ProgramOutcome told = checked(at_);
   for (int i = 0; i < 2 && told.exit_code != 0; ++i) told = checked(at_);
   EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
@@ -179,7 +180,7 @@ TEST_P(EachReferenceDevice, RunsTheShortTourToItsEnd) {
   EXPECT_NE(served.out.find("programs connected"), std::string::npos) << served.out;
 }
 
-/// The server dies in the middle of a session, as by `kill -9` or a cable that is pulled.
+/// The server dies in the middle of a session, as by `kill -9` or a pulled cable.
 TEST_P(EachReferenceDevice, ASessionSurvivesItsDeath) {
   if (!start_with_key()) GTEST_SKIP() << "cc is not installed here";
   write_short_tour();
@@ -211,7 +212,8 @@ TEST_P(EachReferenceDevice, ASessionSurvivesItsDeath) {
   EXPECT_EQ(jnd({"verify", "tour.study"}).exit_code, 0);
 }
 
-/// Each language and each way once: a session in real time takes most of a minute.
+/// Each language and each way is tested once, because a session in real time takes most of a
+/// minute.
 INSTANTIATE_TEST_SUITE_P(Languages, EachReferenceDevice,
                          ::testing::Values(std::tuple("python", "key"),
                                            std::tuple("c", "open")),
@@ -238,7 +240,7 @@ INSTANTIATE_TEST_SUITE_P(Names, WrongReferenceDevice,
 
 TEST_F(ReferenceDevice, ARealDeviceIsNotPushedUnlessSomebodySaysSo) {
   ASSERT_TRUE(start("python"));
-  // Not called simulated by the operator, it is taken for a robot.
+  // The operator did not call the device simulated, so the program treats it as a robot.
   const ProgramOutcome told = jnd({"device-check", "network:" + place_, "--json"});
   EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
   const auto out = document(told.out);
@@ -285,7 +287,7 @@ TEST_F(ReferenceDevice, TheClientShowsWhatADeviceCanDoAndGivesNoForce) {
       << simulated.out << simulated.err;
 }
 
-/// What the program writes and refuses, another program reads and refuses.
+/// The other program must read and refuse the same datagrams as jnd.
 TEST_F(ReferenceDevice, ReadsTheExamplesOfDatagrams) {
   const std::string script =
       "import os, sys\n"

@@ -20,7 +20,7 @@ class ReportCommandTest : public CommandTest {
  protected:
   void SetUp() override { write_file(path("tiny.json"), kTinyStudy); }
 
-  /// With the programs of these folders alone.
+  /// Runs the program with the executables of `programs` alone.
   ProgramOutcome jnd(const std::vector<std::string>& arguments,
                      const std::string& programs = "/nowhere") {
     return test_support::run_program(
@@ -36,7 +36,7 @@ class ReportCommandTest : public CommandTest {
                         const std::string& programs = "/nowhere") {
     return jnd({"report", study, "--out", out, "--resamples", "100"}, programs);
   }
-  /// Every file below a folder.
+  /// Returns every file below a folder, by its relative path.
   [[nodiscard]] std::map<std::string, std::string> files(const std::string& name) const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(path(name))) {
@@ -74,7 +74,7 @@ TEST_F(ReportCommandTest, TheSameStudyGivesTheSameBytesHoweverManySessionsRanAtO
 
 TEST_F(ReportCommandTest, EveryFigureOfAStudyWithRecordingsIsDrawnByGnuplotThatIsThere) {
   if (!fs::exists("/usr/bin/gnuplot")) GTEST_SKIP() << "gnuplot is not installed";
-  // Nothing else of that folder, for a browser takes seconds.
+  // The folder holds gnuplot alone, because a browser would take seconds.
   fs::create_directory(path("bin"));
   fs::create_symlink("/usr/bin/gnuplot", path("bin/gnuplot"));
   simulate("a.study");

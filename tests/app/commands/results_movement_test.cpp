@@ -36,7 +36,7 @@ class ResultsMovementTest : public CommandTest {
     }
     return nullptr;
   }
-  /// Infinity where there is none.
+  /// Returns the value of the estimate `name`, or infinity if there is none.
   static double value(const nlohmann::json& results, const std::string& name) {
     for (const auto& one : results["sections"]) {
       for (const auto& estimate : one["estimates"]) {
@@ -72,7 +72,7 @@ TEST_F(ResultsMovementTest, SaysWhoHasNoRecording) {
 }
 
 TEST_F(ResultsMovementTest, FitsOnWhatWasDeliveredTakeTheLimiterOutOfTheWeberFraction) {
-  // Group E feels 16 Pa s, far above 5 N.
+  // The limit is 5 N. Group E feels 16 Pa s, which takes far more.
   nlohmann::json laboratory = nlohmann::json::parse(
       read_file(test_support::source_folder() / "data" / "laboratories" / "thesis.json"));
   laboratory["device"]["max_total_force_n"] = 5.0;

@@ -32,7 +32,7 @@ class ResultsCommandTest : public CommandTest {
     }
     return names;
   }
-  /// No number anywhere is anything but finite or null.
+  /// Expects that every number is finite or null.
   static void expect_finite(const nlohmann::json& value) {
     if (value.is_number_float()) {
       EXPECT_TRUE(std::isfinite(value.get<double>()));
@@ -168,7 +168,7 @@ TEST_F(ResultsCommandTest, TheTableSaysThatItIsSimulatedAndShowsNoNan) {
   ASSERT_EQ(outcome.exit_code, 0);
   EXPECT_NE(outcome.out.find("SIMULATED"), std::string::npos);
   EXPECT_NE(outcome.out.find("group_d.weber_fraction"), std::string::npos);
-  // What each block was asked for comes before everything else.
+  // The main question of each block comes before everything else.
   const std::string in_short = outcome.out.substr(0, outcome.out.find("\n\ngroup_d\n"));
   for (const char* primary : {"group_d.weber_fraction_median_person",
                               "group_e.weber_fraction_median_person", "pse free (primary)"}) {
@@ -183,7 +183,8 @@ TEST_F(ResultsCommandTest, TheTableSaysThatItIsSimulatedAndShowsNoNan) {
 
 TEST_F(ResultsCommandTest, AForceLimiterAtFiveNewtonsMovesTheWeberFractionOfGroupE) {
   if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
-  // Group E feels 16 Pa s, far above 5 N; group D feels 8, mostly below.
+  // The limit is 5 N. Group E feels 16 Pa s, far above the limit, and group D feels 8 Pa s,
+  // mostly below it.
   nlohmann::json laboratory = nlohmann::json::parse(
       read_file(test_support::source_folder() / "data" / "laboratories" / "thesis.json"));
   laboratory["device"]["max_total_force_n"] = 5.0;
@@ -200,7 +201,7 @@ TEST_F(ResultsCommandTest, AForceLimiterAtFiveNewtonsMovesTheWeberFractionOfGrou
         }
       }
     }
-    // No slope left at all is a larger fraction than any.
+    // If no slope is left at all, the Weber fraction is larger than any number.
     return std::numeric_limits<double>::infinity();
   };
   EXPECT_GT(weber("limited.study", "group_e"), 1.5 * weber("free.study", "group_e"));

@@ -173,7 +173,7 @@ TEST_F(RunCommandTest, PilotsAreLeftOutOfResultsAndExports) {
 }
 
 TEST_F(RunCommandTest, AcknowledgesAtOnceAndNotWhenABufferIsFull) {
-  // In real time the first stage lasts 20 s; its beginning has to be told long before.
+  // In real time the first stage lasts 20 s. Its beginning has to be printed long before that.
   std::vector<std::string> words = run_words("a.study", "short_tour");
   words.emplace_back("--realtime");
   const auto start = std::chrono::steady_clock::now();

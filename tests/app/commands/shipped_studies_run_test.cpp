@@ -1,5 +1,4 @@
-// Every study that is shipped, as its author would try it: checked, planned, simulated,
-// analysed.
+// Treats every shipped study as its author would: checks, plans, simulates and analyses it.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -39,7 +38,7 @@ class ShippedStudyTest : public ::testing::TestWithParam<std::string> {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
-/// Whatever is null says why.
+/// Expects that every null value is accompanied by a reason.
 void expect_reasons(const nlohmann::json& results) {
   for (const auto& section : results["sections"]) {
     for (const char* list : {"estimates", "participants"}) {

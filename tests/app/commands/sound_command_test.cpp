@@ -14,7 +14,7 @@ namespace sound_command_test {
 using nlohmann::json;
 using test_support::ProgramOutcome;
 
-/// On a machine whose only output is a file.
+/// Imitates a machine whose only output of sound is a file.
 class SoundCommandTest : public CommandTest {
  protected:
   SoundCommandTest() {

@@ -44,7 +44,7 @@ TEST_F(StabilityCommandTest, StoppedByCtrlCItKeepsNothing) {
   test_support::RunningProgram child({"stability", "--out", "map.json"}, options_);
   child.send_signal(SIGINT);
   const ProgramOutcome outcome = child.wait();
-  // Before it listens to the signal, that ends it, which is as good.
+  // A signal that arrives before the program listens to it ends the program, which is as good.
   EXPECT_TRUE(outcome.exit_code == 1 || outcome.signal == SIGINT) << outcome.exit_code;
   EXPECT_EQ(outcome.out, "");
   EXPECT_FALSE(std::filesystem::exists(temporary_.path() / "map.json"));
@@ -79,7 +79,7 @@ TEST_F(StabilityCommandTest, AStudyPlannedForTheExoskeletonIsComparedWithItsMap)
 }
 
 TEST_F(StabilityCommandTest, AStimulusBeyondTheMapIsAProblemOfThePlan) {
-  // A map of one's own, found through the share folder.
+  // The test writes its own map, which the program finds through the share folder.
   namespace fs = std::filesystem;
   const fs::path share = temporary_.path() / "share";
   fs::create_directories(share / "data/stability");

@@ -18,7 +18,7 @@ namespace stop_test {
 using test_support::ProgramOutcome;
 using test_support::RunningProgram;
 
-/// A session that is stopped from outside, and readers that go away.
+/// Tests sessions that are stopped from outside, and readers of the output that go away.
 class StopTest : public CommandTest {
  protected:
   void SetUp() override { write_file(temporary_.path() / "tiny.json", kTinyStudy); }
@@ -64,7 +64,7 @@ TEST_F(StopTest, EverySignalToStopEndsTheSessionCleanlyAndTellsHowToGoOn) {
     for (const std::string& line : lines_of(outcome.out)) acknowledged.push_back(line);
     EXPECT_EQ(check_acknowledged(opened(study), acknowledged), acknowledged.size());
     EXPECT_EQ(opened(study).events(1).back().kind, "paused");
-    // To the end once; the others are given up, which costs less.
+    // One session is resumed to its end. The others are given up, which takes less time.
     if (signal == SIGINT) {
       expect_resumable(study);
     } else {
@@ -180,7 +180,7 @@ TEST_F(StopTest, TwoSessionsBegunAtOnceInOneFolderAreOneSessionAndOneRefusal) {
       EXPECT_EQ(outcome.exit_code, 1);
       EXPECT_EQ(sentence_flaw(outcome.err, {study, "expected"}), "");
     }
-    // Both, if the one was done before the other began.
+    // Both succeed if one was done before the other began.
     EXPECT_GE(num_done, 1U);
     EXPECT_EQ(opened(study).sessions().size(), num_done);
     EXPECT_EQ(jnd({"verify", study}).exit_code, 0);
@@ -235,7 +235,7 @@ TEST_F(StopTest, AClockThatWasSetBackDisturbsNoSession) {
     EXPECT_EQ(child.wait().signal, SIGKILL);
   }
   {
-    // As if it had been begun on a computer whose clock was ahead by years.
+    // The session looks as if it had begun on a computer whose clock was years ahead.
     core::Database database(temporary_.path() / "a.study/study.sqlite",
                             core::Database::Mode::kReadWrite, core::Durability::kEveryCommit);
     database.execute("DROP TRIGGER event_is_final");

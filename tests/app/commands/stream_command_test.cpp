@@ -23,7 +23,7 @@ using nlohmann::json;
 using test_support::ProgramOutcome;
 using test_support::RunningProgram;
 
-/// Three seconds of moving and a trial.
+/// The study has three seconds of free movement and one trial.
 constexpr char kShortStudy[] = R"json({
   "format": 1, "name": "short", "languages": ["en"], "title": {"en": "Short"},
   "authors": ["A. Author"],
@@ -125,7 +125,7 @@ TEST_F(StreamCommandTest, ASessionIsInStepWithOtherRecorders) {
   EXPECT_EQ(exported.exit_code, 0) << exported.err;
   EXPECT_TRUE(fs::exists(path("xdf/session_0001.xdf")));
 
-  // What the log speaks of is there and is the same.
+  // The file that the log names exists, and it is the same.
   const fs::path file = path("a.study/recordings") / kept["file"].get<std::string>();
   fs::remove(file);
   EXPECT_EQ(jnd({"verify", "a.study"}).exit_code, 1);

@@ -72,7 +72,7 @@ TEST_F(StudyFileCommandsTest, ValidateDoubtsAForceThatHardlyAnybodyMeansWithoutA
   write_file(path("thick.json"), replaced(kTinyStudy, "[4, 16]", "[4, 1000]"));
   const ProgramOutcome plain = jnd({"validate", "thick.json"});
   EXPECT_EQ(plain.exit_code, 0) << plain.err;
-  // 1000 Pa s on the shape of a hand, 1.776 m, at 0.5 m/s.
+  // 1000 Pa s on the shape of a hand, 1.776 m, at 0.5 m/s gives 888 N.
   EXPECT_NE(plain.out.find("warning: this takes 888 N on the whole hand at 0.5 m/s"),
             std::string::npos)
       << plain.out;
@@ -261,7 +261,8 @@ TEST_F(StudyFileCommandsTest, PlanTellsThePracticeByItsLevelsAndNumbersWithoutTh
 TEST_F(StudyFileCommandsTest, PlanTellsHowLongAllTrialsOfAStaircaseTake) {
   const auto json = document(
       jnd({"plan", "viscosity_threshold", "--participants", "2", "--seed", "5", "--json"}).out);
-  // 2 staircases of at most 30 trials, a fifth of all being catch trials, make 75 of 11 s.
+  // 2 staircases of at most 30 trials, with a fifth of all trials being catch trials, make 75
+  // trials of 11 s.
   const auto& order = json["participants"][0]["order"];
   const auto stairs = std::find_if(order.begin(), order.end(), [](const auto& block) {
     return block["block"] == "threshold_staircase";
@@ -368,7 +369,7 @@ TEST_F(StudyFileCommandsTest, StimuliThatTheDeviceCannotRenderAreAProblemOfThePl
   }
   EXPECT_EQ(num_too_strong, 1);
   EXPECT_EQ(json["participants"].size(), 13U);
-  // The same stimulus fits a slower hand.
+  // The same stimulus is weak enough for a slower hand.
   EXPECT_EQ(jnd({"plan", "strong.json", "--speed-m-per-s", "0.01"}).exit_code, 0);
 }
 
@@ -392,7 +393,7 @@ TEST_F(StudyFileCommandsTest, PlanNamesLevelsThatCouldNotTellLapsesAndThoseThatW
   EXPECT_TRUE(hard["untold"]) << hard;
   EXPECT_GT(hard["fraction_change"], 0.08);
   EXPECT_LT(hard["easiest_ratio"], 0.99);
-  // 2.5 times ln(1 + w) from the reference.
+  // The level is 2.5 times ln(1 + w) above the reference, on a logarithmic scale.
   const double w = hard["weber_fraction"];
   EXPECT_NEAR(hard["easy_high"].get<double>(), 1.853 * std::pow(1.0 + w, 2.5), 1e-4);
   EXPECT_FALSE(easy["untold"]) << easy;

@@ -16,14 +16,15 @@ namespace sync_trace_test {
 namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 
-/// One call of the system that came to an end, as `strace -y` prints it.
+/// A completed system call, as `strace -y` prints it.
 struct Call {
   std::string name;
-  std::string file;  ///< What its first argument stands for.
-  std::string text;  ///< The whole line.
+  std::string file;  ///< The file for which the call's first argument stands.
+  std::string text;  ///< The whole line of the trace.
 };
 
-/// The calls in their order. A write counts from where it begins, a sync from where it ended.
+/// Returns the calls in their order. A write is placed where it begins, and a sync where it
+/// ended.
 std::vector<Call> calls_in(const std::string& trace) {
   static const std::regex kWhole(R"(^(\d+) +(\w+)\(\d+<([^>]*)>.* = (-?\d+).*)");
   static const std::regex kBegun(R"(^(\d+) +(\w+)\(\d+<([^>]*)>.*<unfinished \.\.\.>$)");
@@ -52,15 +53,15 @@ std::vector<Call> calls_in(const std::string& trace) {
   return calls;
 }
 
-/// Follows which files hold what is not on the disk yet.
+/// Follows which files hold data that are not on the disk yet.
 class SyncTrace : public CommandTest {
  protected:
-  /// The system calls of a whole session; "" where they cannot be followed.
+  /// Returns the system calls of a whole session, or "" if they cannot be traced.
   std::string trace_of_a_session() {
     write_file(temporary_.path() / "tiny.json", kTinyStudy);
     const fs::path trace = temporary_.path() / "trace";
     try {
-      // A short one first, to see whether following is allowed here at all.
+      // A short program shows first whether tracing is allowed here at all.
       if (traced(trace, {"--version"}).exit_code != 0) return "";
       const ProgramOutcome outcome =
           traced(trace, {"run", "tiny.json", "--study", "new/a.study", "--participant", "P01",
@@ -68,7 +69,7 @@ class SyncTrace : public CommandTest {
       EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
       acknowledged_ = lines_of(outcome.out);
     } catch (const std::runtime_error&) {
-      return "";  // No strace.
+      return "";  // strace is not installed.
     }
     return read_file(trace);
   }
@@ -94,8 +95,8 @@ TEST_F(SyncTrace, EveryEventIsOnDiskBeforeItIsAcknowledgedAndItsSamplesBeforeIt)
   const std::string log = path_of("new/a.study/study.sqlite-wal");
   const std::string samples = path_of("new/a.study/recordings/0001.sqlite-wal");
   static const std::regex kEvent(R"(.*"EVENT (\d+) (\w+)\\n".*)");
-  std::set<std::string> unsynced;  // Files written to since they were synced last.
-  std::set<std::string> synced;    // Since the last acknowledgement.
+  std::set<std::string> unsynced;  // The files that were written to since their last sync.
+  std::set<std::string> synced;    // The files that were synced since the last acknowledgement.
   bool samples_came_first = false;
   std::size_t num_events = 0;
   std::size_t num_with_samples = 0;

@@ -14,7 +14,7 @@ namespace commissioned_exoskeleton_test {
 
 const StepProgress kQuiet = [](double, const std::string&) {};
 
-/// What `jnd stability` found with a hand in it.
+/// Returns the limits that `jnd stability` found with a hand in the device.
 device::ExoskeletonStability shipped_limits(double rate_hz) {
   const StabilityMap map = shipped_stability_map("exoskeleton").value();
   for (const StabilityRow& row : map.rows) {
@@ -43,7 +43,8 @@ TEST(CommissionedExoskeleton, IsMeasuredWholeAndPassesItsDailyCheck) {
   const analysis::ForceFit& force = *commissioning.results().force;
   EXPECT_TRUE(force.gain.holds(1.0));
   EXPECT_LT(force.gain.ci95_high - force.gain.ci95_low, 0.05);
-  // Its fingers give way, and its arm is damped by axis.
+  // There is no value, because the fingers give way and the arm is damped differently along
+  // each axis.
   EXPECT_FALSE(profile.delay_s.has_value());
   EXPECT_FALSE(profile.mechanics.mass_kg.has_value());
   const device::ExoskeletonStability own = shipped_limits(1000.0);

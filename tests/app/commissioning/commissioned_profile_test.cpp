@@ -54,7 +54,8 @@ TEST(CommissionedProfile, IsWhatWasMeasuredAndReadsBackAsItIs) {
 
 TEST(CommissionedProfile, NoiseMakesNoDampingBelowZero) {
   const TemporaryFolder folder;
-  // Without damping and friction, about half of the measurements come out below zero.
+  // The ideal twin has no damping and no friction, so about half of the measurements are below
+  // zero.
   for (int seed = 1; seed <= 2; ++seed) {
     TwinParameters ideal{.position_sd_m = 1e-5,
                          .velocity_sd_m_per_s = 0.001,

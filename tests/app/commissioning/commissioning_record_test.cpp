@@ -71,9 +71,9 @@ TEST_F(CommissioningRecordTest, KeepsThePointsThatEachStepRestsOn) {
 
   const analysis::ForceFit& force = *record.results.force;
   ASSERT_EQ(static_cast<int>(force.ways.size()), force.num_ways);
-  // Ways without loads tell damping, friction and the constant force, loads the gain; where
-  // both tell the constant force upwards, that of the loads is taken, which differs by less
-  // than a thousandth of a newton.
+  // Ways without loads determine damping, friction and the constant force, and loads determine
+  // the gain. Both determine the constant force upwards. The fit takes that of the loads, which
+  // differs by less than a thousandth of a newton.
   double squares_n2 = 0.0, num_unloaded = 0.0, furthest_n = 0.0;
   for (const analysis::GuidedWay& way : force.ways) {
     const double off_n =

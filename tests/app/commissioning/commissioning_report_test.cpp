@@ -40,7 +40,7 @@ std::string without_breaks(std::string html) {
 
 class CommissioningReportTest : public ::testing::Test {
  protected:
-  /// All of its steps, and a profile.
+  /// Measures all steps and writes a profile.
   void commission() {
     Commissioning commissioning = begun();
     for (const Step step : kCommissioningSteps) measure(commissioning, step);
@@ -128,7 +128,7 @@ TEST_F(CommissioningReportTest, TheVerdictSaysWhatIsMissing) {
   KnownProfile older = profile;
   older.profile.measured_on = "2020-01-01";
   EXPECT_FALSE(verdict(on_day, older).is_fit) << "of other measurements";
-  // Measured anew on the same day.
+  // The device was measured again on the same day, with slightly other values.
   for (const Step step : kCommissioningSteps) {
     KnownProfile other = profile;
     if (step == Step::kNoise) *other.profile.noise.position_sd_m *= 1.01;

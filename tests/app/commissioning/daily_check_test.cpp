@@ -28,7 +28,7 @@ using test_support::TemporaryFolder;
 constexpr int kTwins = 20;
 const StepProgress kQuiet = [](double, const std::string&) {};
 
-/// As it comes out of a commissioning, of each twin once.
+/// Returns the profile that a commissioning of this twin gives. Each twin is commissioned once.
 const DeviceProfile& profile_of_twin(int seed) {
   static std::array<std::optional<DeviceProfile>, kTwins + 1> made;
   std::optional<DeviceProfile>& profile = made.at(static_cast<std::size_t>(seed));
@@ -44,7 +44,8 @@ const DeviceProfile& profile_of_twin(int seed) {
           CommissioningStep::kForce, CommissioningStep::kDelay}) {
       commissioning.measure(step, twin, *twin.bench(), kQuiet);
     }
-    // The check looks at everything but stability, which takes as long as all the rest.
+    // The test writes the step of stability itself, because measuring it takes as long as all
+    // the rest, and the check does not look at it.
     std::ofstream(record, std::ios::app)
         << R"({"step": "stability", "at": "2026-11-25T10:00:00Z", "found": {"rate_hz)"
            R"(": 1000, "damping_limit_n_s_per_m": {"value": 100, "ci95": [90, 110]},)"
@@ -57,7 +58,7 @@ const DeviceProfile& profile_of_twin(int seed) {
   return *profile;
 }
 
-/// On another day: other noise, other beginnings of the ways.
+/// Checks the device as on another day, with other noise and other beginnings of the ways.
 DailyCheckResult checked(TwinDevice::Parameters parameters, int seed) {
   parameters.noise_seed += 1000;
   TwinDevice twin(parameters);

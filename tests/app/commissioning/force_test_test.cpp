@@ -19,7 +19,7 @@ TEST(ForceTestOfADevice, MovesItWhereItIsToldTo) {
     TwinDevice twin({.friction_n = 0.05});
     const ForceTestResult result =
         test_force(twin, *twin.bench(), {}, {.along = Eigen::Vector3d::Unit(axis)}, kQuiet);
-    // 0.5 N against a spring of 40 N/m.
+    // The hand moves by 0.5 N against a spring of 40 N/m.
     EXPECT_NEAR(result.moved_m, 0.0125, 0.002) << axis;
   }
 }
@@ -29,7 +29,7 @@ TEST(ForceTestOfADevice, IsToldInItsOwnFrame) {
   turned.rotation = Eigen::AngleAxisd(3.14159265, Eigen::Vector3d::UnitZ());
   TwinDevice twin(turned);
   const ForceTest to_the_right{.along = Eigen::Vector3d::UnitX()};
-  // The device itself sees nothing wrong: in its own frame it goes where it is told.
+  // The device itself detects no fault, because in its own frame it goes where it is told.
   EXPECT_GT(test_force(twin, *twin.bench(), {}, to_the_right, kQuiet).moved_m, 0.01);
   const ForceTest as_it_is{.along = Eigen::Vector3d::UnitX(), .rotation = turned.rotation};
   EXPECT_GT(test_force(twin, *twin.bench(), {}, as_it_is, kQuiet).moved_m, 0.01);

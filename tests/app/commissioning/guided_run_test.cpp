@@ -16,7 +16,7 @@
 namespace jnd::app {
 namespace guided_run_test {
 
-/// A twin with a clock of its own: it is measured in real time, and watched over.
+/// This twin has a clock of its own, so it is measured in real time and by a watched loop.
 class TimedTwin final : public device::HapticDevice {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return twin_.name(); }
@@ -40,7 +40,7 @@ class TimedTwin final : public device::HapticDevice {
   device::TwinDevice twin_{{.friction_n = 0.5, .position_sd_m = 1e-5}};
 };
 
-/// Somebody who takes longer for everything than a window may be silent.
+/// Imitates a person who takes longer for every request than a window may be silent.
 class SlowBench final : public device::Bench {
  public:
   explicit SlowBench(device::Bench& bench) : bench_(bench) {}

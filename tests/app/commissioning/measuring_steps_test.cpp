@@ -18,7 +18,8 @@ using device::TwinDevice;
 
 const StepProgress kQuiet = [](double, const std::string&) {};
 
-/// How often a quantity's interval held what the twin was made with.
+/// Counts how often the interval of a quantity contained the value with which the twin was
+/// made.
 class Tally {
  public:
   void count(const std::string& name, bool held) { counts_[name] += held ? 1 : 0; }
@@ -38,7 +39,8 @@ TEST(MeasuringSteps, RecoverWhatTwinsWereMadeWith) {
     const analysis::NoiseFit noise = measure_noise(twin, *twin.bench(), plan, kQuiet);
     const double sd_m =
         std::hypot(truth.position_sd_m, truth.position_resolution_m / std::sqrt(12.0));
-    // Steps that are larger than the noise are no noise that could be added to it.
+    // If the steps of the readings are larger than the noise, they do not add to it as
+    // independent noise.
     if (truth.position_resolution_m < 2.0 * truth.position_sd_m) {
       EXPECT_NEAR(noise.position_sd_m.value, sd_m, 0.05 * sd_m) << seed;
     }
@@ -84,11 +86,11 @@ TEST(MeasuringSteps, HomingTellsHowFarTheZeroIsOffAndWhetherTheToolStays) {
   EXPECT_LT(fell.moved_m, 0.1) << "it is held again as soon as it is seen to fall";
 }
 
-/// The damping or the stiffness from which on a twin without noise, friction and cogging swings
-/// ever further, worked out from its own steps of motion and nothing else.
+/// Returns the damping or the stiffness above which a twin without noise, friction and cogging
+/// oscillates with growing amplitude. It is computed from the twin's own steps of motion alone.
 double own_limit(const TwinDevice::Parameters& twin, bool is_stiffness) {
   constexpr double kStep_s = 1e-4;
-  constexpr int kSteps = 10;  // A tick.
+  constexpr int kSteps = 10;  // So many steps make a tick.
   const auto late = static_cast<int>(std::lround(twin.delay_s / kStep_s));
   const int num_writes = late / kSteps + 2;
   const auto grows = [&](double amount) {
@@ -107,7 +109,7 @@ double own_limit(const TwinDevice::Parameters& twin, bool is_stiffness) {
         position_m += 0.5 * kStep_s * (velocity_m_per_s + next_m_per_s);
         velocity_m_per_s = next_m_per_s;
       }
-      // Under a fluid nothing brings the mass back to a place, so that is left out.
+      // A fluid does not pull the mass back to a place, so the position is left out.
       tick(0, column) = is_stiffness ? position_m : 0.0;
       tick(1, column) = velocity_m_per_s;
       tick(2, column) = written_n;
@@ -123,9 +125,10 @@ double own_limit(const TwinDevice::Parameters& twin, bool is_stiffness) {
   return stable;
 }
 
-// Every sixth of the twins, for time's sake; the document's table has them all.
+// To save time, the test takes every sixth twin. The table in the documentation has all of
+// them.
 TEST(MeasuringSteps, LimitsOfStabilityLieBelowTheTwinsOwnButNotFar) {
-  constexpr double kShape_m = 1.7760;  // Of a viscous fluid.
+  constexpr double kShape_m = 1.7760;  // The shape of the hand in a viscous fluid.
   constexpr double kThickest_pa_s = 512.0;
   for (int seed = 1; seed <= 20; seed += 6) {
     TwinDevice twin(device::drawn_twin(static_cast<std::uint64_t>(seed)));

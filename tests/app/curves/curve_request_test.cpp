@@ -63,18 +63,19 @@ TEST(CurveRequest, AProportionAsAnsweredIsALevelOfACurveWhoseRatesAreKnown) {
   request.task = "mafc:2";
   request.at = {0.5};
   request.at_proportion = {0.75, 0.875};
-  // 0.75 is half way from 0.5 to 1, which is told already; 0.875 three quarters.
+  // 0.75 is half way from 0.5 to 1, which `at` asks for already, and 0.875 is three quarters of
+  // the way.
   analysis::CurveOptions options = options_of(request);
   ASSERT_EQ(options.at.size(), 2U);
   EXPECT_DOUBLE_EQ(options.at[1], 0.75);
   EXPECT_TRUE(options.at_proportion.empty());
   request.at = {};
   request.lapse = "0.1";
-  options = options_of(request);  // 0.25 of the 0.4 from 0.5 to 0.9
+  options = options_of(request);  // 0.75 is 0.25 of the 0.4 from 0.5 to 0.9.
   EXPECT_NEAR(options.at.at(0), 0.625, 1e-15);
   request.task = "yes-no";
   request.symmetric = true;
-  options = options_of(request);  // 0.65 of the 0.8 from 0.1 to 0.9
+  options = options_of(request);  // 0.75 is 0.65 of the 0.8 from 0.1 to 0.9.
   EXPECT_NEAR(options.at.at(0), 0.8125, 1e-15);
   request.symmetric = false;
   request.lapse = "free";

@@ -15,8 +15,8 @@
 
 namespace jnd::app::gui {
 
-/// Frames without a display: everything of the window but its pixels. What is pressed, typed
-/// and clicked waits in the queue until `frame` draws as many frames as it takes.
+/// Makes frames of the window without a display and without pixels. Presses, letters and clicks
+/// wait in a queue until `frame` draws as many frames as they take.
 class HeadlessUi {
  public:
   explicit HeadlessUi(float width = 1600, float height = 1000, float scale = 1.0f,
@@ -28,7 +28,7 @@ class HeadlessUi {
 
   using Draw = std::function<void(Ui&)>;
 
-  /// One frame, and more while input waits; what the last one drew.
+  /// Draws one frame, and more while input waits. Returns what the last frame drew.
   const Drawn& frame(const Draw& draw) {
     int num_frames = 0;
     do {
@@ -59,7 +59,7 @@ class HeadlessUi {
     release(chord);
   }
   void press(Key key) { press(Chord{.key = key}); }
-  /// Goes down and repeats, without being released.
+  /// Presses the key and repeats it without a release.
   void hold(const Chord& chord, int num_repeats) {
     queue_.key({.chord = chord, .action = KeyEvent::Action::kPress});
     write(chord);
@@ -71,7 +71,7 @@ class HeadlessUi {
   void release(const Chord& chord) {
     queue_.key({.chord = chord, .action = KeyEvent::Action::kRelease});
   }
-  /// ASCII.
+  /// Types a text, which must be ASCII.
   void type(std::string_view text) {
     for (const char c : text) {
       const bool is_letter = std::isalpha(static_cast<unsigned char>(c)) != 0;
@@ -84,7 +84,7 @@ class HeadlessUi {
     }
   }
 
-  /// Logical pixels, as everything a test sees.
+  /// Moves the mouse to a place in logical pixels, which all tests use.
   void move(float x, float y) { queue_.mouse_moved(x * theme_.scale(), y * theme_.scale()); }
   void mouse_down() { queue_.mouse_button(true); }
   void mouse_up() { queue_.mouse_button(false); }
@@ -94,8 +94,8 @@ class HeadlessUi {
     mouse_down();
     mouse_up();
   }
-  /// In the middle of what the last frame drew by this name; takes effect with the next
-  /// `frame`.
+  /// Clicks in the middle of the widget that the last frame drew by this name. The click takes
+  /// effect with the next `frame`.
   void click(std::string_view name) {
     const Drawn::Widget* widget = drawn_.find(name);
     if (widget == nullptr) {
@@ -113,8 +113,8 @@ class HeadlessUi {
   [[nodiscard]] Theme& theme() noexcept { return theme_; }
   [[nodiscard]] InputQueue& queue() noexcept { return queue_; }
 
-  bool may_share_keys = false;  ///< Two controls of a screen may ask for one key.
-  float frame_s = 1.0f / 60;    ///< Passes between two frames.
+  bool may_share_keys = false;  ///< Whether two controls of a screen may ask for one key.
+  float frame_s = 1.0f / 60;    ///< The time that passes between two frames.
 
  private:
   static ImGuiContext* make_context(Theme& theme, float width, float height) {

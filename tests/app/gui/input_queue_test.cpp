@@ -20,7 +20,8 @@ void tap(InputQueue& queue, char capital) {
   key(queue, capital, Action::kRelease);
 }
 
-/// Every frame as letters: "Y+" pressed, "Y*" repeated, "Y-" released, "'Y'" written.
+/// Returns every frame as text: "Y+" for a press, "Y*" for a repetition, "Y-" for a release,
+/// and "'Y'" for a character.
 std::vector<std::string> frames(InputQueue& queue) {
   std::vector<std::string> all;
   bool has_more = true;
@@ -81,7 +82,8 @@ TEST(InputQueue, EachCharacterComesWithItsOwnKeyAndEnterAfterThem) {
   tap(queue, '1');
   tap(queue, '2');
   queue.key({.chord = {.key = Key::kEnter}, .action = Action::kPress});
-  queue.character('x');  // Of no key of ours; still not before the Enter.
+  // The character is of no key that we know, and still does not overtake the Enter.
+  queue.character('x');
   EXPECT_EQ(frames(queue),
             (std::vector<std::string>{"1+ '1' ", "1- 2+ '2' ", "2- Enter+ ", "'x' "}));
 }
@@ -143,7 +145,7 @@ TEST(InputQueue, WhatIsHeldCountsAsReleasedWhenTheWindowLosesTheKeyboard) {
   EXPECT_EQ(frames(queue), (std::vector<std::string>{"R+ "}));
   queue.release_all();
   EXPECT_EQ(frames(queue), (std::vector<std::string>{"R- "}));
-  // The backend's own release comes later and says nothing new.
+  // The backend's own release comes later and changes nothing.
   key(queue, 'R', Action::kRelease);
   EXPECT_TRUE(queue.empty());
   queue.release_all();

@@ -25,7 +25,8 @@ constexpr SceneColours kColours = {.ground = {1.0f, 1.0f, 1.0f},
                                    .surface = {0.1f, 0.3f, 0.9f},
                                    .solid = {0.5f, 0.5f, 0.5f}};
 
-/// The lumped hand's tips around this point, all held and in the fluid.
+/// Returns a sample in which the tips of the lumped hand lie around this point, all held and in
+/// the fluid.
 core::Sample hand_at(const Vector3d& middle_m) {
   core::Sample sample;
   sample.attached_bits = sample.immersed_bits = 31;
@@ -36,7 +37,7 @@ core::Sample hand_at(const Vector3d& middle_m) {
   return sample;
 }
 
-/// The exoskeleton in its neutral pose with the hand there.
+/// Returns a sample of the exoskeleton in its neutral pose with the hand at this point.
 core::Sample exoskeleton_at(const Vector3d& middle_m) {
   core::Sample sample = hand_at(middle_m);
   const device::JointVector pose_rad = device::neutral_pose_rad();
@@ -55,7 +56,7 @@ class RobotSceneTest : public ::testing::Test {
   void show(const core::Sample& sample, const SurroundingsView& surroundings = {}) {
     scene_.show(sample, surroundings, kColours, camera_at_first());
   }
-  /// Of this shape and colour.
+  /// Returns the drawn shapes of this type and colour.
   std::vector<mjvGeom> shapes(int type, const SceneColour& colour) {
     std::vector<mjvGeom> found;
     for (int i = 0; i < scene_.scene().ngeom; ++i) {
@@ -133,11 +134,11 @@ TEST_F(RobotSceneTest, AForceIsAnArrowFromItsTipOfThreeCentimetresANewton) {
   show(sample);
   const std::vector<mjvGeom> arrows = shapes(mjGEOM_ARROW, kColours.force);
   ASSERT_EQ(arrows.size(), 1U) << "none for no force";
-  // Of an arrow, MuJoCo draws half.
+  // MuJoCo draws an arrow half as long as its size.
   EXPECT_NEAR(0.5 * arrows[0].size[2], 2.0 * 0.03, 1e-6);
   const Vector3d tip_m(sample.tip_position_m[3].data());
   EXPECT_LT((place_of(arrows[0]) - tip_m).norm(), 1e-6);
-  // The third column of its axes is where it points.
+  // The third column of its axes is its direction.
   EXPECT_NEAR(arrows[0].mat[5], -1.0, 1e-6);
 }
 

@@ -15,7 +15,7 @@ namespace scene_thread_test {
 
 using std::chrono::steady_clock;
 
-/// Until `condition` holds, or for a minute.
+/// Waits until `condition` holds, and at most a minute. Returns whether it holds.
 template <typename Condition>
 bool comes_true(const Condition& condition) {
   const auto patience = steady_clock::now() + std::chrono::seconds(60);
@@ -32,7 +32,7 @@ SceneRequest request_of(std::int64_t tick) {
   return request;
 }
 
-/// Its texture is the tick of what was asked for.
+/// Returns a painter whose texture is the tick of the request.
 SceneThread::Paint paints_ticks() {
   return [](const SceneRequest& request, double) {
     return static_cast<std::uintptr_t>(request.sample.tick);
@@ -44,7 +44,7 @@ TEST(SceneThread, NobodyWaitsWhileItLoads) {
   std::atomic<int> num_woken{0};
   SceneThread scene(
       [&] {
-        loaded.get_future().wait();  // As long as it takes.
+        loaded.get_future().wait();  // Loading takes until the test allows it to end.
         return paints_ticks();
       },
       [&] { ++num_woken; });

@@ -7,7 +7,7 @@ namespace text_layout_test {
 
 using Lines = std::vector<std::string_view>;
 
-/// Every byte is one wide.
+/// In this test every byte is one unit wide.
 float length(std::string_view text) { return static_cast<float>(text.size()); }
 
 TEST(TextLayout, BreaksAtSpacesAndLineEnds) {
@@ -49,7 +49,7 @@ TEST(TextLayout, LinesOfAnyWidthHoldTheWholeText) {
 
 TEST(TextLayout, ShortensWithAnEllipsisOnlyWhereItMust) {
   EXPECT_EQ(shorten("Viscosity", 9, length), "Viscosity");
-  EXPECT_EQ(shorten("Viscosity", 8, length), "Visco…");  // The ellipsis is three bytes.
+  EXPECT_EQ(shorten("Viscosity", 8, length), "Visco…");  // The ellipsis takes three bytes.
   EXPECT_EQ(shorten("to be or", 8 - 1, length), "to b…");
   EXPECT_EQ(shorten("to be or", 6, length), "to…");
   EXPECT_EQ(shorten("ääää", 6, length), "ä…");

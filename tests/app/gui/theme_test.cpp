@@ -12,7 +12,7 @@ namespace jnd::app::gui {
 namespace theme_test {
 
 struct Rgb {
-  double red, green, blue;  // 0 to 255
+  double red, green, blue;  // Each value is from 0 to 255.
 };
 
 Rgb rgb(const Theme& theme, Colour colour) {
@@ -26,7 +26,7 @@ Rgb over(const Rgb& above, const Rgb& below, double alpha) {
           mix(above.blue, below.blue)};
 }
 
-// WCAG 2.1, relative luminance and contrast ratio.
+// Relative luminance and contrast ratio as WCAG 2.1 defines them.
 double luminance(const Rgb& colour) {
   const auto linear = [](double value) {
     const double c = value / 255;
@@ -42,13 +42,14 @@ double contrast(const Rgb& a, const Rgb& b) {
   return (brighter + 0.05) / (darker + 0.05);
 }
 
-constexpr double kReadable = 4.5;  // WCAG 2.1, level AA
+constexpr double kReadable = 4.5;  // The minimum contrast of text in WCAG 2.1, level AA.
 constexpr Colour kMeanings[] = {Colour::kBlue, Colour::kGreen, Colour::kAmber, Colour::kRed,
                                 Colour::kPilot};
 
 TEST(Theme, TheContrastHereIsThatOfWcag) {
   EXPECT_NEAR(contrast({0, 0, 0}, {255, 255, 255}), 21.0, 1e-12);
-  EXPECT_NEAR(contrast({119, 119, 119}, {255, 255, 255}), 4.48, 0.005);  // The known #777.
+  // The contrast of #777 on white is well known.
+  EXPECT_NEAR(contrast({119, 119, 119}, {255, 255, 255}), 4.48, 0.005);
 }
 
 TEST(Theme, WordsAreReadableOnEveryGroundInBothModes) {
@@ -90,7 +91,8 @@ TEST(Theme, WordsAreReadableOnFilledButtons) {
 }
 
 TEST(Theme, LinesStandOutFromTheCard) {
-  constexpr double kVisible = 3.0;  // WCAG 2.1, 1.4.11: graphical objects
+  // The minimum contrast of graphical objects in WCAG 2.1, 1.4.11.
+  constexpr double kVisible = 3.0;
   for (const bool dark : {false, true}) {
     const Theme theme(1.0f, dark);
     for (const Colour colour : kMeanings) {
@@ -112,8 +114,8 @@ TEST(Theme, PacksColoursAsImGuiDoes) {
 }
 
 TEST(Theme, LinesCanBeToldFromTheCardForThoseWhoSeeNoRedOrGreen) {
-  // Blue and amber, the two that plots rely on, also differ in what is left of blue against the
-  // rest: the axis that a red-green deficiency keeps.
+  // Plots rely on blue and amber. These also differ in blue against the mean of red and green,
+  // which is the axis that people with a red-green deficiency keep.
   for (const bool dark : {false, true}) {
     const Theme theme(1.0f, dark);
     const Rgb blue = rgb(theme, Colour::kBlue);
@@ -137,7 +139,7 @@ TEST(Theme, LettersGrowAsFarAsEveryViewHasRoom) {
   EXPECT_EQ(scale_with_room(1.0f, 1024, 640), 1.0f);
   EXPECT_EQ(scale_with_room(2.0f, 1024, 640), 1.0f);
   EXPECT_EQ(scale_with_room(0.5f, 1024, 640), 0.5f);
-  // 1280 / 1024 is 1.25, and 700 / 640 a little more than 1.05.
+  // 1280 / 1024 is 1.25, and 700 / 640 is a little more than 1.05.
   EXPECT_EQ(scale_with_room(2.0f, 1280, 800), 1.25f);
   EXPECT_EQ(scale_with_room(2.0f, 1280, 700), 1.05f);
   EXPECT_EQ(scale_with_room(2.0f, 3840, 2160), 2.0f);

@@ -16,7 +16,7 @@ constexpr Rect kRight = {400, 100, 200, 60};
 const Chord kYes = {.key = letter('Y')};
 const Chord kNo = {.key = letter('N')};
 
-/// Two answers, which count how often each was given.
+/// Draws two answers and counts how often each was given.
 struct Answers {
   int yes = 0, no = 0;
 
@@ -50,7 +50,7 @@ TEST(Button, OfTwoThatHaveOneKeyTheTestsHear) {
     (void)frame.pressed(kYes);
   }),
                           "has the key Y");
-  // One that cannot be used, and what lies below a dialog, take no key from anybody.
+  // A disabled button and a button below a dialog leave their key to others.
   ui.frame([](Ui& frame) {
     (void)frame.button("yes", kLeft, "Thicker", {.key = kYes});
     (void)frame.button("other", kRight, "Note", {.key = kYes, .enabled = false});
@@ -250,7 +250,7 @@ TEST(Dialog, WhatIsTypedWhileItOpensIsForItAndWhatFollowsItsEndIsForTheRest) {
       frame.end_dialog();
       if (ended) is_open = false;
     }
-    // The header comes last, so the dialog is only drawn in the frame after.
+    // The header comes last, so the dialog is drawn only from the next frame on.
     if (frame.pressed({.key = letter('N'), .control = true})) is_open = true;
   };
   ui.press({.key = letter('N'), .control = true});
@@ -361,7 +361,7 @@ TEST(Dialog, AClickThatBeganBeforeItWasThereIsNotForIt) {
   ui.frame(draw);
   ui.move(800, 500);
   ui.mouse_down();
-  is_open = true;  // In the very frame of the press.
+  is_open = true;  // The dialog opens in the very frame of the press.
   ui.frame(draw);
   ui.mouse_up();
   ui.frame(draw);
@@ -489,7 +489,7 @@ TEST(TextArea, WrapsWhatIsTypedWithoutChangingIt) {
   ui.type("Second line");
   ui.frame(draw);
   EXPECT_EQ(note, text + "\nSecond line");
-  // Somewhere in the middle, over a line that is broken by us.
+  // The cursor moves to the middle of the text, across a line that the field itself has broken.
   for (int i = 0; i < 40; ++i) ui.press(Key::kLeft);
   ui.type("QQ");
   ui.press(Key::kBackspace);
@@ -562,7 +562,7 @@ TEST(Keypad, WritesDigitsOnceAndTheyAreNoShortcutsThen) {
   };
   ui.type("12,56");
   ui.press(Key::kBackspace);
-  // The keypad without Num Lock: a key and no character.
+  // A key of the keypad without Num Lock sends no character.
   ui.queue().key({.chord = {.key = letter('7')}, .action = KeyEvent::Action::kPress});
   ui.frame(draw);
   EXPECT_EQ(typed, "12.57");
@@ -617,7 +617,7 @@ TEST(Scroll, MovesWithWheelKeysAndThumbAndHidesWhatIsOutside) {
   EXPECT_EQ(top, 100);
   EXPECT_EQ(ui.drawn().find("row_1")->place.height, 100);
   EXPECT_EQ(ui.drawn().find("row_2")->place.height, 0);
-  ui.click(150, 350);  // Below the place, where the third row would be.
+  ui.click(150, 350);  // The point lies below the place, where a third row would be.
   ui.frame(draw);
   EXPECT_EQ(used, 0);
   ui.wheel(-1);
@@ -636,7 +636,7 @@ TEST(Scroll, MovesWithWheelKeysAndThumbAndHidesWhatIsOutside) {
   ui.click("row_9");
   ui.frame(draw);
   EXPECT_EQ(used, 1);
-  ui.move(395, 290);  // The thumb, at the end.
+  ui.move(395, 290);  // The point is on the scroll bar's thumb, which is at the end.
   ui.mouse_down();
   ui.move(395, 0);
   ui.mouse_up();

@@ -21,8 +21,8 @@ namespace words_test {
 namespace fs = std::filesystem;
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
-/// A language that nobody speaks: its words are English ones in capitals, and its plurals are
-/// three, as in Polish.
+/// A language that nobody speaks. Its words are English words in capitals, and it has three
+/// plurals, as Polish has.
 constexpr const char* kPseudoLanguage = R"po(msgid ""
 msgstr ""
 "Language: xx\n"
@@ -50,7 +50,7 @@ msgstr[1] "{} STROKES"
 msgstr[2] "{} OF STROKES"
 )po";
 
-/// A folder with that language as the program reads it.
+/// Makes a folder with that language, as the program reads it.
 class WordsTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -69,7 +69,8 @@ class WordsTest : public testing::Test {
   [[nodiscard]] fs::path folder() const { return temporary_.path() / "languages"; }
   [[nodiscard]] fs::path temporary_path() const { return temporary_.path(); }
 
-  /// What `say` says in a process of its own, for a language is begun once.
+  /// Returns what `say` returns in a process of its own, because a process chooses its language
+  /// only once.
   [[nodiscard]] std::string said(const Environment& environment,
                                  const std::function<std::string()>& say,
                                  const std::string& chosen = "") const {
@@ -118,7 +119,7 @@ TEST_F(WordsTest, ComeOutTranslated) {
            trn("{} stroke", "{} strokes", 5);
   };
   const std::string translated = "GO ÖN; OF 40 TRIAL 3; 1 STROKE; 3 STROKES; 5 OF STROKES";
-  // Its locale is on no machine, and most machines have no locale at all.
+  // No machine has a locale of this language, and most machines have no locale at all.
   EXPECT_EQ(said({{"LANG", "xx_XX.UTF-8"}}, say), translated);
   EXPECT_EQ(said({{"LC_ALL", "xx"}, {"LANG", "C.UTF-8"}}, say), translated);
   EXPECT_EQ(said({{"LANG", "C.UTF-8"}, {"LANGUAGE", "xx"}}, say), translated);
@@ -187,7 +188,8 @@ TEST_F(WordsTest, LanguagesAreCalledAsTheirCataloguesSay) {
   }
 }
 
-/// The pseudo-language by the name of one that writes decimal commas, or of one that does not.
+/// The test gives the pseudo-language the name of a language that writes decimal commas, or of
+/// one that does not.
 TEST_F(WordsTest, OfALanguageWithDecimalCommasHaveThemUnderstood) {
   const auto says_comma = [this](const Environment& environment, const std::string& chosen) {
     return said(

@@ -23,7 +23,7 @@ void put(const fs::path& file) {
   test_support::write_file(file, "x");
 }
 
-/// A prefix in which the program is installed, and a source tree.
+/// Makes a prefix in which the program is installed, and a source tree.
 class ManualPlaceTest : public ::testing::Test {
  protected:
   fs::path shipped() const { return temporary_.path() / "share" / "jnd"; }
@@ -48,10 +48,10 @@ TEST_F(ManualPlaceTest, TheInstalledSiteComesFirstThenTheInstalledMarkdown) {
 TEST_F(ManualPlaceTest, ATreeHasItsSiteOnceItIsBuiltAndItsMarkdownBefore) {
   put(tree() / "docs/README.md");
   EXPECT_EQ(manual_place(tree(), "docs/README.md").file, tree() / "docs/README.md");
-  // mkdocs makes index.html of a README.
+  // mkdocs makes index.html from a README.
   put(tree() / "build/docs/docs/index.html");
   EXPECT_EQ(manual_place(tree(), "docs/README.md").file, tree() / "build/docs/docs/index.html");
-  // A page that is younger than the site is shown as Markdown.
+  // A page that is newer than the site is shown as Markdown.
   put(tree() / "docs/how-to/new.md");
   EXPECT_EQ(manual_place(tree(), "docs/how-to/new.md").file, tree() / "docs/how-to/new.md");
 }
@@ -90,7 +90,7 @@ TEST(ViewPages, EachIsAPageOfTheSitesNavigation) {
   EXPECT_EQ(manual_page_of_view("none"), kFirstManualPage);
 }
 
-// A screen that is added gets its page: the names stand in the headers of the screens.
+// A new screen needs a page. The test reads the names of the screens from their headers.
 TEST(ViewPages, EveryScreenOfTheWindowHasOne) {
   std::set<std::string> known;
   for (const ViewPage& row : view_pages()) known.emplace(row.view);

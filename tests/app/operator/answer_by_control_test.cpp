@@ -25,7 +25,7 @@ operate::UseControl pressed(const std::string& action, std::int64_t at_ns = 0) {
   return {.action = action, .control = kPedal, .pressed_ns = at_ns};
 }
 
-/// The study, its blocks answered by the participant.
+/// Returns the study with blocks that the participant answers.
 std::string answered_by_participant(std::string study) {
   const std::string procedure = "\"procedure\":";
   for (std::size_t at = study.find(procedure); at != std::string::npos;
@@ -122,7 +122,8 @@ TEST_F(AnswerByControlTest, IntervalsAreChosenAndAdjustmentsMade) {
   EXPECT_EQ(last_row().measures.answered_by, "participant");
 }
 
-// Pressed where nothing is asked, by a foot that rests: nothing happens, and nobody is told.
+// A resting foot may press while nothing is asked. Nothing happens then, and no message
+// appears.
 TEST_F(AnswerByControlTest, APressThatNothingWaitsForIsNoRequest) {
   open(answered_by_participant(kTinyStudy));
   for (const char* action : {"yes", "present", "matches", "step_3", "raise", "cannot_tell"}) {
@@ -152,7 +153,7 @@ TEST_F(AnswerByControlTest, APressWithinTheRampWaitsForItsEnd) {
   EXPECT_EQ(num_rows(), before + 1);
 }
 
-/// The same in real time, where a press has a time of its own.
+/// Runs the same in real time, where a press has a time of its own.
 class PressTimeTest : public RealtimeSessionTest {
  protected:
   SessionView to_ready() {
@@ -182,8 +183,8 @@ const std::string kYesNoStudy = R"json({
      "instruction": {"en": "Feel."}, "question": {"en": "Anything?"}, "expected_trial_s": 5}]
 })json";
 
-// The session may look as late as it likes: what is stored is when the pedal was pressed. The
-// difference is that of two clocks, which are one, and of a tick of the loop.
+// The session may look at the pedal late, but stores when the pedal was pressed. The difference
+// of response times comes from two clocks, which are one here, and from a tick of the loop.
 TEST_F(PressTimeTest, TheTimeOfAnAnswerIsThatOfItsPress) {
   open_window();
   open(kYesNoStudy);
@@ -196,7 +197,7 @@ TEST_F(PressTimeTest, TheTimeOfAnAnswerIsThatOfItsPress) {
     until([](const SessionView& now) { return now.trial && now.trial->felt_s > 0.05; });
     const std::int64_t press_ns = now_ns();
     const double felt_s = view().trial->felt_s;
-    // Meanwhile the session is elsewhere, for anything up to 30 ms.
+    // Meanwhile the session is busy for up to 30 ms.
     std::this_thread::sleep_for(std::chrono::milliseconds(i));
     session_->request(pressed(i % 2 == 0 ? "yes" : "no", press_ns));
     until([&](const SessionView& now) {
@@ -211,7 +212,7 @@ TEST_F(PressTimeTest, TheTimeOfAnAnswerIsThatOfItsPress) {
   std::ranges::sort(stored_ms);
   std::ranges::sort(response_ms);
   EXPECT_LT(stored_ms.back(), 0.001) << "the kernel's time, to the digits of a double";
-  // `felt_s` counts whole ticks, and the loop may be late on a machine that is busy.
+  // `felt_s` counts whole ticks, and on a busy machine the loop may be late.
   EXPECT_LT(response_ms[kNumAnswers / 2], 2.0);
   RecordProperty("response_time_off_ms_p50", std::to_string(response_ms[kNumAnswers / 2]));
   RecordProperty("response_time_off_ms_max", std::to_string(response_ms.back()));
@@ -222,7 +223,8 @@ TEST_F(PressTimeTest, APressBeforeTheStimulusIsNoAnswerToIt) {
   open(kYesNoStudy);
   session_->request(operate::Begin{});
   const std::int64_t trial = to_ready().trial->trial;
-  // Well before, for on a busy machine the loop is some ticks late, and so is its time.
+  // The press comes well before the stimulus, because on a busy machine the loop and its time
+  // are some ticks late.
   const std::int64_t before_ns = now_ns() - 200'000'000;
   session_->request(operate::Present{trial, "test"});
   until([](const SessionView& now) { return now.trial && now.trial->felt_s > 0.1; });

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using test_support::comes_about;
 using ::testing::HasSubstr;
 
-/// A window with one pedal, which is a pipe.
+/// Imitates a window with one pedal, which is a pipe.
 class AnswerControlsTest : public ::testing::Test {
  protected:
   ~AnswerControlsTest() override { controls_.reset(); }
@@ -120,7 +120,8 @@ TEST_F(AnswerControlsTest, AMappedStopStopsPastEverything) {
   EXPECT_FALSE(controls_->is_let_go());
 }
 
-// A device that is ours alone types nowhere: its Escape would be lost.
+// A device that the program reads alone types nothing into the window, so its Escape would be
+// lost.
 TEST_F(AnswerControlsTest, EscapeOfADeviceThatIsOursStaysTheStop) {
   controls_->set("first", key("KEY_B"));
   begin_session();

@@ -6,8 +6,8 @@
 #include "app/answering_study.h"
 #include "app/operator/operated_session_fixture.h"
 
-// What the operator sees and can do where an answer has a deadline, a stimulus its times, going
-// back an end, and "cannot tell" is an answer.
+// Tests what the operator sees and can do if answers have a deadline, stimuli have times, going
+// back is limited, and "cannot tell" is an answer.
 
 namespace jnd::app {
 namespace answering_view_test {
@@ -24,7 +24,8 @@ class AnsweringViewTest : public OperatedSessionTest {
   SessionView show(const std::string& interval) {
     return act(operate::Present{trial(), interval});
   }
-  /// The reference for as long as it has to be felt, then the test for so long.
+  /// Presents the reference for as long as it has to be felt, and then the test for `test_s`
+  /// seconds.
   SessionView feel(double test_s) {
     show("reference");
     pass(1.1);
@@ -59,7 +60,7 @@ TEST_F(AnsweringViewTest, NobodyGoesOnBeforeTheLeastTimeAndIsToldHowLongItTakes)
   now = show("test");
   EXPECT_EQ(now.refusal, "");
   EXPECT_EQ(now.trial->interval, "test");
-  pass(0.1);  // Its ramp.
+  pass(0.1);  // The ramp takes this time.
   EXPECT_TRUE(act(operate::Answer{trial(), 1.0}).refusal.starts_with("it has to be felt for"));
   EXPECT_TRUE(store_->trials(session_number_).empty());
   pass(1.0);
@@ -163,7 +164,7 @@ TEST_F(AnsweringViewTest, AnAnswerThatComesTooLateIsKeptInTheLogAndDoesNotCount)
   const std::int64_t late = trial();
   feel(1.5);
   session_->request(operate::Answer{late, 1.0});
-  session_->advance(1.6);  // As beside a disk that takes its time.
+  session_->advance(1.6);  // The jump imitates a disk that takes its time.
   EXPECT_EQ(view().refusal, "that was too late, and the trial comes again");
   EXPECT_TRUE(store_->trials(session_number_).empty());
   ASSERT_EQ(events("attempt_discarded").size(), 1U);

@@ -36,10 +36,10 @@ TEST(ColumnRoles, TheCellThatIsAYesIsGuessedWhereTheAnswersAreOthers) {
   request.yes = "x";
   request = with_role(request, some_preview(), "key", ColumnRole::kYes);
   EXPECT_EQ(request.yes_value, "right");
-  // Counts have none.
+  // A column of counts has no value that means yes.
   request = with_role(request, some_preview(), "n", ColumnRole::kTrials);
   EXPECT_EQ(request.yes_value, "");
-  // One that somebody chose stays.
+  // A value that somebody chose stays.
   request.yes_value = "left";
   request = with_role(request, some_preview(), "x", ColumnRole::kIntensity);
   EXPECT_EQ(request.yes_value, "left");

@@ -6,12 +6,12 @@
 namespace jnd::app {
 namespace doubted_answer_test {
 
-/// Answers that are asked about before they are stored.
+/// Tests answers about which the program asks before it stores them.
 class DoubtedAnswerTest : public OperatedSessionTest {
  protected:
   DoubtedAnswerTest() { asks_about_answers_ = true; }
 
-  /// The stimulus of an estimation, for that long.
+  /// Presents the stimulus of an estimation for this time. Returns the trial.
   std::int64_t feel(double duration_s) {
     const std::int64_t trial = view().trial->trial;
     act(operate::Present{trial, "test"});
@@ -123,7 +123,7 @@ TEST_F(DoubtedAnswerTest, AnAnswerInTimeIsNotMissedWhileItIsAskedAbout) {
   act(operate::StoreDoubted{trial});
   ASSERT_EQ(store_->trials(session_number_).size(), 1U);
   EXPECT_EQ(store_->trials(session_number_)[0].response, 5000.0);
-  // Whoever goes back after it has missed it.
+  // A person who goes back after the deadline has missed it.
   const std::int64_t next = feel(10.0);
   act(operate::Answer{next, 9000.0});
   pass(5.0);

@@ -150,7 +150,7 @@ TEST_F(ExportActionsTest, AVerificationTellsEveryProblem) {
 }
 
 TEST_F(ExportActionsTest, AVerificationPlaysEveryLogAgain) {
-  // Its rows are sound, and its events have nothing in them.
+  // The rows of this session are sound, but its events are empty.
   analysis::HandMadeStudy study(kTinyStudy);
   study.add("P01");
   study.estimate(1.0, 100.0);

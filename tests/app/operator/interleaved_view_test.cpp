@@ -5,7 +5,7 @@
 #include "app/operator/study_folder.h"
 #include "app/operator/study_outline.h"
 
-// What the operator is told, sees and can do while trials of several blocks are mixed.
+// Tests what the operator reads, sees and can do while trials of several blocks are mixed.
 
 namespace jnd::app {
 namespace interleaved_view_test {
@@ -16,7 +16,7 @@ class InterleavedViewTest : public OperatedSessionTest {
     open(kInterleavedStudy);
     return act(operate::Begin{});
   }
-  /// The trial that waits, answered, and what is asked after it.
+  /// Answers the waiting trial and the question after it.
   SessionView answer_now(double value) {
     answer_trial(view(), value);
     if (view().step == Step::kItem) {

@@ -12,7 +12,7 @@
 namespace jnd::app {
 namespace live_trace_test {
 
-/// All tips alike.
+/// Returns a sample in which all tips have the same values.
 core::Sample sample(std::int64_t tick, double x_m, double speed_m_per_s, double tip_force_n) {
   core::Sample sample;
   sample.tick = tick;

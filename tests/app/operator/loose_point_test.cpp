@@ -6,11 +6,11 @@
 namespace jnd::app {
 namespace loose_point_test {
 
-/// A session whose device loses the hold of the index finger for a while.
+/// Tests a session whose device loses hold of the index finger for a while.
 class LoosePointTest : public OperatedSessionTest {
  protected:
-  /// At the session's next step, 0.11 s after the device was opened; the finger is off from
-  /// there to there, in the device's time.
+  /// Goes on to the session's next step, 0.11 s after the device was opened. The finger is off
+  /// between the two times, which are in the device's time.
   SessionView go_on_with_loose_index(double from_s, double to_s) {
     reopen({{.first_tick = std::llround(1000.0 * from_s),
              .num_ticks = std::llround(1000.0 * (to_s - from_s)),

@@ -7,7 +7,7 @@
 namespace jnd::app {
 namespace missed_ticks_test {
 
-/// A device that holds the loop up for a twentieth of a second, again and again.
+/// The device delays the loop by a twentieth of a second, again and again.
 TEST_F(RealtimeSessionTest, AnAnswerToWhatWasNotFeltInTimeIsKeptAndDoesNotCount) {
   may_miss_ticks_ = false;
   open_window();

@@ -16,7 +16,7 @@
 namespace jnd::app {
 namespace network_session_test {
 
-/// The lumped hand as a device that can hurt somebody.
+/// The lumped hand, which here claims to be a device that can hurt somebody.
 class HurtfulHand final : public device::HapticDevice {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "hurtful"; }
@@ -44,11 +44,11 @@ class HurtfulHand final : public device::HapticDevice {
   core::PointVectors acted_n_ = core::zero_vectors();
 };
 
-/// A simulated hand behind the network, at a clock of its own; gone without a word when it is
-/// destroyed, as a process that was killed.
+/// Serves a simulated hand over the network, with a clock of its own. When it is destroyed, it
+/// disappears without a message, as a killed process does.
 class ServedHand {
  public:
-  /// Port 0: any that is free.
+  /// If `port` is 0, any free port is taken.
   explicit ServedHand(std::uint64_t first_stream_id, std::uint16_t port = 0,
                       std::unique_ptr<device::HapticDevice> hand = device::make_device("lumped",
                                                                                        1000.0))
@@ -84,12 +84,12 @@ class ServedHand {
   std::thread thread_;
 };
 
-/// An operator whose device is at the other end of a network.
+/// Tests an operator whose device is at the other end of a network.
 class NetworkSessionTest : public RealtimeSessionTest {
  protected:
   ~NetworkSessionTest() override { session_.reset(); }
 
-  /// Up to the first trial, in real time.
+  /// Runs a session in real time up to its first trial.
   SessionView begin() {
     hand_.emplace(1);
     device_ = "network:" + hand_->place() + ",simulated";
@@ -99,12 +99,12 @@ class NetworkSessionTest : public RealtimeSessionTest {
     return until([](const SessionView& now) { return now.step == Step::kReady; });
   }
 
-  /// The device dies; a fault is raised.
+  /// Ends the device and waits for the fault.
   void kill_device() {
     hand_.reset();
     until([](const SessionView& now) { return now.step == Step::kFault; });
   }
-  /// As often as it takes: a connection has to be good for a while first.
+  /// Tries to arm as often as it takes, because a connection first has to be good for a while.
   SessionView rearm() {
     return until([this](const SessionView& now) {
       if (now.step == Step::kFault) session_->request(operate::Rearm{});
@@ -116,7 +116,7 @@ class NetworkSessionTest : public RealtimeSessionTest {
     hand_.emplace(2, static_cast<std::uint16_t>(std::stoi(port)));
   }
 
-  /// Felt and answered; returns what comes next.
+  /// Presents and answers the trial. Returns what comes next.
   SessionView answer(std::int64_t trial) {
     present(trial, "test");
     session_->request(operate::Answer{trial, 12.0});
@@ -204,7 +204,8 @@ TEST_F(NetworkSessionTest, ResumesInANewProgramAfterTheDeviceDiedInAPause) {
   expect_both_trials_stored_once();
 }
 
-/// SAFETY.md: a real device that nobody measured is not even opened for a study with force.
+/// As SAFETY.md says, the program does not even open an unmeasured real device for a study with
+/// force.
 TEST_F(NetworkSessionTest, ARealDeviceWithoutAProfileIsNotOpenedForAStudyWithForce) {
   hand_.emplace(1, 0, std::make_unique<HurtfulHand>());
   device_ = "network:" + hand_->place();
@@ -230,7 +231,7 @@ TEST_F(NetworkSessionTest, ARealDeviceRunsByTheProfileThatTheSessionKeeps) {
   EXPECT_FALSE(store_->session(session_number_).device_profile_sha256.empty());
   session_->request(operate::Begin{});
   until([](const SessionView& now) { return now.step != Step::kBegin; });
-  // What the device says of itself is kept besides.
+  // The program also keeps what the device says about itself.
   const std::vector<core::EventRow> events = store_->events(session_number_);
   EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const core::EventRow& event) {
     return event.kind == "loop_started" &&
@@ -238,7 +239,8 @@ TEST_F(NetworkSessionTest, ARealDeviceRunsByTheProfileThatTheSessionKeeps) {
   }));
 }
 
-/// A connection may be armed only once it has been good for a while, and `arm` waits for that.
+/// A device may be armed only after its connection was good for a while, and `arm` waits for
+/// that.
 TEST(NetworkArming, ADeviceThatCanHurtIsArmedWhereSomebodySaysSo) {
   for (const bool arm : {false, true}) {
     ServedHand hand(1, 0, std::make_unique<HurtfulHand>());

@@ -13,8 +13,9 @@
 namespace jnd::app {
 namespace open_data_test {
 
-/// Two proportions a group and two parameters, so that the curve goes through both: a quarter
-/// at 0 and three quarters at 10 are a location of 5 and a scale of 5 / 0.67449.
+/// Each group has two proportions, and the curve has two parameters, so it goes through both
+/// points. A quarter at 0 and three quarters at 10 give a location of 5 and a scale of 5 /
+/// 0.67449.
 constexpr char kQuarters[] =
     "condition,x,k,n\nlow,0,10,40\nlow,10,30,40\nhigh,20,10,40\nhigh,30,30,40\n";
 
@@ -94,7 +95,7 @@ TEST_F(OpenDataTest, AFileThatIsNoTableSaysWhyInTheReadersWords) {
   data_.open(path("gone.csv"));
   data_.wait();
   EXPECT_NE(view.problem.find("found no such file"), std::string::npos) << view.problem;
-  // The next one is as if there had been none before.
+  // The next file opens as if there had been no error before.
   EXPECT_EQ(open(kQuarters).problem, "");
 }
 
@@ -184,7 +185,7 @@ TEST_F(OpenDataTest, TheGoodnessOfFitIsTestedByRedraws) {
   const DataView& view = ask(goodness_choices().at(1).choose(request));
   EXPECT_TRUE(view.command.ends_with("--goodness 1000")) << view.command;
   EXPECT_TRUE(p_of(view).ends_with("by 1000 redraws")) << p_of(view);
-  // Two levels and two parameters: nothing is left to test, which is said.
+  // With two levels and two parameters, nothing is left to test, and the window says so.
   request = open(kQuarters).request;
   EXPECT_EQ(p_of(ask(goodness_choices().at(1).choose(request))), "none");
   EXPECT_TRUE(view.results->groups[0].cautions.back().starts_with(
@@ -198,7 +199,7 @@ TEST_F(OpenDataTest, WhatIsShownIsOfTheLastRequest) {
     data_.ask(request);
     EXPECT_EQ(data_.view().results, nullptr);
   }
-  // Nothing of the others stands there meanwhile.
+  // Until the last result arrives, the view shows no result of the earlier requests.
   while (data_.view().results == nullptr && data_.works()) data_.collect();
   ASSERT_NE(data_.view().results, nullptr);
   EXPECT_NE(data_.view().results->formula.find("arctan"), std::string::npos);

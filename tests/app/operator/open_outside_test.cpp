@@ -16,7 +16,7 @@ namespace open_outside_test {
 
 namespace fs = std::filesystem;
 
-/// A desktop of the test's own: what its xdg-open was given.
+/// Makes a desktop of the test's own, whose xdg-open notes what it was given.
 class OpenOutsideTest : public ::testing::Test {
  protected:
   OpenOutsideTest() : path_(std::getenv("PATH")) {}
@@ -58,7 +58,7 @@ TEST_F(OpenOutsideTest, WhatIsGoneIsTold) {
 }
 
 TEST_F(OpenOutsideTest, WithoutSuchAProgramItSaysWhereTheFileIs) {
-  // A place with a shell and nothing else.
+  // This folder contains a shell and nothing else.
   fs::create_directory(temporary_.path() / "bin");
   fs::create_symlink("/bin/sh", temporary_.path() / "bin" / "sh");
   ::setenv("PATH", (temporary_.path() / "bin").c_str(), 1);

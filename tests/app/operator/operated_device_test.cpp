@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using Act = DeviceQuestion::Act;
 using Step = CommissioningStep;
 
-/// In a folder of its own, as the program would be.
+/// Runs each test in a folder of its own, which is the current folder, as for the program.
 class OperatedDeviceTest : public ::testing::Test {
  protected:
   OperatedDeviceTest() : before_(fs::current_path()) { fs::current_path(temporary_.path()); }

@@ -21,11 +21,11 @@
 
 namespace jnd::app {
 
-/// An operator at the simulated hand, in simulated time: what is pressed is a request, what is
-/// seen is a view.
+/// Plays an operator at the simulated hand in simulated time. A key press is a request, and
+/// what the operator sees is a view.
 class OperatedSessionTest : public ::testing::Test {
  protected:
-  /// A new folder with one session, and the session opened.
+  /// Makes a new folder with one session and opens the session.
   void open(const std::string& study_text = kTinyStudy) {
     study_ = std::make_unique<experiments::Study>(experiments::read_study_text(
         may_miss_ticks_
@@ -46,7 +46,8 @@ class OperatedSessionTest : public ::testing::Test {
     reopen();
   }
 
-  /// As a program started again: the session from its log, on a device that has these faults.
+  /// Reopens the session from its log, as a restarted program does, on a device that has these
+  /// faults.
   void reopen(const std::vector<device::ScheduledFault>& faults = {}) {
     session_.reset();
     session_ = std::make_unique<OperatedSession>(
@@ -68,7 +69,7 @@ class OperatedSessionTest : public ::testing::Test {
     pass(0.1);
   }
 
-  /// As beside a window: the session is looked after every now and then.
+  /// Lets time pass while the session advances in small steps, as it does beside a window.
   void pass(double duration_s) {
     constexpr double kGlanceS = 0.010;
     for (double passed_s = 0.0; passed_s < duration_s; passed_s += kGlanceS) {
@@ -76,7 +77,7 @@ class OperatedSessionTest : public ::testing::Test {
     }
   }
 
-  /// The request, carried out; returns what is seen then.
+  /// Carries out the request. Returns the view after it.
   SessionView act(OperatorRequest request) {
     session_->request(std::move(request));
     pass(0.01);
@@ -85,7 +86,7 @@ class OperatedSessionTest : public ::testing::Test {
 
   SessionView view() const { return session_->view(); }
 
-  /// Begins and answers everything up to the first trial of this block.
+  /// Begins the session and answers everything before the first trial of this block.
   SessionView run_to_block(const std::string& block) {
     if (view().step == Step::kBegin) act(operate::Begin{});
     for (int guard = 0; guard < 1000; ++guard) {
@@ -98,7 +99,7 @@ class OperatedSessionTest : public ::testing::Test {
     return view();
   }
 
-  /// Whatever is asked, answered somehow.
+  /// Gives some answer to whatever is asked.
   void step_on(const SessionView& now) {
     switch (now.step) {
       case Step::kItem:
@@ -145,8 +146,8 @@ class OperatedSessionTest : public ::testing::Test {
     act(operate::Answer{trial, value});
   }
 
-  /// A trial that was put off is not the next one; answered with the rest of its block, it is
-  /// there once, as its second attempt.
+  /// Expects that a postponed trial is not the next one. When the rest of its block is
+  /// answered, it is stored once, as its second attempt.
   void expect_it_comes_later(std::int64_t put_off) {
     EXPECT_NE(view().trial->trial, put_off) << "not right after half of it was felt";
     while (view().step == Step::kReady) answer_trial(view(), 1.0);
@@ -179,14 +180,18 @@ class OperatedSessionTest : public ::testing::Test {
   std::unique_ptr<experiments::Study> study_;
   std::unique_ptr<core::StudyStore> store_;
   std::int64_t session_number_ = 0;
-  std::string device_ = "lumped";  ///< Of sessions opened from now on, as what follows.
-  KnownProfile profile_;           ///< Without a text: none.
+  std::string device_ = "lumped";  ///< The device of sessions that are opened from now on. The
+                                   ///< following fields hold for them, too.
+  KnownProfile profile_;           ///< A profile without a text means that there is none.
   std::map<std::string, std::string> fitting_;
   bool realtime_ = false;
-  bool asks_about_answers_ = false;  ///< Tests answer sooner than any person.
-  bool may_miss_ticks_ = true;       ///< A test in real time must not hang on the machine.
-  SoundChoice sound_;                ///< Of a study that has sound.
-  std::filesystem::path stops_;      ///< Where stops are remembered; "": nowhere.
+  bool asks_about_answers_ = false;  ///< Off by default, because tests answer sooner than any
+                                     ///< person.
+  bool may_miss_ticks_ = true;   ///< On by default, because the speed of the machine must not
+                                 ///< decide a test in real time.
+  SoundChoice sound_;            ///< The sound of a study that has sound.
+  std::filesystem::path stops_;  ///< The folder in which stops are remembered, or "" for
+                                 ///< nowhere.
   std::function<void(const core::Sample&)> on_sample_;
   std::unique_ptr<OperatedSession> session_;
 };

@@ -43,7 +43,7 @@ TEST_F(OperatedSessionTest, AnAnswerCountsForTheTrialThatWasSeenAndNoOther) {
   pass(0.5);
   act(operate::Present{trial, "test"});
   pass(0.5);
-  // The key bounces: twice in one transition.
+  // The key bounces, so the answer arrives twice at one step.
   session_->request(operate::Answer{trial, 1.0});
   const SessionView after = act(operate::Answer{trial, 1.0});
   EXPECT_EQ(after.trial->trial, trial + 1);
@@ -234,7 +234,7 @@ TEST_F(OperatedSessionTest, AHeldKeyDoesNotPileUpSteps) {
   }
   for (int i = 0; i < 10; ++i) pass(0.06);
   EXPECT_EQ(std::ranges::count(kinds(), "intensity_adjusted"), 1);
-  // Three taps are three steps, however fast.
+  // Three taps are three steps, however fast they follow.
   for (int tap = 0; tap < 3; ++tap) session_->request(operate::Adjust{.trial = trial});
   for (int i = 0; i < 10; ++i) pass(0.06);
   EXPECT_EQ(std::ranges::count(kinds(), "intensity_adjusted"), 4);
@@ -364,7 +364,7 @@ TEST_F(OperatedSessionTest, ADoubleBlindViewHoldsNoLevelNoForceAndNoName) {
       EXPECT_EQ(answer.answer, "set");
     }
   }
-  // Nor a path or anything of a picture.
+  // The view shows neither a path nor any part of a picture.
   const core::Sample& sample = now.telemetry.sample;
   EXPECT_EQ(sample.tip_position_m, decltype(sample.tip_position_m){});
   EXPECT_EQ(sample.tip_velocity_m_per_s, decltype(sample.tip_velocity_m_per_s){});

@@ -81,7 +81,7 @@ TEST(ParticipantPlace, IsChosenAmongTheOtherMonitorsOrBesideWhereThereIsNone) {
   options = screen_options({}, {kOurs});
   ASSERT_EQ(options.size(), 2U);
   EXPECT_EQ(options[1].choice.where, Where::kWindow);
-  // What stands but cannot be had stays among them.
+  // The saved choice stays in the list, although its monitor is missing.
   options = screen_options(kOnTheirs, {kOurs});
   ASSERT_EQ(options.size(), 3U);
   EXPECT_EQ(options[1].choice, kOnTheirs);

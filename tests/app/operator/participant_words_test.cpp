@@ -16,7 +16,8 @@ Labels labels_of(const ParticipantScreen& screen) {
   return labels;
 }
 
-/// The test of a trial is being felt, everything about it is in the view.
+/// Returns the view of a trial whose test is being felt, with everything that a view can say
+/// about it.
 SessionView trial_of(AnswerKind kind, const std::string& language = "en") {
   SessionView view{.language = language, .step = Step::kPresenting};
   view.trial = TrialView{.answer = kind,

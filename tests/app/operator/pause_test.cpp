@@ -6,7 +6,8 @@ namespace pause_test {
 
 class PauseTest : public OperatedSessionTest {
  protected:
-  /// The reference of the first trial is being felt.
+  /// Begins a session up to the moment at which the reference of the first comparison is being
+  /// felt.
   std::int64_t feel_reference() {
     open();
     const std::int64_t trial = run_to_block("comparison").trial->trial;

@@ -241,7 +241,8 @@ TEST(Preflight, TheMachineIsLookedAtQuickly) {
   const std::vector<PreflightLine> lines = look_at_machine();
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_EQ(lines[2].name, "Disk");
-  // The lumped hand, the exoskeleton and the mouse start everywhere, "unplugged" nowhere.
+  // The lumped hand, the exoskeleton and the mouse start everywhere, and "unplugged" starts
+  // nowhere.
   EXPECT_EQ(lines[3].found, "none connected, 4 simulated");
 }
 

@@ -3,14 +3,14 @@
 #include "app/asked_study.h"
 #include "app/operator/operated_session_fixture.h"
 
-// What the operator of a trial is told, sees and can do where questions follow its answer.
+// Tests what the operator reads, sees and can do if questions follow the answer of a trial.
 
 namespace jnd::app {
 namespace question_view_test {
 
 class QuestionViewTest : public OperatedSessionTest {
  protected:
-  /// The trial that waits, answered.
+  /// Answers the waiting trial.
   SessionView answer_now(double value) {
     answer_trial(view(), value);
     return view();

@@ -86,7 +86,7 @@ TEST_F(RecentStudiesTest, KeepsPathsAndTimesAloneForTheirOwnerAlone) {
   EXPECT_EQ(document["studies"][0].size(), 2U) << document;
   EXPECT_EQ(fs::status(file()).permissions() & fs::perms::all,
             fs::perms::owner_read | fs::perms::owner_write);
-  // Nothing is left of what it was written through.
+  // The temporary file, through which the list was written, is gone.
   EXPECT_EQ(std::distance(fs::directory_iterator(file().parent_path()), {}), 1);
 }
 

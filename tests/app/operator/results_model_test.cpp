@@ -24,7 +24,7 @@ ResultsModel model_of(const std::filesystem::path& folder) {
   return results_model(folder, control);
 }
 
-/// Six participants who compare, each with another number of right answers.
+/// Adds six participants who compare. The numbers of right answers differ between them.
 void add_six_comparers(HandMadeStudy& study) {
   for (const int right : {7, 8, 9, 8, 7, 9}) {
     static int number = 0;
@@ -50,7 +50,7 @@ TEST(ResultsModel, EveryNumberIsTheOneOfTheResultsCommand) {
   EXPECT_EQ(model.numbers.size(), num_estimates);
 }
 
-/// As nine of ten right at 12, but with a pse above the reference.
+/// Adds nine right answers of ten at 12, and a pse above the reference.
 void compare_above(HandMadeStudy& study) {
   study.compare_ten("comparison", 9);
   for (int answered = 0; answered < 10; ++answered) {
@@ -118,7 +118,7 @@ TEST(ResultsModel, BoxesOfWeberFractionsHaveThePseOfThePrimaryValueAndSaySo) {
 }
 
 TEST(BoxOf, HasQuartilesWhiskersAndOutliersAsWorkedByHand) {
-  // 1 2 3 4 5 100: quartiles 2.25 and 4.75, fences -1.5 and 8.5.
+  // The values 1 2 3 4 5 100 have the quartiles 2.25 and 4.75, and the fences -1.5 and 8.5.
   const Box box = box_of("x", {{"a", 5}, {"b", 1}, {"c", 3}, {"d", 100}, {"e", 2}, {"f", 4}});
   EXPECT_DOUBLE_EQ(box.plot.median, 3.5);
   EXPECT_DOUBLE_EQ(box.plot.lower_quartile, 2.25);
@@ -215,7 +215,7 @@ TEST(ResultsModel, TrialsSetAsideAndExcludedParticipantsAreNamed) {
   EXPECT_TRUE(has_chip(model, "P02: no answers in Comparison", Tone::kWarning));
 }
 
-/// Group D and Group E, which everybody compares in.
+/// Returns a study with Group D and Group E, in both of which everybody compares.
 std::string two_groups() {
   return replaced(
       replaced(kTinyStudy, R"("name": "production", "procedure": "magnitude_production",

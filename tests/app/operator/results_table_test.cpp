@@ -10,7 +10,7 @@ using namespace results;
 
 TEST(ResultsTable, HasAColumnOfThresholds) {
   analysis::HandMadeStudy study(analysis::kFeltProtocol);
-  analysis::add_felt_answers(study);  // P01 has a threshold of 0.2 Pa s, P02 is degenerate.
+  analysis::add_felt_answers(study);  // P01 has a threshold of 0.2 Pa s, and P02 is degenerate.
   const analysis::StudyData data = analysis::load_study(study.store());
   const analysis::StudyResults results = analysis::results_of(data, {}, {.num_resamples = 50});
   const ResultsSource source{data, results, {{"felt", "Felt"}}};

@@ -27,8 +27,8 @@ TEST(SessionCount, CountsBlocksThatNobodyHasEntered) {
   EXPECT_EQ(before.num_trials, 12);
   EXPECT_FALSE(before.is_expected);
 
-  // The first is over, one trial of it void; of the second one of two that were drawn is
-  // answered.
+  // The first block is over, and one of its trials is void. Six trials of the second block are
+  // drawn, and one of them is answered.
   state.stage = 2;
   state.first_together = 2;
   state.stage_open = true;

@@ -10,10 +10,11 @@
 namespace jnd::app {
 namespace session_faults_test {
 
-/// Faults that come in a row, and pauses around them.
+/// Tests faults that follow one another, and pauses around them.
 class SessionFaultsTest : public OperatedSessionTest {
  protected:
-  /// In a block, at its next trial, on a device that goes wrong so, from then on, in seconds.
+  /// Resumes a session at the next trial of a block, on a device that has this fault between
+  /// the two times in seconds.
   SessionView go_on_with(device::Injection injection, double from_s, double to_s) {
     open();
     run_to_block("comparison");
@@ -107,7 +108,7 @@ TEST_F(SessionFaultsTest, NothingGoesOnByItselfWithALooseFinger) {
 }
 
 TEST_F(SessionFaultsTest, AFaultThatFollowsOnArmingIsToldAndKeptLikeTheFirst) {
-  // The hand leaves the workspace while there is no force anyway, and comes back later.
+  // The hand leaves the workspace while there is no force, and comes back later.
   go_on_with(device::Injection::kPositionJump, 0.5, 2.0);
   stop();
   EXPECT_EQ(num_flight_records(), 1U);
@@ -121,7 +122,7 @@ TEST_F(SessionFaultsTest, AFaultThatFollowsOnArmingIsToldAndKeptLikeTheFirst) {
   EXPECT_NE(faults_stored().back().find(start), std::string::npos) << faults_stored().back();
   EXPECT_EQ(num_flight_records(), 2U);
 
-  // The same again is a fault of its own.
+  // If the same happens again, it is a fault of its own.
   armed = rearm();
   EXPECT_EQ(armed.fault_name, "outside_workspace");
   EXPECT_EQ(faults_stored().size(), 3U);
@@ -135,7 +136,8 @@ TEST_F(SessionFaultsTest, AFaultThatFollowsOnArmingIsToldAndKeptLikeTheFirst) {
   EXPECT_TRUE(core::verify(*store_).problems.empty());
 }
 
-/// Left with the stop pressed, by a program that ends: the exchange is a new one.
+/// The person leaves with the stop pressed, and the program ends. The next program has a new
+/// exchange, which the test imitates by releasing the stop of the old one.
 TEST_F(SessionFaultsTest, AStopHoldsForTheNextSessionAndTheNextStart) {
   stops_ = temporary_.path() / "state";
   open();

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A study with one whole session.
+/// Holds a study with one complete session.
 class SessionRecordTest : public ::testing::Test {
  protected:
   SessionRecordTest() { made_.simulate(1); }
@@ -28,7 +28,7 @@ class SessionRecordTest : public ::testing::Test {
   [[nodiscard]] SessionRecord record(std::int64_t session = 1) const {
     return session_record(folder(), session);
   }
-  /// An act on the session, as another program might do it.
+  /// Does something to the session, as another program might.
   template <typename Act>
   void with_session(std::int64_t session, const Act& act) {
     core::StudyStore store(folder(), core::StudyStore::Mode::kReadWrite);
@@ -43,7 +43,7 @@ class SessionRecordTest : public ::testing::Test {
   SimulatedStudy made_;
 };
 
-/// Every word that a page could show.
+/// Returns every word that a page could show.
 std::string all_words_of(const SessionRecord& record) {
   std::string words = record.line.cells;
   for (const RecordSpan& stage : record.stages) words += stage.title + "\n";
@@ -109,7 +109,7 @@ TEST_F(SessionRecordTest, SaysWhatBecameOfAnAnswer) {
   EXPECT_EQ(now.answers.size(), record().answers.size());
 }
 
-// Somebody does it days later, and was not at the device until then.
+// Somebody does this days later. The time between does not count as time at the device.
 TEST_F(SessionRecordTest, WhatIsDoneAfterwardsIsNoTimeAtTheDevice) {
   const double before_s = record().duration_s;
   correct_answer(folder(), 1, 7, 1.0, "the wrong key");

@@ -10,10 +10,11 @@ namespace session_refusals_test {
 
 using experiments::Direction;
 
-/// What cannot be done leaves what is under way as it was.
+/// Tests that a refused request leaves the session as it was.
 class SessionRefusalsTest : public OperatedSessionTest {
  protected:
-  /// Tries each and compares: step, events and the medium in force.
+  /// Tries each request, and compares the step, the events and the active medium before and
+  /// after it.
   void refuse_all(const std::vector<std::pair<std::string, OperatorRequest>>& requests) {
     for (const auto& [name, request] : requests) {
       const SessionView before = view();

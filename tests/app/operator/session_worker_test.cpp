@@ -41,7 +41,7 @@ class SessionWorkerTest : public ::testing::Test {
         exchange_);
   }
 
-  /// Beats the heart, as a window does, until a picture is like this.
+  /// Sends heartbeats, as a window does, until a view fulfils the condition.
   std::shared_ptr<const SessionView> until(
       SessionWorker& worker, const std::function<bool(const SessionView&)>& is_so) {
     const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -103,13 +103,14 @@ TEST_F(SessionWorkerTest, WhoDestroysItLeavesASessionThatCanBeResumed) {
 TEST_F(SessionWorkerTest, AWindowThatFallsSilentStopsTheForce) {
   const auto worker = start();
   until(*worker, [](const SessionView& view) { return view.step == Step::kBegin; });
-  // From here on nobody beats.
+  // From here on nobody sends heartbeats.
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (worker->view()->step != Step::kFault && std::chrono::steady_clock::now() < patience) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   EXPECT_EQ(worker->view()->fault_name, "heartbeat_lost");
-  // Who arms it answers again: else the first tick of the armed loop finds the window silent.
+  // Arming needs a heartbeat first. Otherwise the first tick of the armed loop finds the window
+  // silent.
   exchange_.heartbeat.beat();
   worker->request(operate::Rearm{});
   until(*worker, [](const SessionView& view) { return view.step == Step::kBegin; });

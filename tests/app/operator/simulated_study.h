@@ -20,7 +20,7 @@ namespace jnd::app {
 inline const std::string kDoubleBlindStudy =
     replaced(kTinyStudy, R"("languages")", R"("blinding": "double", "languages")");
 
-/// Estimation and production in either order.
+/// A study with estimation and production in either order.
 inline const std::string kCounterbalancedStudy = replaced(
     replaced(replaced(kTinyStudy, R"({"kind": "block", "name": "estimation")",
                       R"({"kind": "counterbalance", "name": "method", "method": "order",
@@ -34,7 +34,7 @@ inline const std::string kCounterbalancedStudy = replaced(
     R"("expected_trial_s": 5}]}]},
     {"kind": "break")");
 
-/// A study file, and a folder with sessions that simulated participants went through.
+/// Makes a study file, and a folder with sessions of simulated participants.
 class SimulatedStudy {
  public:
   explicit SimulatedStudy(const std::string& text = kTinyStudy)
@@ -46,7 +46,7 @@ class SimulatedStudy {
   [[nodiscard]] std::filesystem::path folder() const { return temporary_.path() / "a.study"; }
   [[nodiscard]] const experiments::Study& study() const { return study_; }
 
-  /// Whole sessions of the next participants.
+  /// Simulates whole sessions of the next participants.
   void simulate(int num_participants, bool record = false, bool pilot = false) {
     core::StudyStore store(folder(), core::StudyStore::Mode::kCreate,
                            core::Durability::kAtClose);
@@ -60,7 +60,8 @@ class SimulatedStudy {
          .sessions = add_sessions(store, setup, next_participants(store, num_participants))});
   }
 
-  /// A session that ends resumably once it has so many answers. Its number.
+  /// Simulates a session that is interrupted after `num_answers` answers and can be resumed.
+  /// Returns its number.
   std::int64_t interrupt(int num_answers, bool pilot = false) {
     core::StudyStore store(folder(), core::StudyStore::Mode::kCreate,
                            core::Durability::kAtClose);

@@ -10,7 +10,7 @@
 namespace jnd::app {
 namespace slow_disk_test {
 
-/// On a disk that is slow or fails when it is told to.
+/// Runs a session in real time on a disk that is slow or fails when the test wants it.
 class SlowDiskTest : public RealtimeSessionTest {
  protected:
   SlowDiskTest() {
@@ -28,7 +28,8 @@ class SlowDiskTest : public RealtimeSessionTest {
   }
   ~SlowDiskTest() override { session_.reset(); }
 
-  /// To the block's trial after the first as fast as it goes, then on in real time.
+  /// Answers the first trial of the comparison in simulated time, and then waits for the next
+  /// one in real time.
   SessionView go_on_in_real_time(const std::vector<device::ScheduledFault>& faults = {}) {
     open();
     answer_trial(run_to_block("comparison"), 1.0);
@@ -45,7 +46,7 @@ class SlowDiskTest : public RealtimeSessionTest {
     held_ms_ = duration_ms;
     while (!is_holding_) std::this_thread::yield();
   }
-  /// The disk loses a sample, and is well again.
+  /// Makes the disk lose a sample and then work again.
   void lose_a_sample() {
     fails_ = true;
     while (!has_failed_) std::this_thread::yield();
@@ -57,7 +58,7 @@ class SlowDiskTest : public RealtimeSessionTest {
     for (const core::PlainVector& force : sample.tip_force_n) sum_n += force_n(force);
     return sum_n;
   }
-  /// The tick of the last sample with a force, once the session is closed.
+  /// Returns the tick of the last sample with a force, after the session is closed.
   [[nodiscard]] std::int64_t last_tick_with_force() const {
     std::int64_t last = 0;
     for (const core::Sample& sample : samples_) {
@@ -65,8 +66,8 @@ class SlowDiskTest : public RealtimeSessionTest {
     }
     return last;
   }
-  /// Asks for this while the disk is held, and sees when the force is gone. A loop that is late
-  /// has fewer ticks in the same time, with the force and without.
+  /// Sends the request while the disk is held, and expects that the force soon ends. A loop
+  /// that is late has fewer ticks in the same time, with the force and without it.
   void expect_free_space_at_once(const std::optional<OperatorRequest>& request) {
     constexpr std::int64_t kHeldMs = 1500;
     hold_disk(kHeldMs);
@@ -79,7 +80,8 @@ class SlowDiskTest : public RealtimeSessionTest {
     EXPECT_LT(last_tick_with_force() - asked, kHeldMs / 3);
   }
 
-  std::vector<core::Sample> samples_;  ///< Of the storage thread, while there is a session.
+  std::vector<core::Sample> samples_;  ///< The storage thread writes these while there is a
+                                       ///< session.
   std::atomic<std::int64_t> held_ms_{0};
   std::atomic<bool> is_holding_{false};
   std::atomic<bool> fails_{false};

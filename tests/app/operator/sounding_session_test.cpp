@@ -26,7 +26,7 @@ std::string with_sound(const std::string& sound) {
   return replaced(kTinyStudy, "\"stages\": [", sound + ", \"stages\": [");
 }
 
-/// A session whose sound goes to a fake output that the test plays.
+/// Runs a session whose sound goes to a fake output, which the test plays.
 class SoundingSessionTest : public OperatedSessionTest {
  protected:
   SoundingSessionTest() {
@@ -35,7 +35,7 @@ class SoundingSessionTest : public OperatedSessionTest {
               .open = fake_output(fake_)};
   }
 
-  /// A tick of the session and 10 ms of sound.
+  /// Lets time pass in steps of 10 ms, each with one tick of the session and 10 ms of sound.
   void listen(double duration_s) {
     for (double passed_s = 0.0; passed_s < duration_s; passed_s += 0.010) {
       session_->advance(0.010);
@@ -54,7 +54,7 @@ class SoundingSessionTest : public OperatedSessionTest {
     }
     return found;
   }
-  /// "ready 1", "begin 1" ... as stored so far.
+  /// Returns the cues that are stored so far, for example "ready 1" and "begin 1".
   std::vector<std::string> cues() const {
     std::vector<std::string> found;
     for (const json& event : events_of("cues_played")) {
@@ -81,7 +81,7 @@ TEST_F(SoundingSessionTest, EverySampleIsNoiseAtItsLevelWithTheCuesWhereTheyAreS
   }
   listen(0.5);
   ASSERT_TRUE(now.trial);
-  // The noise by itself: from the first sample that is not silent.
+  // Computes the noise alone, from the first sample that is not silent.
   const std::uint64_t seed = store_->session(session_number_).seed;
   core::Noise noise({}, fake_.rate_hz, core::derived_seed(seed, "noise", {0}));
   const auto begin = std::find_if(fake_.heard.begin(), fake_.heard.end(),
@@ -95,7 +95,7 @@ TEST_F(SoundingSessionTest, EverySampleIsNoiseAtItsLevelWithTheCuesWhereTheyAreS
     expected[i] =
         core::rms_of_level(-30.0) * std::sin(0.5 * std::numbers::pi * place) * noise.next();
   }
-  // Each cue from where its event says.
+  // Adds each cue at the place that its event gives.
   int num_cues = 0;
   for (const json& event : events_of("cues_played")) {
     for (const json& cue : event["cues"]) {
@@ -118,7 +118,7 @@ TEST_F(SoundingSessionTest, EverySampleIsNoiseAtItsLevelWithTheCuesWhereTheyAreS
   }
   EXPECT_GE(num_cues, 8);
   std::int64_t num_wrong = 0;
-  // What was asked for last may be heard and not stored yet.
+  // The last cue may be heard and not stored yet.
   for (std::size_t i = 0; i + 1600 < expected.size(); ++i) {
     num_wrong += std::abs(expected[i] - static_cast<double>(fake_.heard[i])) > 1e-6 ? 1 : 0;
   }
@@ -169,13 +169,13 @@ TEST_F(SoundingSessionTest, AStepOfAnAdjustmentIsNoNewStimulus) {
   EXPECT_EQ(std::ranges::count(all, "end " + number), 1);
 }
 
-// Whoever listens learns nothing of a level: the same acts on stimuli of other levels sound the
-// same to the last sample.
+// Sound reveals nothing about a level: the same acts on stimuli of other levels sound the same
+// to the last sample.
 TEST_F(SoundingSessionTest, WhatIsHeardIsTheSameWhateverTheLevels) {
   std::vector<std::vector<float>> heard_in;
   for (const char* levels : {"[4, 16]", "[7.9, 8.1]"}) {
     fake_ = {};
-    fake_.latency_s = 0.0;  // The clock of the machine has no part in it.
+    fake_.latency_s = 0.0;  // Without latency, the machine's clock has no influence.
     folder_ = temporary_.path() / (std::string("levels_") + std::to_string(heard_in.size()));
     open(replaced(with_sound(std::string(kNoise) + ", " + kCues), "\"viscosity_pa_s\": [4, 16]",
                   std::string("\"viscosity_pa_s\": ") + levels));

@@ -16,7 +16,7 @@ namespace study_folder_test {
 namespace fs = std::filesystem;
 using Status = SessionLine::Status;
 
-/// Every word of a folder that a view could show.
+/// Returns every word of a folder that a view could show.
 std::string all_words(const StudyFolder& study) {
   std::string words = study.title + study.summary();
   for (const SessionLine& line : study.sessions) {
@@ -107,7 +107,8 @@ TEST(StudyFolder, SaysWhereASessionWasInterruptedAndWhatIsSafe) {
   ASSERT_EQ(study.interrupted.size(), 1U);
   const InterruptedSession& open = study.interrupted.front();
   EXPECT_EQ(open.session, session);
-  // Four estimations and two productions before; one of four comparisons is answered.
+  // Four estimations and two productions come before the comparison, and one of four
+  // comparisons is answered.
   EXPECT_EQ(open.sentence(), "P01 was interrupted in Comparison, trial 2 of 4");
   EXPECT_EQ(open.num_answers, 7);
   const core::StudyStore store(made.folder(), core::StudyStore::Mode::kReadOnly);
@@ -235,7 +236,7 @@ class DayInWords : public ::testing::Test {
     parts.tm_isdst = -1;
     return std::int64_t{std::mktime(&parts)} * 1'000'000'000;
   }
-  // Summer time ends on 27 October 2024.
+  // In this time zone, summer time ends on 27 October 2024.
   EnvironmentVariable zone_{"TZ", "CET-1CEST,M3.5.0,M10.5.0/3"};
 };
 

@@ -88,7 +88,8 @@ TEST(StudyOutline, DurationsAndTrialsAreThoseOfThePlan) {
     EXPECT_DOUBLE_EQ(outline.longest_s, longest_s) << name;
     EXPECT_DOUBLE_EQ(longest_session_s(study), longest_s) << name;
     EXPECT_EQ(outline.num_trials, num_trials) << name;
-    // The top level adds up to the longest session, counterbalances and what is in them once.
+    // The durations of the top level add up to the longest session. A counterbalance counts
+    // once together with its stages.
     double sum_s = 0.0;
     for (const OutlineStage& one : outline.stages) {
       EXPECT_FALSE(one.kind.empty()) << name << " " << one.title;
@@ -216,7 +217,7 @@ TEST(Words, OfMediaCellsAndDurations) {
   EXPECT_EQ(words_of({"viscous", "viscosity_pa_s", 8.0}), "viscous, 8 Pa s");
   EXPECT_EQ(words_of({"free_space", "", 0.0}), "free space");
   EXPECT_EQ(cell_words({}), "");
-  // By what people call the blocks, where each arm is one.
+  // If each arm is one block, the words are the blocks' titles.
   const experiments::Study titled = shipped("viscosity_discrimination.json");
   EXPECT_EQ(cell_words(titled, {{"group_order", {"e", "d"}}}), "Group E, then Group D");
   EXPECT_EQ(cell_words({{"order", {"low_first", "high"}}, {"priming", {"primed"}}}),
@@ -242,7 +243,7 @@ TEST(ShownTitles, FallBackOnNamesAndNumberHiddenBlocksByTheirPlace) {
 
 class StudyWatchTest : public ::testing::Test {
  protected:
-  /// As editors save: beside the file, then in its place.
+  /// Saves as editors do: into a file beside it, which then replaces it.
   void save(const std::string& text) const {
     fs::rename(write_file(temporary_.path() / "new", text), file_);
   }

@@ -58,7 +58,7 @@ TEST(StudyOverview, CountsTheCellsAndSaysWhoGetsWhichNext) {
   EXPECT_EQ(next, 1);
   EXPECT_EQ(overview.next_participant, "P05");
   ASSERT_EQ(overview.next_cells.size(), 1U);
-  // What the session itself draws.
+  // The session itself draws the same cell.
   made.simulate(1);
   const StudyFolder folder = open_study_folder(made.folder());
   EXPECT_EQ(folder.sessions.back().participant, "P05");
@@ -133,7 +133,7 @@ TEST(StudyOverview, TheBackupIsAsOldAsItsCopyAndSaysWhatIsNewer) {
   EXPECT_EQ(age.when, "10 days ago");
   EXPECT_EQ(age.num_newer_sessions, 0);
   EXPECT_THAT(age.hint, HasSubstr("own disk"));
-  // Somebody was there since.
+  // Somebody took part after that.
   {
     core::StudyStore store(made.folder(), core::StudyStore::Mode::kReadWrite);
     const std::int64_t session =
@@ -172,7 +172,8 @@ TEST(StudyOverview, CountsWhatWentWrongInASession) {
     const auto current = open.state().current_trial();
     if (current && open.state().trial(*current).under_way) open.discard_attempt("a noise");
     open.undo("slipped");
-    // Felt for a tenth of a second, without a stroke, and answered at once.
+    // The participant felt the stimulus for a tenth of a second without a stroke, and answered
+    // at once.
     open.start_trial(tick);
     open.begin_presentation("test", tick);
     open.end_presentation(tick + 99, {.measures = {.num_strokes = 0, .missed_ticks = 4}});
@@ -205,7 +206,7 @@ TEST(StudyOverview, ADamagedLogIsToldAndTheOthersAreStillCounted) {
 class AppointmentTest : public ::testing::Test {
  protected:
   AppointmentTest() { made_.simulate(1); }
-  /// The text of a day so many days from now.
+  /// Returns the text of the day that is `days` days from now.
   [[nodiscard]] static std::string day(int days) {
     return date_text(core::SystemClock().now_ns() + days * kDay_ns);
   }

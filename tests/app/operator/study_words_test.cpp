@@ -16,7 +16,7 @@
 namespace jnd::app {
 namespace study_words_test {
 
-/// The catalogue, with sentences that are broken into lines in one.
+/// Returns the catalogue, with each sentence on one line.
 std::string catalogue() {
   std::string text =
       test_support::read_file(test_support::source_folder() / "data/languages/jnd.pot");

@@ -3,7 +3,7 @@
 #include "app/operator/operated_session_fixture.h"
 #include "app/task_study.h"
 
-// What the operator of a trial is told, sees and can do, task by task.
+// Tests what the operator reads, sees and can do in a trial of each task.
 
 namespace jnd::app {
 namespace task_view_test {
@@ -16,7 +16,7 @@ class TaskViewTest : public OperatedSessionTest {
     design_ = store_->design(session_number_);
     return design_.at(static_cast<std::size_t>(trial) - 1);
   }
-  /// Every trial up to this block, answered somehow.
+  /// Gives some answer to every trial up to this block.
   SessionView to(const std::string& block) {
     if (view().step == Step::kBegin) act(operate::Begin{});
     for (int guard = 0; guard < 500; ++guard) {
@@ -86,7 +86,7 @@ TEST_F(TaskViewTest, ATwoIntervalTrialIsFirstAndSecondToItsAnswer) {
 }
 
 TEST_F(TaskViewTest, NothingInAViewTellsWhichIntervalHoldsTheTest) {
-  // The same picture for a test in the first and in the second interval.
+  // The view is the same for a test in the first and in the second interval.
   open(kTaskStudy);
   to("which");
   std::map<std::int64_t, std::vector<std::string>> pictures;

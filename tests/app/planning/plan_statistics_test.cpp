@@ -13,7 +13,8 @@ namespace plan_statistics_test {
 
 using experiments::Study;
 
-/// A staircase beside an estimation; how long the first takes depends on the person.
+/// Returns a study with a staircase and an estimation. How long the staircase takes depends on
+/// the person.
 Study study_with(const std::string& stairs) {
   return experiments::read_study_text(R"json({
   "format": 1, "name": "adaptive", "languages": ["en"], "title": {"en": "A"}, "authors": ["A"],
@@ -65,7 +66,7 @@ TEST(PlanStatistics, AdaptiveBlocksTakeAsLongAsSimulatedParticipantsNeed) {
   EXPECT_GE(trials.least, 6.0) << "a reversal takes a trial";
   EXPECT_GT(trials.most, trials.least) << "people differ";
   const Spread durations = spread_of(statistics.durations_s);
-  // Four estimations of 30 s, and 35 s for each trial of the staircase.
+  // There are four estimations of 30 s, and each trial of the staircase takes 35 s.
   EXPECT_DOUBLE_EQ(durations.least, 120.0 + 35.0 * trials.least);
   EXPECT_DOUBLE_EQ(durations.most, 120.0 + 35.0 * trials.most);
   ASSERT_EQ(statistics.orders.size(), 1u);
@@ -81,7 +82,7 @@ TEST(PlanStatistics, LevelsThatEndTooEarlyAreSeenByWhereTrialsPileUp) {
   const LevelEnds wide = statistics_of(study_with(kStairs), 12).level_ends.at("stairs");
   EXPECT_EQ(wide.lowest_ratio, 0.0);
   EXPECT_LT(wide.highest_ratio, 0.1);
-  // One and a half times the reference is thicker to everybody.
+  // For everybody, one and a half times the reference is thicker.
   const Study narrow = study_with(R"json(
      "reference_viscosity_pa_s": 8, "start_viscosity_pa_s": [20], "num_down": 2,
      "lowest_viscosity_pa_s": 14, "highest_viscosity_pa_s": 30,
@@ -100,12 +101,14 @@ TEST(PlanStatistics, ABlockTakesNoLessThanItsStimuliAreFelt) {
   const PlanStatistics patient = statistics_of(study, 3);
   EXPECT_FALSE(patient.trial_lengths.at("estimation").is_underrated());
   auto& estimation = std::get<experiments::Block>(study.stages.front().content);
-  estimation.expected_trial_s = 1.0;  // As if somebody could stroke and answer in a second.
+  // This is as if a person could stroke and answer within a second.
+  estimation.expected_trial_s = 1.0;
   const PlanStatistics hasty = statistics_of(study, 3);
   const TrialLength& length = hasty.trial_lengths.at("estimation");
   EXPECT_TRUE(length.is_underrated());
   EXPECT_DOUBLE_EQ(length.felt_s.mean, patient.trial_lengths.at("estimation").felt_s.mean);
-  // Four trials: of 30 s as expected, and of what they are felt.
+  // Each of the four trials takes 30 s in the one plan, and the time for which it is felt in
+  // the other.
   EXPECT_NEAR(spread_of(hasty.durations_s).mean,
               spread_of(patient.durations_s).mean - 4.0 * (30.0 - length.felt_s.mean), 1e-9);
 }

@@ -20,14 +20,15 @@ using analysis::Deviation;
 
 constexpr std::int64_t kRegistered_ns = 1'000'000'000'000;
 
-/// How the study is run, in everything as it was registered.
+/// How the study is conducted. Unchanged, everything is as it was registered.
 struct Conducted {
-  std::string text;  ///< Study file of the sessions.
+  std::string text;  ///< The study file of the sessions.
   int num_participants = 4;
   std::int64_t started_ns = kRegistered_ns + 1;
   std::string device = "lumped";
-  std::string version{};                        ///< Of the program; "": this one.
-  std::string last_ends = "session_completed";  ///< "" leaves the last one open.
+  std::string version{};  ///< The version of the program, or "" for this one.
+  std::string last_ends = "session_completed";  ///< The event that ends the last session, or ""
+                                                ///< to leave it open.
   bool first_comes_again = false;
   bool sets_a_trial_aside = false;
   bool unblinds = false;
@@ -159,9 +160,9 @@ TEST(Deviations, NoneIsInvented) {
   EXPECT_EQ(told(Folder(run).deviations({})), "");
 }
 
-/// One change to a run as planned, and what is to be told of it.
+/// One change to the planned conduct, and the deviation that must be reported.
 struct Seeded {
-  std::string topic;  ///< Beginning of the one deviation.
+  std::string topic;  ///< The beginning of the one deviation.
   std::function<void(Conducted&)> change;
 };
 
@@ -182,7 +183,7 @@ void mixes_the_last_blocks(Conducted& run) {
 
 const std::vector<Seeded>& seeded() {
   static const std::vector<Seeded> kAll = {
-      // Of the design.
+      // Changes of the design.
       {"contrast fluids, alpha", text_with("\"alpha\": 0.01", "\"alpha\": 0.05")},
       {"contrast fluids, direction",
        text_with(R"("direction": "greater")", R"("direction": "less")")},
@@ -207,7 +208,7 @@ const std::vector<Seeded>& seeded() {
        text_with("\"authors\": [", "\"blinding\": \"participant\", \"authors\": [")},
       {"study file", text_with("Stir.", "Stir it.")},
       {"interleaved mixed", mixes_the_last_blocks},
-      // Of how it was run.
+      // Changes of the conduct.
       {"number of participants", [](Conducted& run) { run.num_participants = 3; }},
       {"number of participants", [](Conducted& run) { run.num_participants = 5; }},
       {"time of registration", [](Conducted& run) { run.started_ns = kRegistered_ns - 1000; }},
@@ -215,7 +216,7 @@ const std::vector<Seeded>& seeded() {
       {"program", [](Conducted& run) { run.version = "0.0.9"; }},
       {"exclusions", [](Conducted& run) { run.sets_a_trial_aside = true; }},
       {"blinding", [](Conducted& run) { run.unblinds = true; }},
-      // Of how it was analysed.
+      // Changes of the analysis.
       {"analysis", [](Conducted& run) { run.choices.delivered = true; }},
       {"analysis", [](Conducted& run) { run.choices.inverted_out = true; }},
       {"analysis", [](Conducted& run) { run.choices.with_pilots = true; }},

@@ -27,7 +27,7 @@ using test_support::sound_profile;
 
 constexpr const char* kDay = "2026-11-26";
 
-/// The words of what is thrown; "" if nothing is.
+/// Returns the message of the exception that `work` throws, or "" if it throws none.
 std::string thrown_by(const std::function<void()>& work) {
   try {
     work();
@@ -39,7 +39,7 @@ std::string thrown_by(const std::function<void()>& work) {
 
 class ProfileChoiceTest : public ::testing::Test {
  protected:
-  /// A real device, as it tells of itself before it is open.
+  /// Returns a real device as it describes itself before it is open.
   [[nodiscard]] static DeviceOfProfile device(const std::string& serial = "17",
                                               bool is_simulated = false) {
     return {.name = "plugin:wam",
@@ -288,7 +288,7 @@ TEST_F(ProfileChoiceTest, SaysHowOldAProfileIs) {
   EXPECT_EQ(days_between("2026-02-28", "2028-03-01"), 732) << "over a leap day";
 }
 
-/// A session that was begun with the profile of a real device, to be gone on with.
+/// Resumes a session that was begun with the profile of a real device.
 class ResumedProfileTest : public ProfileChoiceTest {
  protected:
   ResumedProfileTest()

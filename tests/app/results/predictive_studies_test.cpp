@@ -51,12 +51,12 @@ TEST(PredictiveStudies, ShippedPeopleAreThoseOfTheShippedStudiesAndLaboratories)
   }
 }
 
-/// The first two people of the first two groups, simulated again.
+/// Simulates the first two people of the first two groups again.
 TEST(PredictiveStudies, ShippedPeopleAreWhoThisProgramSimulates) {
   if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   for (const auto& [study, laboratory] : kShipped) {
     const Shipped found = shipped(study, laboratory);
-    if (!found.people) continue;  // The other test tells.
+    if (!found.people) continue;  // The other test reports this.
     analysis::PredictivePeople again = simulate_people({.study = found.study,
                                                         .laboratory = found.laboratory,
                                                         .num_people = 4,

@@ -123,7 +123,7 @@ TEST(ResultsOutput, TheComparisonTellsWhatWasCalibratedFromWhatWasHeldOut) {
   EXPECT_NE(table.find("1.3 (sd 0.1)"), std::string::npos) << table;
 }
 
-/// What simulated studies come to, of one of the estimates.
+/// Returns results in which simulated studies are compared with one of the estimates.
 analysis::StudyResults compared_results() {
   analysis::StudyResults results = some_results();
   analysis::PredictiveTail tail{
@@ -181,7 +181,7 @@ TEST(ResultsOutput, JsonTellsTheStatisticAndTheTail) {
   EXPECT_TRUE(json["predictive"]["joint_held_out"].is_null());
 }
 
-/// A section as the questionnaires and the exploratory tests make it.
+/// Returns a section as the questionnaires and the exploratory tests make it.
 analysis::StudyResults answered_results() {
   analysis::StudyResults results{.study = "honey", .num_participants = 2};
   analysis::ResultsSection section{.name = "questionnaires"};

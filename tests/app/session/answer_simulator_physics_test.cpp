@@ -23,19 +23,21 @@ using namespace experiments;
 
 const std::filesystem::path kSource = test_support::source_folder();
 
-/// Answers of a block, of everybody: with a device simulated to every tick, and calculated.
+/// Everybody's answers in a block, once with a device that is simulated tick by tick, and once
+/// calculated.
 struct Both {
   std::vector<std::pair<PlannedTrial, double>> simulated, calculated;
-  double simulated_s = 0.0, calculated_s = 0.0;  ///< In which all of it was felt.
+  double simulated_s = 0.0, calculated_s = 0.0;  ///< The time for which the stimuli were felt.
 };
 
-/// The hand trails behind the arm by what nobody calculates; nothing is faster than it.
+/// The simulated hand lags behind the arm, and the calculation neglects this. So the simulation
+/// always takes longer.
 void expect_alike_felt(const Both& both) {
   EXPECT_LE(both.calculated_s, both.simulated_s);
   EXPECT_GE(both.calculated_s, 0.65 * both.simulated_s);
 }
 
-/// The same persons by both, with the same random numbers.
+/// Returns the answers of the same persons by both methods, with the same random numbers.
 std::map<std::string, Both> answers_of(const std::string& study_name, int num_participants) {
   const std::filesystem::path file = kSource / "protocols" / (study_name + ".json");
   const Study study = read_study(file);
@@ -98,7 +100,8 @@ double pooled_weber_fraction(const std::vector<std::pair<PlannedTrial, double>>&
       .weber_fraction.value();
 }
 
-/// Of the means, on logarithms; production's are its intensities at the targets.
+/// Returns the exponent, which is fitted to the means on logarithmic scales. In production
+/// these are the intensities at each target.
 double exponent(const std::vector<std::pair<PlannedTrial, double>>& answers) {
   std::map<double, std::pair<double, int>> sums;
   for (const auto& [planned, response] : answers) {
@@ -147,8 +150,9 @@ TEST(AnswerSimulatorPhysics, TheSamePersonsEstimateAndProduceAlikeWithAndWithout
       ratio_ln += std::log(both.calculated[trial].second / both.simulated[trial].second);
       ++num;
     }
-    // Where strokes begin, the hand lags: in water, felt by its square, a few percent are lost
-    // that are not calculated, more of production's single stroke.
+    // The hand lags where strokes begin. The force of water grows with the square of the speed,
+    // so a few percent are lost that are not calculated. Production has a single stroke and
+    // loses more.
     EXPECT_NEAR(ratio_ln / num, 0.0, 0.10);
     EXPECT_NEAR(exponent(both.calculated), exponent(both.simulated), 0.10);
     expect_alike_felt(both);

@@ -18,8 +18,8 @@
 #include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
-// Simulated people whose answers miss their deadline, who cannot tell, and whose stimuli have
-// their times, with the device in the loop.
+// Simulates people who miss deadlines or cannot tell, and stimuli with times, with the device
+// in the loop.
 
 namespace jnd::app {
 namespace answering_run_test {
@@ -60,7 +60,7 @@ class AnsweringRunTest : public ::testing::Test {
     EXPECT_TRUE(run_laboratory(run_of(*store)).ended);
     return store;
   }
-  /// As `kill -9` after this many more events.
+  /// Dies as by `kill -9` after `num_events` more events.
   bool run_and_die(const std::string& name, std::int64_t num_events) {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -81,7 +81,7 @@ class AnsweringRunTest : public ::testing::Test {
     ::waitpid(child, &status, 0);
     return WEXITSTATUS(status) == 9;
   }
-  /// Of all attempts: what was presented from when to when, by trial.
+  /// A presentation of any attempt, and how long it lasted.
   struct Felt {
     std::int64_t trial = 0, attempt = 0;
     std::string interval;
@@ -161,7 +161,7 @@ TEST_F(AnsweringRunTest, AStimulusIsFeltNoShorterAndNoLongerThanTheBlockSays) {
       EXPECT_GE(one.duration_s, min_s - 0.0006) << "to the nearest tick";
       EXPECT_LE(one.duration_s, max_s + 0.0006);
     }
-    // What was felt says what it was like, however short.
+    // Each presentation, however short, says what was delivered.
     for (const core::PresentationRow& row : store->presentations(1)) {
       EXPECT_GT(row.measures.delivered_damping_n_s_per_m.value(), 0.0);
     }

@@ -25,7 +25,7 @@ double force_n(const Apparatus& apparatus) {
   return std::hypot(force[0], force[1], force[2]);
 }
 
-/// A window of which only its exchange with the session is left.
+/// Imitates a window by its exchange with the session alone.
 class ApparatusTest : public ::testing::Test {
  protected:
   [[nodiscard]] Apparatus::Parameters with_doors(const std::string& device, bool realtime) {
@@ -43,7 +43,8 @@ class ApparatusTest : public ::testing::Test {
     exchange_.pointer.publish(pointer_);
   }
 
-  /// Beats, if the window lives, until it is so; false if it never comes to that.
+  /// Waits until `is_so`, and sends heartbeats meanwhile if the window lives. Returns false if
+  /// it takes longer than 20 s.
   [[nodiscard]] bool wait_until(const std::function<bool()>& is_so, bool window_lives) {
     const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (std::chrono::steady_clock::now() < patience) {
@@ -54,7 +55,8 @@ class ApparatusTest : public ::testing::Test {
     return false;
   }
 
-  /// A machine so busy that this thread was not heard of in time lost the force for that.
+  /// If the machine was so busy that the heartbeat came too late, the force is gone, so the
+  /// device is armed again.
   [[nodiscard]] bool feels_force(Apparatus& apparatus) {
     if (apparatus.telemetry().fault == core::Fault::kHeartbeatLost) apparatus.rearm();
     return force_n(apparatus) > 1.0;
@@ -175,14 +177,14 @@ TEST_F(ApparatusTest, InRealTimeAWindowThatFallsSilentFadesTheForceUntilItIsRear
   apparatus.render(core::viscous({.viscosity_pa_s = 8.0}));
   apparatus.begin_strokes({}, core::RandomStream(1, "stroke"));
   ASSERT_TRUE(wait_until([&] { return feels_force(apparatus); }, /*window_lives=*/true));
-  // Whoever waits for the disk beats no longer, either.
+  // The program sends no heartbeat either while it waits for the disk.
   const std::uint64_t beats = exchange_.heartbeat.count();
   apparatus.meter_strokes();
   (void)apparatus.finish_strokes();
   try {
     apparatus.run_for(0.05);
   } catch (const core::Error&) {
-    // On a machine this slow the silence is over its limit already.
+    // On a machine this slow, the silence has exceeded its limit already.
   }
   EXPECT_EQ(exchange_.heartbeat.count(), beats);
 
@@ -190,7 +192,7 @@ TEST_F(ApparatusTest, InRealTimeAWindowThatFallsSilentFadesTheForceUntilItIsRear
       [&] { return apparatus.telemetry().fault == core::Fault::kHeartbeatLost; }, false));
   ASSERT_TRUE(wait_until([&] { return apparatus.telemetry().authority_ratio == 0.0; }, false));
   EXPECT_EQ(force_n(apparatus), 0.0);
-  // A window that has come back does not bring the force: a person does.
+  // A window that comes back does not bring back the force. Only a person does.
   const std::int64_t tick = apparatus.next_tick();
   ASSERT_TRUE(wait_until([&] { return apparatus.next_tick() > tick + 20; }, true));
   EXPECT_EQ(apparatus.telemetry().fault, core::Fault::kHeartbeatLost);

@@ -17,7 +17,8 @@ namespace device_run_test {
 
 using namespace std::chrono_literals;
 
-/// A hand that is pulled through a medium, on a device that can be stuck and that counts.
+/// A hand that is pulled through a medium, on a device that can get stuck and that counts
+/// forces.
 class StuckDevice final : public device::HapticDevice {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "stuck"; }
@@ -60,7 +61,7 @@ class StuckDevice final : public device::HapticDevice {
   std::unique_ptr<device::HapticDevice> hand_ = device::make_device("lumped", 1000.0);
 };
 
-/// Waits for up to ten seconds.
+/// Waits for up to ten seconds. Returns whether the condition holds.
 bool comes(const std::function<bool()>& holds) {
   for (int i = 0; i < 1000 && !holds(); ++i) std::this_thread::sleep_for(10ms);
   return holds();
@@ -96,7 +97,8 @@ TEST(DeviceRun, TheEmergencyStopReachesTheDevice) {
 TEST(DeviceRun, TheHeartbeatGoesOnWhileSomebodyIsWaitedFor) {
   StuckDevice device;
   DeviceRun run(device, {});
-  std::this_thread::sleep_for(1s);  // More than three timeouts without a word from here.
+  // This is more than three timeouts without a heartbeat from this thread.
+  std::this_thread::sleep_for(1s);
   EXPECT_NE(run.telemetry().fault, core::Fault::kHeartbeatLost);
 }
 

@@ -24,7 +24,7 @@
 #include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
-// Simulated people in blocks whose trials are mixed, with the device in the loop.
+// Simulates people in blocks whose trials are mixed, with the device in the loop.
 
 namespace jnd::app {
 namespace interleaved_run_test {
@@ -56,7 +56,7 @@ class InterleavedRunTest : public ::testing::Test {
             .session = session,
             .durability = core::Durability::kAtClose};
   }
-  /// As `kill -9` after this many more events.
+  /// Dies as by `kill -9` after `num_events` more events.
   bool run_and_die(const std::string& name, std::int64_t num_events) {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -84,7 +84,7 @@ class InterleavedRunTest : public ::testing::Test {
     }
     return turns;
   }
-  /// Trials with their stimuli, in the order in which they were answered.
+  /// Returns the trials with their stimuli, in the order in which they were answered.
   static std::string order_of(const core::StudyStore& store) {
     std::map<std::int64_t, std::string> order;
     for (const core::TrialRow& row : store.trials(1)) {
@@ -103,8 +103,8 @@ class InterleavedRunTest : public ::testing::Test {
     return words;
   }
 
-  /// Sessions of the shipped study by people of whom each block's fraction is so many times as
-  /// large, on a device without damping of its own.
+  /// Simulates sessions of the shipped study on a device without damping of its own. `effects`
+  /// says by what each block's Weber fraction is multiplied.
   analysis::StudyResults results_with(const std::string& name,
                                       const std::vector<std::string>& effects) {
     study_ = experiments::read_study(test_support::source_folder() / "protocols" /
@@ -131,7 +131,7 @@ class InterleavedRunTest : public ::testing::Test {
     }
     throw core::Error("no contrast " + name);
   }
-  /// What the simulated median person has in this block.
+  /// Returns the Weber fraction of the simulated median person in this block.
   [[nodiscard]] double put_in(const std::string& name) const {
     double fraction = 0.0;
     for_each_stage(study_.stages, [&](const experiments::Stage& stage) {
@@ -174,8 +174,8 @@ TEST_F(InterleavedRunTest, KilledAfterAnyEventItComesToTheOrderOfAnUninterrupted
                        : 0;
     EXPECT_TRUE(run_laboratory(run_of(store)).ended) << killed_after;
     EXPECT_EQ(turns_of(store), turns) << killed_after;
-    // A trial that was cut off is felt again, and may be answered otherwise; then the staircase
-    // goes another way. Whatever stands by then is the same.
+    // An interrupted trial is felt again and may be answered otherwise, and then the staircase
+    // takes another course. What had been answered before stays the same.
     const std::vector<core::TrialRow> trials = store.trials(1);
     bool felt_again = false;
     for (const core::TrialRow& trial : trials) felt_again = felt_again || trial.attempt > 1;
@@ -222,8 +222,8 @@ TEST_F(InterleavedRunTest, NoDifferenceIsToldWhereNoneIsPutIn) {
   const analysis::StudyResults results = results_with("without", {});
   for (const char* name : {"thin_against_thick", "middle_against_the_others"}) {
     const analysis::ContrastTest& none = contrast(results, name);
-    // The interval of one study in twenty misses 1 with no difference there; the difference of
-    // the test above comes to p < 0.001.
+    // Without a difference, the interval of one study in twenty misses 1. The difference of the
+    // test above gives p < 0.001.
     EXPECT_GT(none.p_value.value(), 0.005) << name;
     EXPECT_LT(none.ci95.low.value(), 1.1) << name;
     EXPECT_GT(none.ci95.high.value(), 0.9) << name;

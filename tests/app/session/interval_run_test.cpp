@@ -11,14 +11,14 @@
 #include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
-// Simulated people who choose among intervals, and what their choices come to.
+// Simulates people who choose among intervals, and analyses their choices.
 
 namespace jnd::app {
 namespace interval_run_test {
 
 class IntervalRunTest : public ::testing::Test {
  protected:
-  /// A session of the study by each of so many people of `laboratory_`.
+  /// Simulates one session for each of `num_people` people of `laboratory_`.
   analysis::StudyResults results(const std::string& name, int num_people) {
     std::vector<std::string> people;
     for (int i = 1; i <= num_people; ++i) people.push_back("P0" + std::to_string(i));
@@ -62,7 +62,7 @@ TEST_F(IntervalRunTest, AbilityIsFoundInBothTasksAndNoneInPeopleWhoGuess) {
   const analysis::Comparison& odd = against_guessing(able, "odd_one");
   EXPECT_GT(odd.ci95.low.value(), 0.1);
   EXPECT_LT(odd.p_value.value(), 0.001);
-  // Whoever does both needs a larger difference to find the odd one.
+  // A person who does both tasks needs a larger difference to find the odd one.
   const double two = able.find("thicker.weber_fraction_median_person")->value.value();
   const double three = able.find("odd_one.weber_fraction")->value.value();
   EXPECT_GT(three, two);

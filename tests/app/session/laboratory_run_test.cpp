@@ -30,7 +30,7 @@ class LaboratoryRunTest : public ::testing::Test {
     return temporary_.path() / (name + ".study");
   }
 
-  /// A store with the row of one session, not begun.
+  /// Returns a store with one session that has not begun.
   [[nodiscard]] std::unique_ptr<core::StudyStore> store_with_session(const std::string& name,
                                                                      bool record = true) {
     auto store = std::make_unique<core::StudyStore>(
@@ -56,8 +56,9 @@ class LaboratoryRunTest : public ::testing::Test {
     return {.study = study_, .laboratory = laboratory_, .store = store};
   }
 
-  /// Runs the session in a process of its own that dies at once, with all its threads and
-  /// without a destructor, after this many more events. False if the session ended before.
+  /// Runs the session in a process of its own. The process dies after `num_events` more events,
+  /// at once, with all threads and without a destructor. Returns false if the session ended
+  /// before.
   bool run_and_die(const std::string& name, std::int64_t num_events,
                    const std::string& choice = "repeat") {
     const pid_t child = ::fork();
@@ -82,7 +83,7 @@ class LaboratoryRunTest : public ::testing::Test {
     return WEXITSTATUS(status) == 9;
   }
 
-  /// Hurried persons, so that hundreds of sessions take seconds.
+  /// Returns a laboratory of hurried persons, so that hundreds of sessions take seconds.
   static experiments::Laboratory hurried_laboratory() {
     experiments::Laboratory laboratory = experiments::thesis_laboratory();
     laboratory.arm.home_s = 0.1;
@@ -164,7 +165,7 @@ TEST_F(LaboratoryRunTest, AskedToStopInRealTimeItTakesTheMediumAwayBeforeItWaits
   int num_glances = 0;
   stopping.on_event = [&](const core::EventRow& event) {
     presenting |= event.kind == "presentation_started";
-    // As long as a ramp takes and some more, and shorter than a heartbeat may be silent.
+    // The pause is somewhat longer than a ramp, and shorter than the heartbeat may be silent.
     if (cancelled && event.kind == "loop_measured") {
       std::this_thread::sleep_for(std::chrono::milliseconds(120));
     }
@@ -236,7 +237,7 @@ TEST_F(LaboratoryRunTest, KilledAfterAnyEventItResumesToTheSameOrderAndStimuli) 
     EXPECT_EQ(difference(stimuli_text(store, 1), stimuli), "") << killed_after;
     const core::Integrity after = core::verify(store);
     EXPECT_TRUE(after.complete) << killed_after << ": " << after.problems.front().message;
-    // What had been answered stands as it was.
+    // The answers that had been given stand as they were.
     const std::vector<core::TrialRow> trials = store.trials(1);
     ASSERT_GE(trials.size(), answered.size());
     for (std::size_t i = 0; i < answered.size(); ++i) {
@@ -266,7 +267,7 @@ TEST_F(LaboratoryRunTest, KilledAgainAndAgainItStillEnds) {
 TEST_F(LaboratoryRunTest, ARestartedBlockIsRunAgainInTheSameOrder) {
   const auto whole = store_with_session("whole");
   (void)run(*whole, run_of(*whole));
-  // In the middle of the comparison.
+  // The process dies in the middle of the comparison.
   std::int64_t middle = 0;
   for (const core::TrialRow& trial : whole->trials(1)) {
     if (trial.trial == 8) middle = trial.sequence + 1;
@@ -281,7 +282,7 @@ TEST_F(LaboratoryRunTest, ARestartedBlockIsRunAgainInTheSameOrder) {
   EXPECT_EQ(difference(design_text(store, 1), design_text(*whole, 1)), "");
   EXPECT_EQ(difference(stimuli_text(store, 1), stimuli_text(*whole, 1)), "");
   for (const core::TrialRow& trial : store.trials(1)) {
-    // Trials 7 and 8 had been answered, 9 was being felt.
+    // Trials 7 and 8 had been answered, and trial 9 was being felt.
     EXPECT_EQ(trial.attempt, trial.trial >= 7 && trial.trial <= 9 ? 2 : 1) << trial.trial;
   }
 }
@@ -352,7 +353,7 @@ TEST_F(LaboratoryRunTest, TicksCountOnAcrossAResumptionWhetherSamplesAreKeptOrNo
 }
 
 TEST_F(LaboratoryRunTest, GoesOnAfterADeathWhileTheRecordingWasBeingMade) {
-  // The file is there, but the death came before anything was in it.
+  // The file exists, but the process died before it had written anything into it.
   store_with_session("empty").reset();
   write_file(folder("empty") / "recordings" / "0001.sqlite", "");
   core::StudyStore store(folder("empty"), core::StudyStore::Mode::kReadWrite,
@@ -363,7 +364,7 @@ TEST_F(LaboratoryRunTest, GoesOnAfterADeathWhileTheRecordingWasBeingMade) {
 }
 
 TEST_F(LaboratoryRunTest, AParticipantJudgesWhatWasDeliveredNotWhatWasAskedFor) {
-  // At 16 Pa s the limiter cuts the force; the delivered damping falls below the commanded.
+  // At 16 Pa s the limiter cuts the force, so the delivered damping is below the commanded one.
   const auto free = store_with_session("free");
   (void)run(*free, run_of(*free));
   laboratory_.device.max_total_force_n = 0.8;
@@ -396,7 +397,7 @@ TEST_F(LaboratoryRunTest, RefusesASessionThatIsNotInTheStore) {
   EXPECT_THROW((void)run_laboratory(plan), core::Error);
 }
 
-/// A device that holds the loop up at these ticks, each time for so long.
+/// Returns faults that delay the loop at these ticks, each time by `s` seconds.
 std::vector<device::ScheduledFault> stalls(const std::vector<std::int64_t>& ticks, double s) {
   std::vector<device::ScheduledFault> faults;
   for (const std::int64_t tick : ticks) {
@@ -406,8 +407,8 @@ std::vector<device::ScheduledFault> stalls(const std::vector<std::int64_t>& tick
   return faults;
 }
 
-// More is allowed than a busy machine misses by itself, and the stalls in the first
-// presentation miss more than that: two attempts are left for what may still go wrong.
+// The limit allows more missed ticks than a busy machine causes by itself. The stalls in the
+// first presentation exceed it, and two attempts are left for whatever else may go wrong.
 TEST_F(LaboratoryRunTest, ATrialWithTooManyMissedTicksIsRepeated) {
   study_.device.max_missed_ratio = 0.25;
   const auto store = store_with_session("missed");

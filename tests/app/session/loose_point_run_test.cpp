@@ -14,7 +14,7 @@
 namespace jnd::app {
 namespace loose_point_run_test {
 
-/// Simulated participants whose index finger comes off.
+/// Simulates participants whose index finger comes off.
 class LoosePointRunTest : public ::testing::Test {
  protected:
   LoosePointRunTest() {
@@ -64,7 +64,7 @@ TEST_F(LoosePointRunTest, TheTrialIsRepeatedOnceTheFingerHoldsAgain) {
 }
 
 TEST_F(LoosePointRunTest, AMediumOutsideOfTrialsIsFeltAgain) {
-  // Of two, half a second each, the second.
+  // The finger comes off in the second of two media, each of which lasts half a second.
   EXPECT_TRUE(run(800, 700).ended);
   EXPECT_EQ(count("paused"), 1);
   EXPECT_EQ(count("attempt_discarded"), 0);

@@ -18,7 +18,8 @@ namespace matching_run_test {
 
 using namespace experiments;
 
-/// A fluid like a sphere's drag, matched by one like the hand's, in six trials.
+/// A study of six trials, in which a fluid with the drag of a sphere is matched by one with the
+/// drag of a hand.
 const std::string kMatchingStudy = R"json({
   "format": 1, "name": "matching", "languages": ["en"], "title": {"en": "Matching"},
   "authors": ["A. Author"],
@@ -80,7 +81,7 @@ TEST_F(MatchingRun, TheSamePersonsMatchAlikeWithAndWithoutADevice) {
 
 TEST_F(MatchingRun, TheStandardIsRenderedInItsOwnMedium) {
   for (const core::PresentationRow& row : store_.presentations(sessions_.front())) {
-    // The drag constants of a sphere and of the hand.
+    // The drag constants of a sphere and of a hand, in metres.
     const double constant = row.interval == "reference" ? 1.2322 : 1.7760;
     EXPECT_NEAR(row.measures.commanded_damping_n_s_per_m.value(), constant * row.intensity,
                 1e-3 * row.intensity);
@@ -99,7 +100,7 @@ TEST_F(MatchingRun, VerifiesAndHasResults) {
   EXPECT_NE(results.find("match.ratio_to_standard"), nullptr) << "both are in Pa s";
 }
 
-/// The same study with a person at the window.
+/// Runs the same study with a person at the window.
 class MatchingAtTheWindow : public OperatedSessionTest {};
 
 TEST_F(MatchingAtTheWindow, TheStandardComesFirstThenStepsAndSwitchesUntilItMatches) {

@@ -10,7 +10,7 @@
 #include "experiments/protocol/study_reader.h"
 #include "support/temporary_folder.h"
 
-// A fluid that is adjusted until it feels as strong as a solid, and the other way round.
+// Tests a fluid that is adjusted until it feels as strong as a solid, and the reverse.
 
 namespace jnd::app {
 namespace mixed_matching_test {
@@ -38,8 +38,8 @@ experiments::Laboratory steady_laboratory() {
   return laboratory;
 }
 
-/// What a person of `laboratory` feels to be as strong: as far above what nothing feels like,
-/// in units of what counts as 1.
+/// Returns the match that a person of `laboratory` feels to be as strong: the same multiple of
+/// the stimulus whose strength counts as 1.
 double expected_match(const experiments::Laboratory& laboratory, double stiffness_n_per_m) {
   constexpr double kDampingOfPaS = 1.776;
   return stiffness_n_per_m / laboratory.pressing->standard_stiffness_n_per_m *

@@ -14,7 +14,8 @@ namespace modulus_run_test {
 
 using namespace experiments;
 
-/// A standard felt in every second trial, and numbers of one's own.
+/// A study in which a standard is felt in every second trial, and people choose their own
+/// numbers.
 const std::string kModulusStudy = R"json({
   "format": 1, "name": "modulus", "languages": ["en"], "title": {"en": "Modulus"},
   "authors": ["A. Author"],

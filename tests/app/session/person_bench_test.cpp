@@ -15,7 +15,8 @@ using device::FingerPose;
 
 constexpr int kPoint = 3;
 
-/// A finger whose joints hold that weight, each sensor off by its gain.
+/// Returns a sample of a finger whose joints hold this weight. The gain of each sensor is wrong
+/// by its own factor.
 core::Sample sample_under(double weight_n) {
   core::Sample sample;
   const device::JointVector pose_rad = device::neutral_pose_rad();
@@ -80,7 +81,7 @@ TEST_F(PersonBenchTest, WeightsAreHungStepByStepAndMeasuredForTenSeconds) {
   const device::TorqueReading reading = person.torques_under(FingerPose::k90, 0.05 * 9.81);
   EXPECT_EQ(measured_s_, 10.0);
   EXPECT_EQ(num_told("Hang 50 g at the tip of the index finger"), 1);
-  // In the neutral pose a weight at the index pulls at the abduction alone.
+  // In the neutral pose, a weight at the index finger loads the abduction joint alone.
   EXPECT_GT(std::abs(reading.expected_n_m[0]), 0.03);
   EXPECT_NEAR(reading.measured_n_m[0] / reading.expected_n_m[0], 1.04, 1e-5);
   EXPECT_NEAR(reading.expected_n_m[1], 0.0, 1e-6);

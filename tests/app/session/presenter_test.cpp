@@ -20,7 +20,7 @@
 namespace jnd::app {
 namespace presenter_test {
 
-/// Keeps nothing, and takes its time over the beginning of a presentation.
+/// A log that stores nothing and delays the beginning of a presentation.
 class SlowLog final : public experiments::EventLog {
  public:
   void append(const core::Commit& commit) override {
@@ -29,7 +29,7 @@ class SlowLog final : public experiments::EventLog {
   std::chrono::milliseconds delay{0};
 };
 
-/// A presenter in the block of comparisons, its first trial under way.
+/// Tests a presenter in the block of comparisons, whose first trial is under way.
 class PresenterTest : public ::testing::Test {
  protected:
   void start(bool realtime) {
@@ -61,7 +61,8 @@ class PresenterTest : public ::testing::Test {
 };
 
 TEST_F(PresenterTest, TheRampCountsFromTheMediumAndNotFromTheCommitBeforeIt) {
-  log_.delay = std::chrono::milliseconds(150);  // A heartbeat may be silent for longer.
+  // A heartbeat may be silent for longer than this.
+  log_.delay = std::chrono::milliseconds(150);
   start(/*realtime=*/true);
   apparatus_->run_for(0.01);
   begin();

@@ -15,7 +15,7 @@
 #include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
-// Simulated people who are asked questions after every trial, and what their answers come to.
+// Simulates people who answer questions after every trial, and analyses their answers.
 
 namespace jnd::app {
 namespace question_run_test {
@@ -52,7 +52,8 @@ class QuestionRunTest : public ::testing::Test {
             .session = session,
             .durability = core::Durability::kAtClose};
   }
-  /// As `kill -9` after this many more events; false if the session ended before.
+  /// Dies as by `kill -9` after `num_events` more events. Returns false if the session ended
+  /// before.
   bool run_and_die(const std::string& name, std::int64_t num_events) {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -73,7 +74,7 @@ class QuestionRunTest : public ::testing::Test {
     ::waitpid(child, &status, 0);
     return WEXITSTATUS(status) == 9;
   }
-  /// Sessions of the study of this file with people of `laboratory_`.
+  /// Simulates sessions of this shipped study with people of `laboratory_`.
   analysis::StudyResults simulated(const std::string& study, const std::string& name) {
     study_ = experiments::read_study(test_support::source_folder() / "protocols" /
                                      (study + ".json"));
@@ -115,8 +116,9 @@ TEST_F(QuestionRunTest, KilledAfterAnyEventNothingIsLostAndEveryQuestionIsAskedO
     const std::string last = store.events(1).back().kind;
     num_between += last == "trial_answered" || last == "question_answered" ? 1 : 0;
     EXPECT_TRUE(run_laboratory(run_of(store, 1)).ended) << killed_after;
-    // What had been answered stands as it was, and what waited was answered as it would have
-    // been, unless its trial was cut off and so felt again.
+    // The answers that had been given stand as they were. Waiting questions were answered as
+    // they would have been without the interruption, unless the trial was cut off and so felt
+    // again.
     const std::vector<core::TrialRow> trials = store.trials(1);
     for (std::size_t i = 0; i < answered.size(); ++i) {
       EXPECT_EQ(trials[i].sequence, answered[i].sequence) << killed_after;
@@ -172,7 +174,7 @@ TEST_F(QuestionRunTest, AnEffectThatIsPutInIsFoundAndNoneWhereThereIsNone) {
   EXPECT_GT(ci95_of(with, "comparison.question.confidence.rank_correlation_with_difference")
                 .low.value(),
             0.0);
-  // Nothing that is felt has a part in how pleasant these people call it.
+  // How pleasant these people call a stimulus does not depend on anything that they feel.
   const analysis::Interval none =
       ci95_of(with, "thickness.question.pleasantness.rank_correlation");
   EXPECT_LT(none.low.value(), 0.0);

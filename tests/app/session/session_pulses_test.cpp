@@ -139,7 +139,7 @@ TEST_F(SessionPulsesTest, ACableThatIsPulledInBetweenIsTold) {
   EXPECT_EQ(told("markers_closed")[0]["num_sent"], 1);
 }
 
-// Two sessions that differ in everything that was presented and answered send the same.
+// Two sessions that differ in every stimulus and every answer send the same bytes.
 TEST_F(SessionPulsesTest, TellsWhoIsBlindNothing) {
   std::vector<std::vector<unsigned char>> sent;
   for (const double level : {1.0, 1.9}) {

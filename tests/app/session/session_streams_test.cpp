@@ -35,7 +35,7 @@ class SessionStreamsTest : public ::testing::Test {
             .recording = temporary_.path() / "0003.sqlite",
             .network = network_};
   }
-  /// The stream of ours of this type, from outside.
+  /// Connects from outside to the stream of this type that jnd sends.
   [[nodiscard]] std::unique_ptr<core::StreamInlet> listen(const std::string& type) const {
     core::StreamNetwork network = network_;
     network.peers = {"127.0.0.1"};
@@ -137,7 +137,7 @@ TEST_F(SessionStreamsTest, RecordsEveryStreamOfAKindWithItsClock) {
     streams.follow(session_);
     return events("stream_opened").size() == 2;
   }));
-  // A wave of comparisons takes half a second.
+  // One round of comparing the clocks takes half a second.
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   streams.close(session_);
   const auto opened = events("stream_opened"), closed = events("stream_closed");
@@ -202,7 +202,7 @@ TEST_F(SessionStreamsTest, SamplesOfADoubleBlindStudyAreNotSent) {
       core::find_streams(network, core::query_for(network, "type", "Haptics"), 0.7).empty());
 }
 
-/// Whatever an event holds of levels and answers, no byte of it goes out.
+/// No byte of the markers contains anything that an event holds about levels and answers.
 TEST_F(SessionStreamsTest, NoLevelIsInAnyByteOfTheMarkers) {
   SessionStreams streams(parameters({.markers = true}));
   const auto markers = listen("Markers");

@@ -24,7 +24,7 @@ StabilityRow row(double rate_hz, double delay_s, Contact contact, double viscosi
                      .stiffness_n_per_m = {stiffness_n_per_m, false}}};
 }
 
-/// Delayed rows are there to be left alone.
+/// Returns a map that also has delayed rows, which must not be used.
 StabilityMap small_map() {
   return {.device = "exoskeleton",
           .rows = {row(833, 0.001, Contact::kAttached, 1, 1),
@@ -121,7 +121,8 @@ TEST(StabilityLimits, TheShippedMapHoldsEveryCaseAndALooseFingerIsTheWorst) {
 }
 
 TEST(StabilityLimits, TheShippedMapIsStillThatOfThisProgram) {
-  // Where it is not, `jnd stability --out data/stability/exoskeleton.json` makes it anew.
+  // If this test fails, `jnd stability --out data/stability/exoskeleton.json` makes the map
+  // anew.
   const std::optional<StabilityMap> map = shipped_stability_map("exoskeleton");
   ASSERT_TRUE(map);
   int num_rows = 0;
@@ -165,8 +166,9 @@ TEST(StabilityLimits, ViscositiesAreWithinReachOfTheHandOrOfAFingerOrOfNeither) 
 }
 
 TEST(StabilityLimits, WaterCountsWithTheSlopeOfItsDrag) {
-  // F = 7.4 C_D scale v^2, head on C_D = 0.8899; the slope 2 F / v over 1.776 m is the
-  // viscosity: 2 * 7.4 * 0.8899 * 4 * 0.5 / 1.776 = 14.83 Pa s at 0.5 m/s, twice that at 1 m/s.
+  // F = 7.4 C_D scale v^2, and head on C_D = 0.8899. The slope 2 F / v over 1.776 m is the
+  // viscosity: 2 * 7.4 * 0.8899 * 4 * 0.5 / 1.776 = 14.83 Pa s at 0.5 m/s, and twice that at 1
+  // m/s.
   const experiments::RangeEntry water = {
       .setting = {.medium = "water", .quantity = "scale", .intensity = 4.0}};
   EXPECT_EQ(checked(study_at(1000.0), {water}, 0.5).num_needing_the_hand(), 1);

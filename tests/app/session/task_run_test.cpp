@@ -21,7 +21,7 @@
 namespace jnd::app {
 namespace task_run_test {
 
-/// A simulated session of every task, with the device in the loop.
+/// Simulates a session with every task, with the device in the loop.
 class TaskRunTest : public ::testing::Test {
  protected:
   void simulate() {
@@ -99,7 +99,7 @@ TEST_F(TaskRunTest, TheSamePersonAnswersNearlyTheSameWithoutADevice) {
     const std::vector<double>& other = simulated[block.stage->name];
     if (std::holds_alternative<experiments::Block>(block.stage->content) &&
         block.stage->name == "stairs") {
-      continue;  // One answer that differs makes another staircase.
+      continue;  // A single different answer changes the staircase, so it is not compared.
     }
     ASSERT_EQ(block.trials.size(), other.size()) << block.stage->name;
     int differ = 0;
@@ -154,13 +154,13 @@ TEST_F(TaskRunTest, AnalysesGetNeitherPracticeNorCatchTrials) {
     num_catch += trial.block == "same" ? 1 : 0;
   }
   EXPECT_EQ(num_catch, 4);
-  // That it was practised, and how well, is told beside the data.
+  // The data say that the person practised, and how well.
   ASSERT_EQ(data.practice.size(), 1U);
   const analysis::PracticeRun& practice = data.practice.front();
   EXPECT_EQ(practice.block, "practice");
   EXPECT_EQ(practice.num_trials, std::ssize(person.practice_trials));
   EXPECT_EQ(practice.problem, "");
-  constexpr int kJudged = 4;  // As the study has it, with 3 right ones asked for.
+  constexpr int kJudged = 4;  // The study judges so many trials, of which 3 must be right.
   std::vector<bool> right;
   for (const core::TrialRow& trial : person.practice_trials) {
     right.push_back((*trial.intensity > *trial.reference_intensity) == (trial.response == 1.0));

@@ -13,18 +13,18 @@
 
 namespace jnd::app {
 
-/// What a fake output has played, and what it is told to do. It outlives the output.
+/// Holds what a fake output has played and what it is told to do. It outlives the output.
 struct FakeSound {
   double rate_hz = 8000.0, latency_s = 0.02;
-  std::string refuses;  ///< Why it cannot be opened; "": it can.
+  std::string refuses;  ///< The reason why the output cannot be opened, or "" if it can.
   device::SoundOutputState state{.scheduler = "SCHED_OTHER"};
-  core::SoundSource* source = nullptr;  ///< While it plays.
+  core::SoundSource* source = nullptr;  ///< The source while it plays, and otherwise null.
   std::vector<float> heard;
-  std::vector<std::string> opened;  ///< Names, in order.
+  std::vector<std::string> opened;  ///< The names of the opened outputs, in their order.
   std::int64_t first_ns = 0;
-  std::function<void()> on_open;  ///< May be empty.
+  std::function<void()> on_open;  ///< It may be empty.
 
-  /// Plays so many samples, in periods of 64, as fast as it can.
+  /// Plays at least `num_samples` samples in periods of 64, as fast as it can.
   void play(std::size_t num_samples) {
     std::vector<float> period(64);
     for (std::size_t i = 0; i < num_samples && source != nullptr; i += period.size()) {
@@ -40,7 +40,7 @@ struct FakeSound {
   }
 };
 
-/// An output without a thread: the test plays it.
+/// An output without a thread, which the test plays.
 class FakeSoundOutput final : public device::SoundOutput {
  public:
   FakeSoundOutput(FakeSound& fake, const std::string& name) : fake_(fake) {

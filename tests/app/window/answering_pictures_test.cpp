@@ -3,8 +3,8 @@
 namespace jnd::app {
 namespace answering_pictures_test {
 
-/// A stimulus that has to be felt for a while and ends by itself, an answer with a deadline, no
-/// way back, and "cannot tell".
+/// A study with a stimulus that has to be felt for a while and ends by itself, a deadline for
+/// the answer, no way back, and the answer "cannot tell".
 const std::string kInTime = R"json({
   "format": 1, "name": "in_time", "languages": ["en"], "title": {"en": "In good time"},
   "authors": ["A. Author"],

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 class ApparatusWindowTest : public PicturesWindowTest {
  protected:
-  /// The test of the first trial is felt, and the apparatus looked at.
+  /// Presents the test of the first trial and opens the view of the apparatus.
   void look_at_apparatus(const std::string& device) {
     write_file(path("study.json"), study_of(kComparison));
     window_->start({"run", path("study.json").string(), "--study", path("a.study").string(),
@@ -25,7 +25,7 @@ class ApparatusWindowTest : public PicturesWindowTest {
     window_->wait_for_view("apparatus");
     window_->wait_for_text("picture of the apparatus");
   }
-  /// How many colours the picture has: one without any apparatus in it.
+  /// Returns how many colours the picture has. A picture without any apparatus has one.
   std::size_t num_colours_of_scene(const std::string& name) {
     const fs::path file = path(name + ".png");
     window_->picture(file);
@@ -59,8 +59,8 @@ TEST_F(ApparatusWindowTest, IsSeenAndTurnedWhileItsScopesRunAndLeftByItsKey) {
 
   window_->use("apparatus");
   window_->wait_for_view("session");
-  // On a machine that takes too long for the first picture the heartbeat was lost, and the
-  // stimulus is presented anew.
+  // If the machine took too long for the first picture, the heartbeat was lost, and the
+  // stimulus is presented again.
   window_->wait_until("the trial goes on", [](const Screen& now) {
     return now.find("answer_yes") != nullptr || now.find("present") != nullptr;
   });

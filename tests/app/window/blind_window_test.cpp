@@ -10,10 +10,10 @@ namespace fs = std::filesystem;
 
 class BlindWindowTest : public WindowTest {
  protected:
-  /// The whole session, with the participant's screen beside it.
+  /// Runs the whole session, with the participant's screen beside it.
   void run_session() {
     begin(kBlindStudy);
-    // On the only monitor: a window beside.
+    // There is only one monitor, so the participant's screen is a window on it.
     window_->press("F9");
     window_->use("screen_1");
     window_->use("screen_close");
@@ -43,14 +43,14 @@ class BlindWindowTest : public WindowTest {
     window_->use("screen_0");
     window_->use("screen_close");
   }
-  /// There and back, while something is felt.
+  /// Opens and closes the view of the apparatus while something is felt.
   void look_at_apparatus() {
     window_->use("apparatus");
     window_->wait_for_text("none of them is shown");
     window_->use("apparatus");
     window_->wait_for_view("session");
   }
-  /// Every other view of the study.
+  /// Opens every other view of the study.
   void look_around() {
     window_->use("to_sessions");
     window_->wait_for_view("overview");
@@ -115,7 +115,7 @@ TEST_F(BlindWindowTest,
   EXPECT_FALSE(fs::exists(path("a-csv")));
   EXPECT_FALSE(fs::exists(path("a-report")));
 
-  // The other way round: these words are what is looked for.
+  // As a counter-check, the unblinded window does show the words that the test looks for.
   ASSERT_EQ(jnd({"unblind", path("a.study").string(), "--reason", "done"}).exit_code, 0);
   window_->start({"run", path("study.json").string(), "--study", path("a.study").string(),
                   "--participant", "P02", "--device", "lumped"});

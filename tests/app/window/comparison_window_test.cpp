@@ -15,7 +15,7 @@ TEST_F(ComparisonWindowTest, ABlockWithUndoPauseAndNoteIsStoredAsItWasClicked) {
   window_->use("answer_yes");
   wait_for_trial(3);
 
-  // The second answer was a slip.
+  // The second answer was a mistake, so it is taken back.
   window_->use("undo");
   window_->wait_for_text("Undo the last answer");
   window_->use("reason_2");
@@ -24,7 +24,7 @@ TEST_F(ComparisonWindowTest, ABlockWithUndoPauseAndNoteIsStoredAsItWasClicked) {
   window_->use("answer_no");
   wait_for_trial(3);
 
-  // A pause in the middle of a presentation: the trial is run again.
+  // After a pause in the middle of a presentation, the trial is run again.
   feel_test();
   window_->use("pause");
   window_->wait_for_text("Paused. Why?");
@@ -80,16 +80,17 @@ TEST_F(ComparisonWindowTest, ABlockWithUndoPauseAndNoteIsStoredAsItWasClicked) {
 TEST_F(ComparisonWindowTest, KeysPressedFasterThanTheScreenAreNeitherLostNorDoubled) {
   begin(study_of(kComparison));
   window_->wait_for("present");
-  // The reference, the test, and the answer, of which none can be seen yet.
+  // The person presses the keys of the reference, the test and the answer before any of them
+  // can be seen.
   window_->press_at_once({"r", "t", "y"});
   wait_for_trial(2);
-  // An answer pressed twice does not reach into the next trial.
+  // An answer that is pressed twice does not affect the next trial.
   feel_test();
   window_->press_at_once({"n", "n"});
   wait_for_trial(3);
   window_->press_at_once({"space", "space", "t", "y", "y"});
   wait_for_trial(4);
-  // The next trial's presentation right behind the answer.
+  // The keys of the next trial follow right after the answer.
   window_->press_at_once({"r", "t", "r", "t", "n"});
   window_->wait_for("finish_stage");
   window_->kill();

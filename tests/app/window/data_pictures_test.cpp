@@ -5,7 +5,7 @@ namespace data_pictures_test {
 
 namespace fs = std::filesystem;
 
-/// Somebody without a study and without a device, with a table of answers.
+/// Takes pictures for somebody who has a table of answers, and neither a study nor a device.
 class DataPicturesTest : public PicturesWindowTest {
  protected:
   void open(const std::string& name, const std::string& text) {

@@ -5,7 +5,8 @@
 namespace jnd::app {
 namespace dialog_pictures_test {
 
-/// What is asked before an answer is stored, taken back or set right, and where results go.
+/// Takes pictures of the questions before an answer is stored, taken back or corrected, and of
+/// where results are saved.
 class DialogPicturesTest : public PicturesWindowTest {
  protected:
   void present() {

@@ -8,7 +8,8 @@ namespace german_pictures_test {
 
 namespace fs = std::filesystem;
 
-/// The window in German, at its smallest size, for whoever looks whether it reads well.
+/// Takes pictures of the window in German at its smallest size, so that people can see whether
+/// it reads well.
 class GermanPicturesTest : public PicturesWindowTest {
  protected:
   void SetUp() override {

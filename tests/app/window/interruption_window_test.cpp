@@ -1,4 +1,4 @@
-// A session that is cut short, by whatever, goes on from where it was.
+// However a session is interrupted, it continues from where it was.
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ using test_support::ProgramOutcome;
 
 class InterruptionWindowTest : public WindowTest {
  protected:
-  /// The first trial answered, the second under way.
+  /// Answers the first trial and begins the second.
   void run_into_trial_2(const std::string& folder = "a.study") {
     begin(study_of(kComparison), folder);
     feel_test();
@@ -24,7 +24,7 @@ class InterruptionWindowTest : public WindowTest {
     wait_for_trial(2);
     feel_test();
   }
-  /// From the card that asks how to go on to the end.
+  /// Goes from the card that asks how to continue to the end of the session.
   void go_on_to_the_end() {
     const Screen asked = window_->wait_for("resume_repeat");
     EXPECT_TRUE(asked.shows("1 answer")) << "what is safe";
@@ -72,7 +72,7 @@ TEST_F(InterruptionWindowTest, ClosingTheWindowAsksAndLeavesTheSessionToBeResume
   window_->press("F2");
   window_->wait_until("the card alone", [](const Screen& now) {
     return now.offers("answer_yes") && !now.shows("Leave the session");
-  });  // They stayed, and nothing happened.
+  });  // The person stayed, and nothing happened.
   window_->press_close_button();
   window_->wait_for_text("Leave the session");
   window_->type("lunch");
@@ -144,12 +144,12 @@ TEST_F(InterruptionWindowTest, AFullDiskStopsTheSessionAtOnceAndSaysWhatIsSafe) 
 
 TEST_F(InterruptionWindowTest, ASecondInstanceOnTheSameStudyIsRefusedWithTheReason) {
   run_into_trial_2();
-  // On the command line, before any window.
+  // The command line refuses first, before there is another window.
   const ProgramOutcome refused = jnd({"resume", path("a.study").string(), "--headless"});
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_EQ(sentence_flaw(refused.err, {"a.study", "another"}), "");
 
-  // In another window: neither a new session nor this one.
+  // Another window allows neither a new session nor this one.
   VirtualDisplay other_display(1280, 720);
   WindowDriver other(other_display, path("other"));
   other.start({"run", path("study.json").string(), "--study", path("a.study").string(),

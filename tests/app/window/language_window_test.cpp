@@ -10,7 +10,7 @@ namespace language_window_test {
 
 namespace fs = std::filesystem;
 
-/// The window in a language whose every sentence is the English one between angles.
+/// Runs the window in a language whose every sentence is the English one in angle brackets.
 class LanguageWindowTest : public WindowTest {
  protected:
   void SetUp() override {

@@ -4,7 +4,7 @@
 #include "app/environment.h"
 #include "app/window/pictures_fixture.h"
 
-// What the participant sees, on a small monitor and on a usual one.
+// Takes pictures of what the participant sees, on a small and on a usual monitor.
 
 namespace jnd::app {
 namespace participant_pictures_test {
@@ -42,7 +42,7 @@ class ParticipantPicturesTest : public PicturesWindowTest {
         return told.find(std::string(size).replace(size.find(' '), 1, "x")) !=
                std::string::npos;
       });
-      // Letters of another size are made once it has stopped growing.
+      // The window makes letters of another size only after it has stopped growing.
       const std::uint64_t seen = window_->screen().frame;
       window_->wait_until("frames of both windows",
                           [&](const Screen& now) { return now.frame > seen + 30; });
@@ -52,7 +52,7 @@ class ParticipantPicturesTest : public PicturesWindowTest {
       EXPECT_GT(fs::file_size(file), 3000U) << file << " shows next to nothing";
     }
   }
-  /// The consent of a shipped study, and one block of every way to answer.
+  /// Returns a study with the consent of a shipped study and one block for each way to answer.
   static std::string study() {
     nlohmann::json study = nlohmann::json::parse(R"json({
       "format": 1, "name": "shown", "languages": ["en"], "title": {"en": "Shown"},

@@ -6,7 +6,7 @@
 #include "app/environment.h"
 #include "app/window/window_fixture.h"
 
-// The participant's window on a display of two monitors.
+// Tests the participant's window on a display of two monitors.
 
 namespace jnd::app {
 namespace participant_window_test {
@@ -26,7 +26,7 @@ class ParticipantWindowTest : public WindowTest {
     window_ = std::make_unique<WindowDriver>(*display_, path("home"));
     plug_in(std::string(kLeft) + kRight);
   }
-  /// Xvfb has one monitor whatever is asked of it: the program is told of others.
+  /// Xvfb always has one monitor, so the program reads of others from a file.
   void plug_in(const std::string& monitors) {
     write_file(path("monitors.new"), monitors);
     fs::rename(path("monitors.new"), path("monitors"));
@@ -45,7 +45,7 @@ class ParticipantWindowTest : public WindowTest {
     words.insert(words.begin(), "xdotool");
     return run_tool(words, display_->name()).out;
   }
-  /// The title of the window that has the keyboard.
+  /// Returns the title of the window that has the keyboard.
   [[nodiscard]] std::string has_the_keyboard() const {
     std::string name = asked({"getwindowfocus", "getwindowname"});
     return name.substr(0, name.find('\n'));
@@ -61,7 +61,7 @@ class ParticipantWindowTest : public WindowTest {
     return place;
   }
 
-  // After the fixture's own folder, before any program.
+  // The variable is set after the fixture has made its folder and before any program starts.
   EnvironmentVariable monitors_{"JND_MONITORS", path("monitors").c_str()};
 };
 
@@ -75,7 +75,7 @@ TEST_F(ParticipantWindowTest, FillsTheOtherMonitorAndTheExperimentersKeepsTheKey
   wait_for_window(true);
   EXPECT_EQ(place_of_it(), "X=1280 Y=0 WIDTH=1024 HEIGHT=600 ");
   EXPECT_EQ(has_the_keyboard(), "jnd");
-  // Even where something gives it the keyboard, it hands it back.
+  // If something gives the keyboard to the participant's window, the window gives it back.
   (void)asked({"search", "--name", "^jnd: participant$", "windowfocus"});
   window_->wait_until("the keyboard",
                       [&](const Screen&) { return has_the_keyboard() == "jnd"; });

@@ -12,8 +12,8 @@ namespace jnd::app {
 
 inline constexpr const char* kStalled = "window stopped answering";
 
-/// Not what is stored but what is seen: pictures of every view, large and small, light and
-/// dark, for whoever looks through them and for the documents.
+/// Takes pictures of every view, large and small, light and dark, for the documents and for
+/// people who look through them. It does not test what is stored.
 class PicturesWindowTest : public WindowTest {
  protected:
   void SetUp() override {
@@ -22,7 +22,7 @@ class PicturesWindowTest : public WindowTest {
     display_ = std::make_unique<VirtualDisplay>(1600, 1000);
     window_ = std::make_unique<WindowDriver>(*display_, path("home"));
     window_->forgives_stalls = true;
-    // No path of this machine shall stand in a picture.
+    // No picture may show a path of this machine.
     window_->share = path("jnd");
     std::filesystem::create_directory(window_->share);
     for (const char* part : {"protocols", "data"}) {
@@ -31,7 +31,7 @@ class PicturesWindowTest : public WindowTest {
     }
   }
 
-  /// NAME-1600x1000-light.png and so on.
+  /// Saves the pictures as NAME-1600x1000-light.png and so on.
   void take(const std::string& name) { take(name, 2); }
   void take(const std::string& name, int num_shades) {
     if (!taken_.insert(name).second) return;
@@ -51,7 +51,8 @@ class PicturesWindowTest : public WindowTest {
       }
     }
     window_->resize(1600, 1000);
-    // Of a session that had stopped meanwhile: once more, when this card comes again.
+    // The session had stopped meanwhile, so the picture is taken again when this card comes
+    // again.
     if (window_->screen().shows(kStalled)) taken_.erase(name);
   }
   void close() {
@@ -59,7 +60,8 @@ class PicturesWindowTest : public WindowTest {
     EXPECT_EQ(window_->wait_for_exit().exit_code, 0);
   }
 
-  /// What stands there but for numbers, which change all the time.
+  /// Returns the texts on the screen without those that contain numbers, which change all the
+  /// time.
   static std::vector<std::string> words_of(const Screen& screen) {
     std::vector<std::string> words;
     for (const std::string& text : screen.texts) {

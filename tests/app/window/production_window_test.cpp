@@ -8,7 +8,7 @@ using std::chrono::milliseconds;
 
 class ProductionWindowTest : public WindowTest {
  protected:
-  /// As it stands on the card: "felt for 0.4 s · scale 1.5".
+  /// Returns the level on the card, which reads for example "felt for 0.4 s · scale 1.5".
   static double level_on(const Screen& screen) {
     for (const std::string& text : screen.texts) {
       const std::size_t at = text.find("scale ");
@@ -19,7 +19,7 @@ class ProductionWindowTest : public WindowTest {
     return -1.0;
   }
   double level() const { return level_on(window_->screen()); }
-  /// It shows three digits.
+  /// The tolerance covers the three digits that the card shows.
   static bool shows_level(const Screen& screen, double wanted) {
     return std::abs(level_on(screen) - wanted) < 0.06;
   }
@@ -27,14 +27,15 @@ class ProductionWindowTest : public WindowTest {
     window_->wait_until("scale " + std::to_string(wanted),
                         [&](const Screen& now) { return shows_level(now, wanted); });
   }
-  /// Keys are obeyed in their order: once this one is, all before it are.
+  /// Keys are handled in their order. Once this key has had its effect, all keys before it
+  /// have.
   void wait_for_all_steps() const {
     window_->press("ctrl+n");
     window_->wait_for_text("Write a note");
     window_->press("F2");
     window_->wait_for("matches");
   }
-  /// Steps of the trial that were stored, with what they led to.
+  /// Returns the levels to which the stored steps of the trial led.
   static std::vector<double> steps_of(const core::StudyStore& store, std::int64_t trial) {
     std::vector<double> levels;
     for (const core::EventRow& event : events_of(store, "intensity_adjusted")) {

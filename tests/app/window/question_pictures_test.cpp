@@ -6,7 +6,7 @@ namespace question_pictures_test {
 
 class QuestionPicturesTest : public PicturesWindowTest {
  protected:
-  /// Waits for one of these, takes a picture and uses it.
+  /// Waits for one of these cards, takes a picture of it and uses it.
   std::string use_first(const std::vector<std::string>& cards) {
     std::string card;
     window_->wait_until("a card", [&](const Screen& at) {

@@ -6,7 +6,7 @@ namespace record_pictures_test {
 
 namespace fs = std::filesystem;
 
-/// What is stored of a session, where a study stands, and who comes when.
+/// Takes pictures of a stored session, of the state of a study, and of the schedule.
 class RecordPicturesTest : public PicturesWindowTest {
  protected:
   void open_sessions(const fs::path& folder) {

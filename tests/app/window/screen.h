@@ -8,12 +8,12 @@
 
 namespace jnd::app {
 
-/// What the window shows, as it says itself.
+/// What the window shows, as the program itself reports it.
 struct Screen {
   struct Widget {
     std::string name, label;
-    std::string key;                          ///< As printed on it: "Ctrl Z".
-    int x = 0, y = 0, width = 0, height = 0;  ///< Pixels of the window.
+    std::string key;  ///< The key as it is printed on the control, for example "Ctrl Z".
+    int x = 0, y = 0, width = 0, height = 0;  ///< The place in pixels of the window.
     bool enabled = false;
   };
   std::string view;
@@ -22,18 +22,19 @@ struct Screen {
   std::vector<std::string> texts;
 
   [[nodiscard]] const Widget* find(std::string_view name) const;
-  /// It is there, to be seen and enabled.
+  /// Returns whether the widget exists, can be seen and is enabled.
   [[nodiscard]] bool offers(std::string_view name) const;
-  /// Some text contains it.
+  /// Returns whether some text contains `part`.
   [[nodiscard]] bool shows(std::string_view part) const;
-  /// The first text that begins with this; "" if none does.
+  /// Returns the first text that begins with this, or "" if none does.
   [[nodiscard]] std::string text_after(std::string_view beginning) const;
 };
 
-/// What the program wrote for its last frame that showed anything new; empty before the first.
+/// Reads what the program wrote about its last frame that showed anything new. The result is
+/// empty before the first such frame.
 [[nodiscard]] Screen read_screen(const std::filesystem::path& file);
 
-/// The same in words, for whoever waited for something else.
+/// Describes the screen in words, for the message of a failed wait.
 [[nodiscard]] std::string described(const Screen& screen);
 
 }  // namespace jnd::app

@@ -6,7 +6,7 @@ namespace session_pictures_test {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// A shipped study with everything in it that is in a long session, but few of each.
+/// Takes pictures of a shipped study that has every part of a long session, but few of each.
 class SessionPicturesTest : public PicturesWindowTest {
  protected:
   static std::string short_study(const std::string& blinding = "participant") {
@@ -50,7 +50,8 @@ class SessionPicturesTest : public PicturesWindowTest {
     return study.dump(1);
   }
 
-  /// Does what the card asks for, after a picture of every kind of card; false at the end.
+  /// Takes a picture of every new kind of card and does what the card asks for. Returns false
+  /// at the end.
   bool step_on() {
     static const std::vector<std::string> kCards = {
         "begin",       "item_done", "consent_given",  "item_text",    "item_yes",
@@ -102,7 +103,7 @@ class SessionPicturesTest : public PicturesWindowTest {
     }
   }
 
-  /// A dialog and how it is left.
+  /// Opens a dialog, takes a picture of it and leaves it.
   void take_dialog(const std::string& name, const std::string& key, const std::string& widget) {
     window_->press(key);
     window_->wait_for(widget);
@@ -145,7 +146,7 @@ TEST_F(SessionPicturesTest, OfADoubleBlindPilotAndWhatInterruptsIt) {
   take_dialog("session-leave", "ctrl+w", "dialog_cancel");
   do {
     window_->use("pause");
-    // Refused where the window has stalled meanwhile.
+    // The pause is refused if the window has stalled meanwhile.
     window_->wait_until("a pause", [](const Screen& now) {
       return now.offers("dialog_cancel") || now.shows("Not done");
     });

@@ -24,7 +24,7 @@ constexpr char kHeard[] = R"json({
      "question": {"en": "Thicker?"}, "expected_trial_s": 5}]
 })json";
 
-/// A machine whose only output is a file, which is calibrated.
+/// Imitates a machine whose only output of sound is a file, which is calibrated.
 class FileAsOutput {
  public:
   explicit FileAsOutput(const std::filesystem::path& folder)

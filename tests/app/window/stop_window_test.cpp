@@ -13,7 +13,7 @@ const std::string kAge = R"json(, {
 
 class StopWindowTest : public WindowTest {
  protected:
-  /// "4.2 N" in the footer.
+  /// Returns the force in the footer, which reads for example "4.2 N", or -1 if there is none.
   static double force_n(const Screen& screen) {
     const auto at = std::ranges::find(screen.texts, "Force ");
     if (at == screen.texts.end() || at + 1 == screen.texts.end()) return -1.0;
@@ -37,12 +37,12 @@ TEST_F(StopWindowTest, EscapeStopsTheForceFromAnywhereAndTheSessionGoesOnOnceItI
   window_->wait_until("a force", [](const Screen& now) { return force_n(now) > 0.1; });
   window_->press("Escape");
   expect_stopped();
-  // It latches: neither the answer nor the pause brings anything back.
+  // The stop latches: neither the answer nor the pause brings the force back.
   window_->press_at_once({"y", "p", "space"});
   window_->wait_for("release_stop");
   rearm();
 
-  // From a dialog whose text is being written.
+  // Escape also stops from a dialog in which somebody is writing.
   feel_test();
   window_->use("note");
   window_->wait_for_text("Write a note");
@@ -53,7 +53,7 @@ TEST_F(StopWindowTest, EscapeStopsTheForceFromAnywhereAndTheSessionGoesOnOnceItI
   window_->press("Return");
   rearm();
 
-  // By the mouse, beside a dialog of the session and one of the program.
+  // The mouse stops beside a dialog of the session and beside one of the program.
   for (const auto& [opens, closes] : {std::pair("ctrl+n", "F2"), std::pair("F1", "F1")}) {
     feel_test();
     window_->press(opens);
@@ -72,7 +72,7 @@ TEST_F(StopWindowTest, EscapeStopsTheForceFromAnywhereAndTheSessionGoesOnOnceItI
     window_->use("answer_yes");
   }
   window_->use("finish_stage");
-  // From a field on the card.
+  // Escape also stops from a field on the card.
   window_->wait_for("item_text");
   window_->type("4");
   window_->press("Escape");

@@ -3,7 +3,8 @@
 namespace jnd::app {
 namespace task_pictures_test {
 
-/// Blocks of every task, few trials each, after the handedness that arms are balanced over.
+/// A study with a block of few trials for every task, after a question about handedness, over
+/// which the arms are balanced.
 const std::string kTasks = R"json({
   "format": 1, "name": "tasks", "languages": ["en"], "title": {"en": "Every task"},
   "authors": ["A. Author"], "blinding": "none",
@@ -83,7 +84,7 @@ const std::string kTasks = R"json({
 
 class TaskPicturesTest : public PicturesWindowTest {
  protected:
-  /// Does what the card asks for, after a picture of it; false at the end.
+  /// Takes a picture of the card and does what the card asks for. Returns false at the end.
   bool step_on(int number) {
     static const std::vector<std::string> kCards = {
         "begin",   "finish_break", "answer_first", "answer_yes",

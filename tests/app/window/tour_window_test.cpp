@@ -12,13 +12,14 @@ namespace tour_window_test {
 constexpr int kTrials = 4 + 2 + 12;
 const std::string kFolder = "person/data/jnd/short_tour.study";
 
-/// The tour as somebody takes it who has nothing but the window and a mouse.
+/// Takes the tour as somebody does who has nothing but the window and a mouse.
 class TourWindowTest : public WindowTest {
  protected:
   void SetUp() override {
     WindowTest::SetUp();
     if (IsSkipped()) return;
-    // As it is shipped, but for trials that a busy machine would have repeated.
+    // The study is the shipped one, except that missed ticks of a busy machine do not repeat
+    // trials.
     namespace fs = std::filesystem;
     const fs::path source = test_support::source_folder();
     window_->share = path("share");
@@ -61,7 +62,7 @@ class TourWindowTest : public WindowTest {
     ASSERT_EQ(given.size(), answers_.size());
     for (std::size_t i = 0; i < given.size(); ++i) EXPECT_NEAR(given[i], answers_[i], 1e-9);
     EXPECT_EQ(given.size(), static_cast<std::size_t>(kTrials));
-    // The mouse moved the hand, in every trial.
+    // The mouse moved the hand in every trial.
     const core::RecordingReader recording(store.recording_file(1));
     for (const core::TrialRow& trial : store.trials(1)) {
       double left_m = 1.0;
@@ -76,7 +77,7 @@ class TourWindowTest : public WindowTest {
   }
 
  private:
-  /// Does whatever is asked; false once nothing is.
+  /// Does whatever the window asks for. Returns false when it asks for nothing.
   bool step_on() {
     const Screen now = window_->wait_until("something to do", [](const Screen& at) {
       return at.shows("Session finished") || at.offers("feel_medium") ||
@@ -129,7 +130,7 @@ class TourWindowTest : public WindowTest {
     });
   }
 
-  /// A person: sure far from the reference, of two minds near it.
+  /// Imitates a person who is sure far from the reference and undecided near it.
   bool says_thicker(double viscosity_pa_s) {
     const int time = ++num_felt_[viscosity_pa_s];
     if (viscosity_pa_s < 6.0) return false;
@@ -137,7 +138,7 @@ class TourWindowTest : public WindowTest {
     return time == (viscosity_pa_s < 8.0 ? 2 : 1);
   }
 
-  /// Whoever takes it alone is not shown the levels; the test looks them up.
+  /// The tour hides the levels, so the test looks them up.
   [[nodiscard]] double level() const {
     const core::DesignRow drawn = tour().design(1).at(answers_.size());
     return drawn.intensity.value_or(drawn.starting_intensity.value_or(0.0));

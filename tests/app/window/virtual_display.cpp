@@ -44,7 +44,7 @@ std::vector<std::string> environment_on(const std::string& display) {
   return all;
 }
 
-/// The child and the read end of what it writes to its descriptor `number`.
+/// A child process, and the read end of what it writes to its descriptor `number`.
 struct Child {
   pid_t pid = -1;
   int output = -1;
@@ -116,7 +116,8 @@ ToolOutcome run_tool(const std::vector<std::string>& words, const std::string& d
 void go_first() {
   (void)::setsid();
   (void)::setpriority(PRIO_PROCESS, 0, -10);
-  // Where every session gets the same share of the processor, niceness counts within it alone.
+  // If every session gets the same share of the processor, niceness counts only within a
+  // session.
   std::ofstream("/proc/self/autogroup") << "-15";
 }
 
@@ -149,7 +150,7 @@ VirtualDisplay::~VirtualDisplay() { lose(); }
 
 void VirtualDisplay::lose() {
   if (pid_ <= 0) return;
-  // Not killed: it takes its lock and socket along, before another takes its number.
+  // SIGTERM lets the server remove its lock and socket, before another server takes its number.
   ::kill(pid_, SIGTERM);
   wait_for(pid_);
   pid_ = -1;

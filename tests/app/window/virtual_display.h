@@ -7,38 +7,39 @@
 
 namespace jnd::app {
 
-/// What a tool came to.
+/// How a tool ended.
 struct ToolOutcome {
-  int exit_code = -1;  ///< -1 if it could not be started, or a signal ended it.
-  std::string out;     ///< All it wrote, complaints included.
+  int exit_code = -1;  ///< -1 if the tool could not be started or a signal ended it.
+  std::string out;     ///< All that the tool wrote, including error messages.
 };
 
-/// Runs a program of the system to its end, on this display; "" for none.
+/// Runs a program of the system on this display and waits for its end. If `display` is "", the
+/// program has no display.
 [[nodiscard]] ToolOutcome run_tool(const std::vector<std::string>& words,
                                    const std::string& display);
 
-/// Has this process and whatever it starts run before others, where the system allows it: a
-/// window that is not drawn for 250 ms stops the force, and on a machine full of compilers one
-/// without a graphics card would be such a window. Into a session of its own, for a shell's
-/// would stay like that.
+/// Gives this process and its children priority, where the system allows it. A window that is
+/// not drawn for 250 ms stops the force, and without a graphics card this happens on a busy
+/// machine. The process moves to a session of its own, because the priority of the shell's
+/// session would stay changed.
 void go_first();
 
-/// Why no window can be driven here: "" if one can.
+/// Returns why no window can be driven here, or "" if one can.
 [[nodiscard]] std::string what_windows_lack();
 
-/// A screen that nobody sees, of its own for every test: Xvfb on a free display, gone with the
-/// test. A held key repeats after 0.25 s, 25 times a second.
+/// A display in memory that each test has for itself: Xvfb on a free number, which ends with
+/// the test. A held key repeats after 0.25 s, 25 times a second.
 class VirtualDisplay {
  public:
-  /// Throws `std::runtime_error` if it does not start.
+  /// Throws `std::runtime_error` if the display does not start.
   VirtualDisplay(int width_px, int height_px);
   ~VirtualDisplay();
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
 
-  /// ":12"
+  /// Returns the name of the display, for example ":12".
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  /// As when its cable is cut.
+  /// Ends the display abruptly, as when its cable is cut.
   void lose();
 
  private:

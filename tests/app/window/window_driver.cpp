@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <thread>
 
-// The last one, for its macros are called None and Bool.
+// This header comes last, because it defines macros named None and Bool.
 #include <X11/Xlib.h>
 
 namespace jnd::app {
@@ -20,12 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// A window that is drawn by the processor, beside another test: generous, and never slept
-// through.
+// A window that the processor draws beside another test may be slow, so the limit is generous.
+// The driver looks often and does not wait longer than necessary.
 constexpr auto kPatience = std::chrono::seconds(30);
 constexpr auto kGlance = std::chrono::milliseconds(5);
 
-/// "Ctrl Z" is ctrl+z to xdotool.
+/// Translates a printed key such as "Ctrl Z" into the words of xdotool, such as ctrl+z.
 std::string xdotool_words(const std::string& printed) {
   static const std::map<std::string, std::string> kNames = {
       {"Ctrl", "ctrl"},  {"Shift", "shift"},  {"Space", "space"},
@@ -97,14 +97,14 @@ test_support::ProgramOutcome WindowDriver::wait_for_exit() {
   return outcome;
 }
 
-// Seeing.
+// These functions see.
 
 Screen WindowDriver::screen() const { return read_screen(folder_ / "widgets.json"); }
 
 Screen WindowDriver::wait_until(const std::string& what, const Condition& condition) const {
   const auto end = Clock::now() + kPatience;
   Screen now = screen();
-  // A dialog that asks about an answer stands over whatever is waited for.
+  // A dialog that asks about an answer covers whatever the test waits for.
   const auto is_asked = [this](const Screen& at) {
     return confirms_answers && at.offers("doubt_store");
   };
@@ -116,7 +116,7 @@ Screen WindowDriver::wait_until(const std::string& what, const Condition& condit
     }
     if (is_asked(now)) {
       press("s");
-      // Once for each: the next card may have the key as well.
+      // The key is pressed once for each dialog, because the next card may have the same key.
       while (screen().offers("doubt_store") && Clock::now() < end) {
         std::this_thread::sleep_for(kGlance);
       }
@@ -156,7 +156,7 @@ std::string WindowDriver::stands_there(const Screen& screen) const {
            std::to_string(outcome.signal) + ": " + outcome.err;
   }
   std::string words = "; " + described(screen);
-  // None is under way where it is measured.
+  // A measurement runs without a test.
   const ::testing::TestInfo* test = ::testing::UnitTest::GetInstance()->current_test_info();
   const fs::path file = fs::path(JND_WINDOW_FAILURES) /
                         (std::string(test == nullptr ? "measurement" : test->name()) + ".png");
@@ -182,9 +182,10 @@ bool WindowDriver::is_dark() const {
     const ToolOutcome pixel = run_tool({"import", "-window", window(), "-gravity", "SouthWest",
                                         "-crop", "1x1+12+12", "-depth", "8", "gray:-"},
                                        display_.name());
-    // What has grown and is not drawn yet is black; nothing of ours is quite.
+    // An area of the window that is not drawn yet is black, and no colour of the themes is
+    // quite black.
     if (pixel.out.size() != 1 || pixel.out[0] == 0) continue;
-    constexpr unsigned char kMiddle = 70;  // Below a dialog the light one is half as light.
+    constexpr unsigned char kMiddle = 70;  // A dialog makes the light theme half as light.
     return static_cast<unsigned char>(pixel.out[0]) < kMiddle;
   }
   throw std::runtime_error("no pixel of the window can be seen");
@@ -210,7 +211,7 @@ std::string WindowDriver::window() const {
   return window_;
 }
 
-// Doing.
+// These functions act.
 
 void WindowDriver::xdotool(std::vector<std::string> words) const {
   words.insert(words.begin(), "xdotool");
@@ -222,7 +223,8 @@ void WindowDriver::xdotool(std::vector<std::string> words) const {
 }
 
 void WindowDriver::press_at_once(std::initializer_list<std::string> keys) const {
-  // GLFW takes a key that goes down twice in one millisecond for an echo of the input method.
+  // GLFW ignores a key that goes down twice in one millisecond, because it takes it for an echo
+  // of the input method.
   std::vector<std::string> words = {"key", "--delay", "4"};
   words.insert(words.end(), keys.begin(), keys.end());
   xdotool(words);
@@ -262,7 +264,7 @@ void WindowDriver::use(const std::string& widget) const {
 void WindowDriver::move_hand(int num_strokes) const {
   const Screen now = wait_until("the pad", [](const Screen& at) { return at.offers("pad"); });
   const Screen::Widget& pad = *now.find("pad");
-  constexpr int kSteps = 24;  // Of a stroke of a third of a second.
+  constexpr int kSteps = 24;  // These are the steps of a stroke of a third of a second.
   std::vector<std::string> words;
   for (int step = 0; step <= num_strokes * kSteps; ++step) {
     const int along = step % (2 * kSteps);
@@ -277,7 +279,7 @@ void WindowDriver::move_hand(int num_strokes) const {
   xdotool(words);
 }
 
-/// What a window manager sends, of which there is none on this display.
+/// Sends what a window manager would send, because this display has none.
 void WindowDriver::press_close_button() const {
   const std::string number = window();
   Display* display = ::XOpenDisplay(display_.name().c_str());
@@ -296,7 +298,7 @@ void WindowDriver::press_close_button() const {
 
 void WindowDriver::resize(int width_px, int height_px) const {
   xdotool({"windowsize", window(), std::to_string(width_px), std::to_string(height_px)});
-  // In every view some button stands in the lower right corner.
+  // In every view a button stands in the lower right corner.
   wait_until("the new size", [&](const Screen& now) {
     const Screen::Widget* corner = now.find("keys");
     return corner != nullptr && std::abs(corner->x + corner->width - width_px) < 40 &&

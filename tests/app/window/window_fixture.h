@@ -16,8 +16,8 @@
 
 namespace jnd::app {
 
-/// A person at the real window, on a display of the test's own. Skipped where there is no way
-/// to have one.
+/// Plays a person at the real window, on a display of the test's own. The tests are skipped
+/// where no display can be made.
 class WindowTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -47,7 +47,8 @@ class WindowTest : public ::testing::Test {
         arguments, {.folder = temporary_.path(), .environment = window_->environment()});
   }
 
-  /// `jnd run` with the simulated hand, up to the card that waits for the session's begin.
+  /// Starts `jnd run` with the simulated hand, up to the card that waits for the beginning of
+  /// the session.
   void prepare(const std::string& study_text, const std::string& folder = "a.study") {
     write_file(path("study.json"), study_text);
     window_->start({"run", path("study.json").string(), "--study", path(folder).string(),
@@ -62,7 +63,7 @@ class WindowTest : public ::testing::Test {
     window_->use("begin");
   }
 
-  /// The test of the trial under way is felt and can be answered.
+  /// Presents the stimuli of the current trial until the test is felt and can be answered.
   void feel_test() {
     if (window_->wait_for("present").find("present")->label == "Present the reference") {
       window_->use("present");
@@ -85,7 +86,7 @@ class WindowTest : public ::testing::Test {
   [[nodiscard]] core::StudyStore stored(const std::string& folder = "a.study") const {
     return {path(folder), core::StudyStore::Mode::kReadOnly};
   }
-  /// Of the answers that count, by trial.
+  /// Returns the answers that count, by trial.
   [[nodiscard]] static std::vector<double> responses(const core::StudyStore& store) {
     std::vector<double> all;
     for (const core::TrialRow& trial : store.trials(1)) all.push_back(*trial.response);
@@ -103,7 +104,8 @@ class WindowTest : public ::testing::Test {
     const auto data = nlohmann::json::parse(event.data);
     return data.at(key).get<std::string>();
   }
-  /// Notes that somebody wrote: not those that tell what became of an unlikely answer.
+  /// Returns the notes that somebody wrote, without those that say what became of an unlikely
+  /// answer.
   [[nodiscard]] static std::vector<core::EventRow> written_notes(
       const core::StudyStore& store) {
     std::vector<core::EventRow> notes = events_of(store, "note_added");

@@ -4,8 +4,8 @@
 
 namespace jnd::app {
 
-/// A study of these stages: JSON objects, separated by commas. A trial counts however many
-/// ticks were missed, for the display is computed by the same processor.
+/// Returns a study of these stages, which are JSON objects, separated by commas. A trial counts
+/// however many ticks it missed, because the same processor also computes the display.
 inline std::string study_of(const std::string& stages, const std::string& blinding = "none") {
   return R"json({
   "format": 1, "name": "window", "languages": ["en"], "title": {"en": "Window"},
@@ -16,7 +16,7 @@ inline std::string study_of(const std::string& stages, const std::string& blindi
          stages + "]}";
 }
 
-/// Four trials, yes or no.
+/// A block of four trials with the answers yes and no.
 inline const std::string kComparison = R"json({
     "kind": "block", "name": "comparison", "title": {"en": "Compare"},
     "procedure": "constant_stimuli", "medium": "viscous", "viscosity_pa_s": [4, 16],
@@ -24,7 +24,7 @@ inline const std::string kComparison = R"json({
     "instruction": {"en": "Compare."}, "question": {"en": "Does it feel thicker?"},
     "yes_label": {"en": "Thicker"}, "no_label": {"en": "Thinner"}, "expected_trial_s": 5})json";
 
-/// Two trials, set by hand.
+/// A block of two trials in which the level is set by hand.
 inline const std::string kProduction = R"json({
     "kind": "block", "name": "production", "title": {"en": "Produce"},
     "procedure": "magnitude_production", "medium": "water", "scale": [1, 2],
@@ -32,7 +32,7 @@ inline const std::string kProduction = R"json({
     "free_space_between_s": 0, "instruction": {"en": "Set it."},
     "question": {"en": "So?"}, "expected_trial_s": 5})json";
 
-/// Two trials, in percent.
+/// A block of two trials with answers in percent.
 inline const std::string kEstimation = R"json({
     "kind": "block", "name": "estimation", "title": {"en": "Estimate"},
     "procedure": "magnitude_estimation", "medium": "water", "scale": [0.5, 2],

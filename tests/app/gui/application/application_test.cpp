@@ -18,7 +18,7 @@ namespace application_test {
 
 namespace fs = std::filesystem;
 
-/// The window without its pixels, on a study of no sessions.
+/// Runs the window without its pixels, on a study without sessions.
 class ApplicationTest : public ::testing::Test {
  protected:
   ApplicationTest() {
@@ -87,7 +87,7 @@ TEST_F(ApplicationTest, DataAreOpenedFromTheStartAndStayWhileOthersStandThere) {
   };
   finish();
   EXPECT_TRUE(ui_.drawn().shows("2 rows"));
-  // What cannot be saved is told.
+  // The window says what cannot be saved.
   after({letter('E'), true});
   ui_.press({letter('A'), true});
   ui_.type(table.string());
@@ -239,7 +239,7 @@ TEST_F(ApplicationTest, WhatCannotBeOpenedIsToldAndTheStartStays) {
 }
 
 TEST_F(ApplicationTest, FromTheKeysThePageOfTheManualAboutTheViewOpens) {
-  // A desktop of the test's own: what its xdg-open was given.
+  // The test has a desktop of its own, whose xdg-open notes what it was given.
   const fs::path opened = temporary_.path() / "opened";
   fs::create_directory(temporary_.path() / "bin");
   const fs::path program = temporary_.path() / "bin" / "xdg-open";
@@ -275,7 +275,8 @@ TEST_F(ApplicationTest, FromTheKeysThePageOfTheManualAboutTheViewOpens) {
   EXPECT_EQ(test_support::read_file(opened), (pages / "methods/reading_results.md").string());
 }
 
-// Another window would take the keyboard, and with it Escape, from the one that stops.
+// Another window would take the keyboard, and with it the Escape key, from the window that
+// stops the device.
 TEST_F(ApplicationTest, WhileASessionIsLiveTheManualsPlaceIsToldAndNothingOpens) {
   open({.study_folder = folder_,
         .participant = "P01",

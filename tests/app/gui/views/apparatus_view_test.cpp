@@ -36,7 +36,8 @@ class ApparatusView : public ::testing::Test {
   }
   [[nodiscard]] const Drawn& drawn() const { return ui_.drawn(); }
 
-  /// A second of a channel that is its number in the request, with a gap of two intervals.
+  /// Returns one second of data for each named channel. Its value is its number in the request,
+  /// and it has a gap of two intervals.
   static ScopePicture picture_of(const std::vector<std::string>& names) {
     ScopePicture picture{.newest_s = 30.0};
     for (std::size_t i = 0; i < names.size(); ++i) {

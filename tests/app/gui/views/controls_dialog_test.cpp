@@ -23,7 +23,8 @@ std::int64_t steady_ns() {
 
 class ControlsDialogTest : public ::testing::Test {
  protected:
-  /// A frame in which this was pressed or let go; what it asks for is done.
+  /// Draws a frame in which these controls were pressed or released, and does what the dialog
+  /// requests.
   ControlsResult draw(std::vector<core::ControlEvent> events = {}) {
     ControlsResult all;
     ui_.frame([&](Ui& ui) {
@@ -66,7 +67,7 @@ TEST_F(ControlsDialogTest, WhatIsPressedNextIsMapped) {
   EXPECT_EQ(map_.action_of(kRight), "second");
 }
 
-// The Enter that asks for it is a key of a keyboard that is listened to as well.
+// The Enter that starts the assignment is also a key of a keyboard that the dialog listens to.
 TEST_F(ControlsDialogTest, WhatWasPressedBeforeIsNotMeant) {
   (void)draw();
   const core::ControlEvent before = press(kLeft);

@@ -22,7 +22,7 @@ constexpr char kOrder[] =
     "sound,-60,2,40\nsound,-30,5,40\nsound,0,12,40\nsound,30,22,40\nsound,60,32,40\n"
     "sound,90,37,40\n";
 
-/// The view over the real model, with everything it asks for done at once.
+/// Draws the view of the real model, and does at once what the view requests.
 class DataViewTest : public ::testing::Test {
  protected:
   void open(const std::string& text) {
@@ -123,7 +123,7 @@ TEST_F(DataViewTest, EveryColumnIsChosenByKeysAlone) {
   EXPECT_EQ(request().intensity, "delay_ms");
   EXPECT_EQ(request().yes, "num_first");
   EXPECT_EQ(request().trials, "num_asked");
-  // Groups are chosen one after the other, until F2.
+  // The person chooses one column of groups after the other, until F2.
   after({letter('G')});
   after({letter('1')});
   EXPECT_TRUE(request().group_by.empty());

@@ -22,16 +22,16 @@
 #include "support/files.h"
 #include "support/places.h"
 
-// People read the study's titles and words, and not what the program calls things.
+// People read the study's titles and words, and not the names that the program uses.
 
 namespace jnd::app::gui {
 namespace drawn_words_test {
 
 namespace fs = std::filesystem;
 
-/// What is wrong with a text that stands on the screen; "" for nothing.
+/// Returns what is wrong with a text on the screen, or "" if nothing is.
 std::string problem_of(const std::string& text) {
-  // A file has its name; so has a path, and what is typed to name a device.
+  // The name of a file, a path, and the words that name a device are allowed.
   static const std::regex kFile(
       R"re(\S*/\S*|\S+\.(json|study|csv|html|sqlite|svg|pdf|h5)\b)re");
   static const std::regex kName(R"re(\b[a-z][a-z0-9]*(_[a-z0-9]+)+\b)re");
@@ -94,7 +94,7 @@ TEST(DrawnWords, OfEveryShippedStudysOutlineAndOrders) {
   }
 }
 
-/// Simulated, and looked at afterwards.
+/// Simulates a shipped study and looks at its results.
 void look_at_results(const std::string& shipped, int num_participants) {
   SimulatedStudy study(
       test_support::read_file(test_support::source_folder() / "protocols" / shipped));
@@ -132,7 +132,7 @@ void look_at_results(const std::string& shipped, int num_participants) {
                    shipped + ", page " + std::to_string(page));
     }
   }
-  // What is said of a number when the mouse is over it.
+  // These texts appear if the mouse is over a number.
   for (const results::NumberLine& line : results.numbers) {
     for (const std::string& told : {line.meaning, line.caution}) {
       EXPECT_EQ(problem_of(told), "") << shipped << ": " << told;

@@ -38,15 +38,16 @@
 #include "app/task_study.h"
 #include "support/places.h"
 
-// Every view of the window in the states that people see, over models as the program makes
-// them, so that whoever wants to look at all of them need not know any.
+// Draws every view of the window in the states that people see, with models as the program
+// makes them. A test can look at all views without knowing any.
 
 namespace jnd::app::gui {
 
-/// Draws one view after the other, each until it rests, and has each looked at.
+/// Draws one view after the other, each until it no longer changes, and passes each to the
+/// caller.
 class EveryView {
  public:
-  /// `name`: "data, page 2".
+  /// `name` is for example "data, page 2".
   using Look = std::function<void(const std::string& name, const Drawn& drawn)>;
 
   EveryView(HeadlessUi& ui, Look look) : ui_(ui), look_(std::move(look)) {}
@@ -300,7 +301,7 @@ class EveryView {
          [&](Ui& ui) { (void)draw_prepare_view(ui, model, state); });
   }
 
-  /// What stands around a session, and what is asked in it.
+  /// Draws the dialogs around a session and the questions in it.
   void session_dialogs() {
     SessionView view = comparison();
     view.hides_levels = true;
@@ -351,7 +352,7 @@ class EveryView {
     });
   }
 
-  /// A session as its person at the window sees it now, and the participant's own window.
+  /// Draws a session as its operator sees it now, and the participant's own window.
   void session(const std::string& name, const SessionView& view) {
     RunViewState state;
     show_session(name, static_cast<int>(view.step), view, state);
@@ -376,7 +377,8 @@ class EveryView {
  private:
   using Draw = std::function<void(Ui&)>;
 
-  /// Heights of what is scrolled are known a frame later, and a dialog takes one to open.
+  /// The height of scrolled content is known one frame later, and a dialog takes one frame to
+  /// open.
   void show(const std::string& name, int number, const Draw& draw) {
     for (int i = 0; i < 4; ++i) ui_.frame(draw);
     look_(name + (number > 0 ? " " + std::to_string(number) : ""), ui_.drawn());
@@ -395,7 +397,7 @@ class EveryView {
       return std::vector<FolderEntry>{{folder / "honey", kind}};
     };
   }
-  /// Two people who are done, and one whose session was interrupted.
+  /// Returns a study in which two people are done, and the session of a third was interrupted.
   std::filesystem::path folder() {
     if (simulated_ == nullptr) {
       simulated_ = std::make_unique<SimulatedStudy>();
@@ -416,7 +418,7 @@ class EveryView {
     WorkControl control;
     return results_model(study.folder(), control);
   }
-  /// What is looked at before a session, good and bad.
+  /// Returns the lines of the check before a session, good ones and bad ones.
   static std::vector<PreflightLine> lines() {
     return {disk_line(80e9, 1000.0, 3600.0),
             disk_line(1e3, 1000.0, 3600.0),
@@ -436,10 +438,10 @@ class EveryView {
   std::unique_ptr<SimulatedStudy> simulated_;
 };
 
-/// Sessions at a simulated hand, of every procedure and every kind of stage.
+/// Runs sessions at a simulated hand, with every procedure and every kind of stage.
 class EverySessionTest : public OperatedSessionTest {
  protected:
-  /// Each state of each session once.
+  /// Calls `look` once for each state of each session.
   void for_each_state(const std::function<void(const std::string&, const SessionView&)>& look) {
     for (const std::string& text : {kTinyStudy, kTaskStudy, kAnsweringStudy, kAskedStudy}) {
       folder_ = temporary_.path() / (std::to_string(text.size()) + ".study");
@@ -461,7 +463,7 @@ class EverySessionTest : public OperatedSessionTest {
 
  private:
   using LookAt = std::function<void(const std::string&, const SessionView&)>;
-  /// As `step_on`, with whatever intervals a trial has.
+  /// Does what `step_on` does, whatever intervals a trial has.
   void go_on(const SessionView& now, const LookAt& look, std::set<std::string>& seen) {
     if (now.step == Step::kItem) {
       const char* answer = now.item->kind == ItemView::Kind::kScale ? "1" : "1.8";

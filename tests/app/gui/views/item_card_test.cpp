@@ -16,7 +16,7 @@ class ItemCardTest : public RunViewTest {
     view.stage = 1;
     return view;
   }
-  /// Frames of that long, in which nothing is pressed.
+  /// Draws frames for this time, in which nothing is pressed.
   void pass(const SessionView& view, float duration_s) {
     ui_.frame_s = duration_s / 4;
     for (int i = 0; i < 4; ++i) draw(view);

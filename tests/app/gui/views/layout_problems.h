@@ -9,8 +9,8 @@
 
 namespace jnd::app::gui {
 
-/// What people would not want to see in a frame: words that are cut or spill over their box,
-/// and things that lie on one another. A sentence for each; nothing of what is below a dialog.
+/// Finds the layout problems of a frame: words that are cut or leave their box, and things that
+/// overlap. Each problem has one sentence. Whatever is below a dialog does not count.
 class LayoutProblems {
  public:
   explicit LayoutProblems(const Drawn& drawn, const Rect& screen) : screen_(screen) {
@@ -29,7 +29,7 @@ class LayoutProblems {
   }
 
  private:
-  // A pixel is what rounding does to places; letters do not fill the whole height of their
+  // Rounding moves a place by up to a pixel, and letters do not fill the whole height of their
   // line.
   static constexpr float kRounding = 1.5f;
   static constexpr float kBetweenLines = 4.0f;
@@ -50,11 +50,11 @@ class LayoutProblems {
   void look_at_lines() {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       const Drawn::Line& line = lines_[i];
-      // Values, and what somebody wrote, are of any length: there an ellipsis is right, as long
-      // as all of it shows when it is pointed at. The program's own words are to have room.
+      // Values and people's own texts have any length. An ellipsis is right there, if the whole
+      // text shows when the mouse is over it. The program's own words must have room.
       if (line.is_cut && !line.shows_whole) say("cut", line.words);
       if (!holds(screen_, line.place)) say("outside of the window", line.words);
-      // Who gives a box no height wants as many lines as it takes.
+      // A box without a height takes as many lines as the text needs.
       if (line.box.height > 0 && line.place.bottom() > line.box.bottom() + kBetweenLines) {
         say("lower than its box", line.words);
       }

@@ -129,7 +129,7 @@ TEST_F(OverviewViewTest, AnAppointmentIsAPseudonymADayAndATime) {
   EXPECT_EQ(state_.participant, "P09");
   EXPECT_EQ(state_.date, "2026-12-01");
   EXPECT_TRUE(after_key({Key::kEnter}).add_appointment);
-  // What was wrong stands there, with what was typed.
+  // The dialog shows what was wrong, and what the person typed.
   state_.dialog = OverviewState::Dialog::kAppointment;
   state_.problem = "expected a day as 2026-12-01";
   (void)draw(ui_);
@@ -156,7 +156,7 @@ TEST_F(OverviewViewTest, OfADoubleBlindStudyNothingTellsAnOrder) {
   study_.blinding = experiments::Blinding::kDouble;
   study_.hides_levels = true;
   overview_->hides_levels = true;
-  overview_->balance.clear();  // The model holds none.
+  overview_->balance.clear();  // The model has no plan of balance.
   overview_->next_cells.clear();
   (void)draw(ui_);
   EXPECT_FALSE(shows("low"));

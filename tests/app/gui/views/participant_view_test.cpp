@@ -15,13 +15,13 @@
 #include "support/files.h"
 #include "support/places.h"
 
-// What stands on the participant's screen, on the smallest, the usual and the largest monitor:
-// all of it has room, and none of it tells a level or what a block is called.
+// Tests what the participant's screen shows on a small, a usual and a large monitor. All of it
+// has room, and none of it reveals a level or the name of a block.
 
 namespace jnd::app::gui {
 namespace participant_view_test {
 
-/// Whatever the operator may read and the participant must not is a word of its own.
+/// Each word that the operator may read and the participant must not read occurs nowhere else.
 const std::string kTelltaleStudy = R"json({
   "format": 1, "name": "treacly", "languages": ["en"], "title": {"en": "Gluey things"},
   "authors": ["A. Author"],
@@ -62,7 +62,7 @@ constexpr const char* kTelltales[] = {
     "0.0119",  "milky", "Milky", "0.614", "lumpy", "Lumpy",  "clotted", "viscous",  "Pa s",
     "scale",   "water", "Fill",  "group", "Block", "Trial",  "trial",   "reference"};
 
-/// Three monitors, each with the letters that the window makes for it.
+/// Holds three monitors, each with letters of the size that the window chooses for it.
 class ThreeMonitors {
  public:
   ThreeMonitors() {
@@ -72,7 +72,7 @@ class ThreeMonitors {
           static_cast<float>(width) / scale, static_cast<float>(height) / scale, scale));
     }
   }
-  /// `may_read`: what was drawn on each.
+  /// Draws the screen on each monitor. `may_read` gets what was drawn.
   void look(const std::string& name, const ParticipantScreen& shown,
             const std::function<void(const Drawn&)>& may_read = {}) {
     for (const auto& one : screens_) {
@@ -198,7 +198,7 @@ TEST_F(ParticipantViewTest, NothingIsCutInAnyStateOfAnyProcedure) {
   EXPECT_GT(num_seen, 30);
 }
 
-/// What can stand there of a shipped study, in each of its languages.
+/// Lists what the screen can show of a shipped study, in each language of the study.
 class ShippedTexts {
  public:
   using Look = std::function<void(const std::string&, const ParticipantScreen&)>;

@@ -254,7 +254,7 @@ TEST_F(RecordViewTest, OfADoubleBlindStudyNoStimulusAndNoForceIsDrawn) {
   record_->hides_levels = true;
   study_.blinding = experiments::Blinding::kDouble;
   study_.hides_levels = true;
-  // Whatever the model holds.
+  // This holds for whatever the model contains.
   for (const RecordPage page :
        {RecordPage::kTimeline, RecordPage::kAnswers, RecordPage::kNotes, RecordPage::kFaults}) {
     state_.page = page;

@@ -8,8 +8,8 @@
 #include "app/gui/views/layout_problems.h"
 #include "app/gui/views/run_view_fixture.h"
 
-// Why something was not done is a whole sentence of any length: it stands on as many lines as
-// it takes, in every size of the window, and whatever the session waits for.
+// The reason of a refusal is a whole sentence of any length. The view breaks it into as many
+// lines as it takes, in every size of the window and at every step of the session.
 
 namespace jnd::app::gui {
 namespace refusal_test {

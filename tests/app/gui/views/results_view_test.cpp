@@ -55,7 +55,7 @@ class ResultsViewTest : public ::testing::Test {
     static const ResultsModel kResults = some_results();
     return kResults;
   }
-  /// The charts of the block of comparisons.
+  /// Returns the charts of the block of comparisons.
   static const analysis::ChartSet& comparison() {
     return *std::ranges::find(results().charts, "comparison", &analysis::ChartSet::section);
   }
@@ -215,7 +215,7 @@ TEST_F(ResultsViewTest, APlotHoldsTheChartsPointsCurveBandAndLines) {
   EXPECT_EQ(plot.series.back().name, "each participant, fitted");
   const PlotSeries& points = plot.series[plot.series.size() - 2];
   ASSERT_EQ(points.x.size(), 2U);
-  // 7, 8, 9 and 10 of ten right at 12, of four people.
+  // Four people had 7, 8, 9 and 10 of ten answers right at 12.
   EXPECT_DOUBLE_EQ(points.y[1], 85.0);
   EXPECT_EQ(points.names[1], "34 of 40");
   ASSERT_EQ(plot.marks.size(), everybody.lines.size());

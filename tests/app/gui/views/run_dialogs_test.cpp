@@ -7,7 +7,7 @@
 namespace jnd::app::gui {
 namespace run_dialogs_test {
 
-/// What is asked before something is undone, or after it was paused.
+/// Tests the questions before something is undone and after a pause.
 class RunDialogs : public RunViewTest {
  protected:
   static SessionView paused() {
@@ -16,7 +16,7 @@ class RunDialogs : public RunViewTest {
     view.asks_why_paused = true;
     return view;
   }
-  /// P was pressed, and the pause holds.
+  /// Presses P, after which the session is paused.
   void pause() {
     (void)after_key<operate::Pause>(comparison(), {letter('P')});
     draw(paused());
@@ -73,7 +73,7 @@ TEST_F(RunDialogs, APauseWithoutAReasonStandsAndIsNotAskedAboutAgain) {
 }
 
 TEST_F(RunDialogs, APauseThatNobodyAskedForHereIsNotAskedAbout) {
-  draw(paused());  // As in a session that is resumed.
+  draw(paused());  // This is so in a session that is resumed.
   EXPECT_EQ(ui_.drawn().find("dialog_cancel"), nullptr);
 }
 
@@ -122,7 +122,7 @@ TEST_F(RunDialogs, UndoTakesAReasonOfOnesOwn) {
   EXPECT_EQ(state_.dialog, RunViewState::Dialog::kNone);
 }
 
-/// Somebody clicked at this answer of the list.
+/// Opens the dialog that appears when somebody clicks at an answer of the list.
 class CorrectDialogTest : public RunViewTest {
  protected:
   void choose(AnswerLine line) {
@@ -135,7 +135,7 @@ class CorrectDialogTest : public RunViewTest {
     draw(view_);
     draw(view_);
   }
-  /// Why, and Enter.
+  /// Types a reason and presses Enter.
   std::vector<OperatorRequest> because(const std::string& reason) {
     draw(view_);
     ui_.type(reason);

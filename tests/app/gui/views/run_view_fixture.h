@@ -10,13 +10,14 @@
 #include "app/gui/headless_ui.h"
 #include "app/gui/views/run_view.h"
 
-// What the session under way shows, without a session: views of it, and a person before them.
+// Draws the view of a running session without a session, from views that the test makes, and
+// presses keys as a person would.
 
 namespace jnd::app::gui {
 
 using experiments::AnswerKind;
 
-/// The test fluid of a comparison is being felt, the reference was before.
+/// Returns a view in which the test fluid of a comparison is being felt, after the reference.
 inline SessionView comparison() {
   SessionView view{.study = "Viscosity discrimination",
                    .participant = "P07",
@@ -103,7 +104,7 @@ class RunViewTest : public ::testing::Test {
     });
     return requests;
   }
-  /// The one request that a key leads to.
+  /// Returns the one request to which a key leads.
   template <typename Request>
   Request after_key(const SessionView& view, const Chord& key) {
     draw(view);

@@ -42,7 +42,7 @@ TEST_F(RunView, WhatSpeaksAgainstABlockIsToldWhenItIsOver) {
   EXPECT_TRUE(ui_.drawn().shows(sentence));
 }
 
-/// The second interval of a trial in drawn order is being felt.
+/// Returns a view of a trial in drawn order, whose second interval is being felt.
 SessionView two_intervals() {
   SessionView view = comparison();
   view.trial->answer = AnswerKind::kInterval;
@@ -79,7 +79,8 @@ TEST_F(RunView, TheIntervalsOfADrawnOrderAreFirstAndSecond) {
   EXPECT_EQ(after_key<operate::Present>(view, {Key::kSpace}).interval, "first");
 }
 
-/// Three intervals, of which the second one is being felt and the third is still to come.
+/// Returns a view of a trial with three intervals. The second one is being felt, and the third
+/// is still to come.
 SessionView three_intervals() {
   SessionView view = two_intervals();
   view.trial->num_intervals = 3;
@@ -303,7 +304,8 @@ TEST_F(RunView, WhatCameOffIsToldWhereverSomethingWaitsToBeFeltAndCanBeGivenUpFo
     EXPECT_TRUE(ui_.drawn().shows("Came off: the index finger."));
     ui_.press({letter('G'), true});
     draw(view);
-    view.loose_bits = 0b11000;  // Meanwhile; the operator has not seen it.
+    // The second point comes off while the dialog is open, so the operator has not seen it.
+    view.loose_bits = 0b11000;
     draw(view);
     ASSERT_NE(ui_.drawn().find("dialog_do"), nullptr);
     EXPECT_FALSE(ui_.drawn().find("dialog_do")->enabled) << "a reason is needed";
@@ -465,7 +467,8 @@ TEST_F(RunView, TheParticipantSeesTheQuestionAndNoLevel) {
   EXPECT_FALSE(drawn.shows("trial"));
 }
 
-/// Everything that can be used lies on the screen, whatever waits and however small it is.
+/// Tests that every usable control lies on the screen, at every step and in every size of the
+/// window.
 class RunViewFits : public ::testing::TestWithParam<std::pair<float, float>> {};
 
 TEST_P(RunViewFits, EveryWidgetLiesOnTheScreen) {

@@ -11,7 +11,7 @@ namespace scope_curve_test {
 constexpr Rect kPlace{0, 0, 200, 50};  // A pixel is 50 ms wide.
 constexpr AxisRange kRange{-10.0, 10.0};
 
-/// Ten seconds of a slow slope, up or down.
+/// Returns ten seconds of a slow slope, up or down.
 std::vector<ScopePoint> slope(float per_point) {
   std::vector<ScopePoint> points;
   for (int i = 0; i <= 1000; ++i) {

@@ -32,7 +32,7 @@ class StartViewTest : public ::testing::Test {
                        .found = "80 GB free, about 900 sessions"}};
   }
 
-  /// Frames until nothing is left to do; what any of them returned.
+  /// Draws frames until nothing is left to do. Returns what any of them returned.
   StartViewResult draw(HeadlessUi& ui) {
     StartViewResult all;
     ui.frame([&](Ui& now) {

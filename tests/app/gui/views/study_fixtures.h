@@ -7,7 +7,7 @@
 
 namespace jnd::app::gui {
 
-/// A study with two completed sessions and one that was interrupted.
+/// Returns a study with two completed sessions and one that was interrupted.
 inline StudyFolder some_study() {
   StudyFolder study{.folder = "/data/honey.study",
                     .name = "honey",
@@ -54,18 +54,18 @@ inline StudyFolder some_study() {
   return study;
 }
 
-/// Every text of a frame, one after the other.
+/// Returns every text of a frame, each on its own line.
 inline std::string all_texts(const Drawn& drawn) {
   std::string all;
   for (const std::string& text : drawn.texts) all += text + "\n";
   return all;
 }
 
-/// That nothing with a name lies outside of the window or has no size.
+/// Returns whether every named widget lies inside the window and has a size.
 inline bool all_on_screen(const Drawn& drawn, float width, float height) {
   for (const Drawn::Widget& widget : drawn.widgets) {
     const Rect& place = widget.place;
-    if (place.width * place.height == 0) continue;  // Scrolled away.
+    if (place.width * place.height == 0) continue;  // The widget is scrolled away.
     if (place.x < 0 || place.y < 0 || place.right() > width + 0.5f ||
         place.bottom() > height + 0.5f) {
       return false;

@@ -12,15 +12,15 @@
 #include "app/language/words.h"
 #include "support/places.h"
 
-// In German, and in a language whose every sentence is a third longer, nothing is cut and
-// nothing lies on anything else, in the smallest window.
+// In German, and in a language whose sentences are all a third longer, nothing is cut and
+// nothing overlaps, in the smallest window.
 
 namespace jnd::app::gui {
 namespace view_languages_test {
 
 namespace fs = std::filesystem;
 
-/// "de", or "xx": the pseudo-language.
+/// The parameter is "de", or "xx" for the pseudo-language.
 class ViewLanguagesTest : public EverySessionTest,
                           public ::testing::WithParamInterface<const char*> {
  protected:

@@ -6,8 +6,8 @@
 #include "app/gui/views/every_view.h"
 #include "app/gui/views/layout_problems.h"
 
-// From the smallest window to the largest, with the smallest and the largest letters, by day
-// and in the dark, nothing of any view is cut or lies on anything else.
+// From the smallest window to the largest, with the smallest and the largest letters, and in
+// both themes, nothing of any view is cut or overlaps.
 
 namespace jnd::app::gui {
 namespace view_sizes_test {
@@ -16,7 +16,7 @@ struct Size {
   const char* name;
   float width_px, height_px;
   float monitor_scale;
-  float zoom;  ///< What the person chose: from 0.5 to 2.
+  float zoom;  ///< The zoom that the person chose, from 0.5 to 2.
   bool is_dark = false;
 
   [[nodiscard]] float scale() const {
@@ -24,7 +24,7 @@ struct Size {
   }
 };
 
-// The least size is that of all languages, in view_languages_test.cpp, too.
+// The test view_languages_test.cpp uses the least size, too.
 constexpr Size kSizes[] = {{"Least", 1024, 640, 1, 1},
                            {"LeastOfSmallLetters", 1024, 640, 1, 0.5f},
                            {"LeastOfLargeLetters", 1024, 640, 1, 2},
