@@ -7,13 +7,14 @@
 
 namespace jnd::analysis {
 
-/// What figures of `add_felt_answers` are drawn from, and a staircase of each of the two.
+/// Holds the data from which the figures of `add_felt_answers` are drawn, and a staircase for
+/// each of the two people.
 class FeltFiguresTest : public ::testing::Test {
  protected:
   FeltFiguresTest() : study_(kFeltProtocol) {
     add_felt_answers(study_);
     data_ = load_study(study_.store());
-    data_.runs.clear();  // By hand instead.
+    data_.runs.clear();  // The test makes the runs itself.
     for (const char* name : {"P01", "P02"}) {
       data_.runs.push_back(
           {.participant = name,

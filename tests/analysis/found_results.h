@@ -9,18 +9,18 @@
 #include "analysis/results/study_results.h"
 #include "core/error.h"
 
-// Parts of results by their names.
+// These functions find parts of results by name.
 
 namespace jnd::analysis {
 
-/// Throws `Error` where there is none.
+/// Returns the section of this name. Throws `Error` if there is none.
 inline const ResultsSection& section_of(const StudyResults& of, const std::string& name) {
   const auto found = std::ranges::find(of.sections, name, &ResultsSection::name);
   if (found == of.sections.end()) throw core::Error("no section " + name);
   return *found;
 }
 
-/// Of one participant. Throws `Error` where there is none.
+/// Returns the estimate of this name for one participant. Throws `Error` if there is none.
 inline const ParticipantEstimate& own_of(const ResultsSection& of,
                                          const std::string& participant,
                                          const std::string& name) {
@@ -30,13 +30,14 @@ inline const ParticipantEstimate& own_of(const ResultsSection& of,
   throw core::Error("no value " + name + " of " + participant);
 }
 
-/// Null where there is none.
+/// Returns the group's estimate of this name, or null if there is none.
 inline const Estimate* find_estimate(const ResultsSection& of, const std::string& name) {
   const auto found = std::ranges::find(of.estimates, name, &Estimate::name);
   return found == of.estimates.end() ? nullptr : &*found;
 }
 
-/// Of a group; a failure of the test and NaN where there is no estimate or none could be made.
+/// Returns the value of a group's estimate. If there is no estimate or it has no value, the
+/// test fails and the result is NaN.
 inline double value_of(const Estimate* estimate, const std::string& name) {
   if (estimate != nullptr && estimate->value) return *estimate->value;
   ADD_FAILURE() << "no value for " << name;

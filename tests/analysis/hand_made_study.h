@@ -12,7 +12,7 @@
 
 namespace jnd::analysis {
 
-/// A study folder written row by row, so that its results can be worked out by hand.
+/// Writes a study folder row by row, so that its results can be worked out by hand.
 class HandMadeStudy {
  public:
   explicit HandMadeStudy(const std::string& protocol = R"({"name":"by_hand"})")
@@ -38,7 +38,7 @@ class HandMadeStudy {
     return session_;
   }
 
-  /// A person's on a device of which this was measured; the hash of it.
+  /// Adds a session of a person on a device with this profile. Returns the hash of the profile.
   std::string add_measured(const std::string& participant, const std::string& profile) {
     trial_ = 0;
     sequence_ = 0;
@@ -55,7 +55,7 @@ class HandMadeStudy {
     store_.add_adverse_event(session, 0, text);
   }
 
-  /// An event of this kind without anything but its data; its sequence.
+  /// Adds an event of this kind that has nothing but its data. Returns its sequence.
   std::int64_t happens(const std::string& kind, const std::string& data = "{}") {
     core::Commit happened = event(kind.c_str());
     happened.event.data = data;
@@ -63,36 +63,38 @@ class HandMadeStudy {
     return happened.event.sequence;
   }
 
-  /// The session added last began, with this of its participant as JSON.
+  /// Begins the session that was added last. `data` is the JSON of the event, which describes
+  /// the participant.
   void start(const std::string& data) {
     core::Commit started = event("session_started");
     started.event.data = data;
     store_.append(started);
   }
 
-  /// An event of the session added last that nothing but its data tells of.
+  /// Adds to the last session an event that has nothing but its data.
   void keep(const char* kind, const std::string& data) {
     core::Commit kept = event(kind);
     kept.event.data = data;
     store_.append(kept);
   }
 
-  /// The session added last is "session_completed" or "session_ended_early".
+  /// Ends the last session by the event "session_completed" or "session_ended_early".
   void end(const char* kind) { store_.append(event(kind)); }
 
-  /// The next look, "go_on" or "stop", to which these sessions came since the one before.
+  /// Adds the next look with the decision "go_on" or "stop". `sessions` are those since the
+  /// look before.
   void look(const std::string& decision, std::vector<std::int64_t> sessions) {
     const auto number = static_cast<std::int64_t>(store_.looks().size()) + 1;
     store_.add_look({.look = number, .decision = decision, .sessions = std::move(sessions)});
   }
 
-  /// One answered trial of the session added last. Its number.
+  /// Adds an answered trial to the last session. Returns its number.
   std::int64_t answer(core::TrialRow row) {
     (void)draw(row);
     answer_again(std::move(row), 1);
     return trial_;
   }
-  /// Another attempt at the trial answered last.
+  /// Adds another attempt at the trial that was answered last.
   void answer_again(core::TrialRow row, std::int64_t attempt) {
     core::Commit answered = event("trial_answered");
     answered.event.trial = trial_;
@@ -104,7 +106,7 @@ class HandMadeStudy {
     answered.trial = std::move(row);
     store_.append(answered);
   }
-  /// To a question after the trial answered last, attempt 1.
+  /// Adds the answer to a question after the last answered trial, for attempt 1.
   void say_after_trial(const std::string& block, const std::string& question,
                        const std::string& answer) {
     core::Commit said = event("question_answered");
@@ -125,7 +127,7 @@ class HandMadeStudy {
     undone.event.supersedes = answered;
     store_.append(undone);
   }
-  /// A trial of the session added last that has no answer yet. Its number.
+  /// Adds a trial without an answer to the last session. Returns its number.
   std::int64_t draw(const core::TrialRow& row) {
     core::Commit drawn = event("trials_drawn");
     drawn.design.push_back({.session = session_,
@@ -139,7 +141,7 @@ class HandMadeStudy {
     store_.append(drawn);
     return trial_;
   }
-  /// An event that is of no row, of a trial or of none.
+  /// Adds an event without a row, about a trial or about none.
   void happen(const char* kind, std::optional<std::int64_t> trial = {},
               const std::string& data = "") {
     core::Commit happened = event(kind);
@@ -152,7 +154,7 @@ class HandMadeStudy {
     excluded.event.trial = trial;
     store_.append(excluded);
   }
-  /// How the hand moved in the trial answered last.
+  /// Says how the hand moved in the last answered trial.
   void move(core::PresentationRow row) {
     core::Commit ended = event("presentation_ended");
     row.session = session_;
@@ -163,7 +165,7 @@ class HandMadeStudy {
     store_.append(ended);
   }
 
-  /// A medium felt outside of trials.
+  /// Adds a medium that was felt outside of trials.
   void explore(std::int64_t stage, const std::string& medium, double intensity,
                std::int64_t first_tick, std::int64_t last_tick) {
     core::Commit explored = event("medium_explored");
@@ -175,7 +177,7 @@ class HandMadeStudy {
     store_.append(explored);
   }
 
-  /// An answer outside of any trial.
+  /// Adds an answer outside of any trial.
   void say(const std::string& stage, const std::string& item, const std::string& answer) {
     core::Commit answered = event("item_answered");
     answered.answers.push_back({.session = session_,
@@ -212,7 +214,8 @@ class HandMadeStudy {
                   .reference_intensity = reference,
                   .response = thicker ? 1.0 : 0.0});
   }
-  /// One fluid adjusted to another, from `start`.
+  /// Adds a match: a fluid that was adjusted from `start` to `set` to feel like the fluid
+  /// `standard`.
   void match(double standard, double start, double set) {
     (void)answer({.block = "match",
                   .procedure = "matching",
@@ -223,7 +226,8 @@ class HandMadeStudy {
                   .starting_intensity = start,
                   .response = set});
   }
-  /// Ten answers at 8 / 1.5 and ten at 8 * 1.5: that many right ones at each.
+  /// Adds ten answers at 8 / 1.5 and ten at 8 * 1.5, of which `num_right` are right at either
+  /// level.
   void compare_ten(const std::string& block, int num_right) {
     for (int answered = 0; answered < 10; ++answered) {
       compare(block, 8.0 / 1.5, 8.0, answered >= num_right);
@@ -231,7 +235,7 @@ class HandMadeStudy {
     }
   }
 
-  /// What is added from here on happened later by this.
+  /// Everything that is added afterwards happened later by this time.
   void wait(double duration_s) { time_ns_ += static_cast<std::int64_t>(1e9 * duration_s); }
 
  private:

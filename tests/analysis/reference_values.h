@@ -12,19 +12,20 @@
 #include "analysis/fits/psychometric_fit.h"
 #include "analysis/statistics/fit_status.h"
 
-// What tests against `test_support::reference_data` read from it and expect of it.
+// These functions read values from `test_support::reference_data` and compare results with
+// them.
 
 namespace jnd::analysis {
 
-/// Rows [intensity, num_yes, num_trials].
+/// Reads rows [intensity, num_yes, num_trials].
 inline std::vector<AnswerCount> reference_answers(const nlohmann::json& rows) {
   std::vector<AnswerCount> answers;
   for (const nlohmann::json& row : rows) answers.push_back({row[0], row[1], row[2]});
   return answers;
 }
 
-/// A value where the other program has one, nothing where it has null. `tolerance` is a ratio
-/// of the value, or of 1e-3 for what is nearer to 0.
+/// Expects a value where the other program has one, and none where it has null. `tolerance` is
+/// relative to the value, or to 1e-3 for smaller values.
 inline void expect_reference(const std::optional<double>& found, const nlohmann::json& expected,
                              double tolerance, const std::string& where) {
   ASSERT_EQ(found.has_value(), !expected.is_null()) << where;
@@ -33,7 +34,7 @@ inline void expect_reference(const std::optional<double>& found, const nlohmann:
   EXPECT_NEAR(*found, value, tolerance * std::max(std::fabs(value), 1e-3)) << where;
 }
 
-/// The same of both ends, [low, high].
+/// Compares both ends, which the reference holds as [low, high].
 inline void expect_reference(const Interval& found, const nlohmann::json& expected,
                              double tolerance, const std::string& where) {
   expect_reference(found.low, expected.at(0), tolerance, where + " low");

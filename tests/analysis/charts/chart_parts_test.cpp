@@ -13,7 +13,7 @@ TEST(ChartParts, ASpreadIsTheMiddleNinetyPercentWithTheMedian) {
   const FigureTable table = spread_table("spread", "intensity", values);
   EXPECT_EQ(table.columns, (std::vector<std::string>{"intensity", "median", "low", "high"}));
   ASSERT_EQ(table.rows.size(), 2U) << "one person has no spread";
-  // Of 0 to 20 a twentieth lies below 1 and above 19.
+  // Of the values from 0 to 20, a twentieth lies below 1 and a twentieth above 19.
   EXPECT_EQ(table.rows[0][0].number, 2.0);
   EXPECT_DOUBLE_EQ(table.rows[0][1].number.value(), 10.0);
   EXPECT_DOUBLE_EQ(table.rows[0][2].number.value(), 1.0);

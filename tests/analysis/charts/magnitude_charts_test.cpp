@@ -14,7 +14,8 @@ using Look = ChartSeries::Look;
 
 class MagnitudeChartsTest : public ::testing::Test {
  protected:
-  /// 2 I and 8 I in percent of hundreds; sets 2 and 8 for 100 %, 4 and 16 for 200 %.
+  /// Adds two people who estimate 2 I and 8 I hundreds of percent. They set 2 and 8 for 100 %,
+  /// and 4 and 16 for 200 %.
   void add_two_estimators() {
     for (const auto& [name, k] : {std::pair{"P01", 2.0}, {"P02", 8.0}}) {
       study_.add(name);
@@ -65,7 +66,8 @@ TEST_F(MagnitudeChartsTest, EverybodysMeansHaveTheSpreadBetweenPeople) {
   ASSERT_EQ(all.size(), 3U) << "estimation, production, and the laws";
   const ChartSeries& means = series_of(*all[0].everybody, Look::kAnswers);
   EXPECT_FALSE(means.has_bars_along_x);
-  // The participants' own means at intensity 1 are 2 and 8: mean 5, sd 3 sqrt 2.
+  // The participants' own means at intensity 1 are 2 and 8, so the mean is 5 and the sd 3 sqrt
+  // 2.
   EXPECT_EQ(column_of(all[0], means, "intensity"), (std::vector<double>{1.0, 2.0}));
   EXPECT_NEAR(column_of(all[0], means, "magnitude")[0], 5.0, 1e-12);
   EXPECT_NEAR(column_of(all[0], means, "high")[0], 5.0 + 3.0 * std::sqrt(2.0), 1e-12);
@@ -80,10 +82,10 @@ TEST_F(MagnitudeChartsTest, AParticipantsMeansHaveTheSpreadOfTheirOwnAnswers) {
   const ChartSet& estimation = sets()[0];
   ASSERT_EQ(estimation.participants.size(), 2U);
   const ChartSeries& means = series_of(estimation.participants[0], Look::kAnswers);
-  // P01 said 1 and 3 at intensity 1: mean 2, sd sqrt 2.
+  // P01 said 1 and 3 at intensity 1, so the mean is 2 and the sd sqrt 2.
   EXPECT_NEAR(column_of(estimation, means, "magnitude")[0], 2.0, 1e-12);
   EXPECT_NEAR(column_of(estimation, means, "low")[0], 2.0 - std::sqrt(2.0), 1e-12);
-  // Every production was one answer.
+  // Each production has a single answer, and so no spread.
   const ChartSet& production = sets_[1];
   const ChartSeries& produced = series_of(production.participants[0], Look::kAnswers);
   EXPECT_TRUE(std::isnan(column_of(production, produced, "low")[0]));
@@ -111,7 +113,7 @@ TEST_F(MagnitudeChartsTest, TheLawBetweenBothStandsInAChartOfItsOwnOnLogarithmic
   EXPECT_TRUE(laws.x.logarithmic && laws.y.logarithmic);
   const Estimate& k = *results_.find("combined.k");
   EXPECT_TRUE(laws.everybody->value.starts_with("k = " + number_words(k.value, 3)));
-  // What was measured reaches from 1 to 10, the line beyond it is dotted.
+  // The measured part of the law is solid, and the line beyond it is dotted.
   const ChartSeries& beyond = series_of(*laws.everybody, Look::kBeyond);
   for (const double x : column_of(laws, beyond, "intensity")) {
     EXPECT_TRUE(x < 1.0 || x > 2.0) << x << ", estimation went from 1 to 2";

@@ -13,17 +13,18 @@ namespace psychometric_charts_test {
 
 using Look = ChartSeries::Look;
 
-/// People who compared 4 and 12 with 8 Pa s, ten times each.
+/// People who compared 4 and 12 Pa s with 8 Pa s, ten times each.
 class PsychometricChartsTest : public ::testing::Test {
  protected:
-  /// So many right answers of ten at both levels.
+  /// Adds a person for each number, which says how many of ten answers are right at either
+  /// level.
   void add_people(const std::vector<int>& nums_right) {
     for (const int num_right : nums_right) {
       study_.add("P0" + std::to_string(++num_people_));
       study_.compare_ten("thicker", num_right);
     }
   }
-  /// The chart set of the block, of what is in the study by then.
+  /// Returns the charts of the block, made from what the study contains by then.
   const ChartSet& set() {
     data_ = load_study(study_.store());
     results_ = results_of(data_, {}, {.num_resamples = 50});
@@ -110,7 +111,8 @@ TEST_F(PsychometricChartsTest, EverybodysPointsAreMeansWithTheSpreadBetweenPeopl
   EXPECT_EQ(points.look, Look::kAnswers);
   const std::vector<Row> rows = rows_of(charts, points);
   ASSERT_EQ(rows.size(), 2U);
-  // At 12: 10, 10, 9 and 5 of 10 say "more". Mean 0.85; variance 0.17 / 3.
+  // At 12, 10, 10, 9 and 5 of 10 answers are "more". The mean is 0.85 and the variance 0.17 /
+  // 3.
   EXPECT_EQ(rows[1].x, 12.0);
   EXPECT_NEAR(rows[1].y, 0.85, 1e-12);
   EXPECT_NEAR(rows[1].low.value(), 0.85 - std::sqrt(0.17 / 3.0), 1e-12);
@@ -135,7 +137,8 @@ TEST_F(PsychometricChartsTest, ManyPeoplesCurvesAreABand) {
   EXPECT_NE(charts.whole->caption.find("own curves, of which there are 41 (maximum"),
             std::string::npos)
       << charts.whole->caption;
-  // Its ends are the flattest and the steepest curve, which a third of the people have each.
+  // The ends of the band are the flattest and the steepest curve, each of which a third of the
+  // people have.
   const FigureTable& table = charts.tables[spread->table];
   ASSERT_FALSE(table.rows.empty());
   std::vector<std::vector<Row>> curves;
@@ -199,7 +202,8 @@ TEST_F(PsychometricChartsTest, CurvesAreHalfAtThePseAndEightyFourPercentAtTheLin
   const Chart& steep = charts.participants[2];
   const std::vector<Row> own_curve = rows_of(charts, *series_of(steep, Look::kCurve));
   EXPECT_NEAR(y_at(own_curve, steep.lines[1].at), 0.8413, 1e-3);
-  // Through everybody's answers: 53 of 60 right at 1.5 times the reference.
+  // The other curve is fitted to everybody's answers, of which 53 of 60 are right at 1.5 times
+  // the reference.
   const std::vector<Row> group = rows_of(charts, *series_of(everybody, Look::kOtherCurve));
   EXPECT_NEAR(y_at(group, 12.0), 53.0 / 60.0, 1e-3);
   EXPECT_EQ(std::ranges::count(everybody.series, Look::kFaintCurve, &ChartSeries::look), 6);
@@ -223,7 +227,7 @@ TEST_F(PsychometricChartsTest, TheBandLiesBetweenTheCurvesOfTheIntervalsEnds) {
       EXPECT_GE(row.high.value(), row.y - 1e-12);
     }
   }
-  // The steep end, worked out by hand from the interval of P01.
+  // The steep end is worked out by hand from the interval of P01.
   const double w = own("P01", "weber_fraction_free_pse").ci95.low.value();
   const double pse = own("P01", "pse").value.value();
   const Row last = rows_of(charts, *series_of(charts.participants[0], Look::kBand)).back();

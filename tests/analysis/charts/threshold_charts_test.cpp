@@ -28,7 +28,7 @@ TEST_F(ThresholdChartsTest, AnswersHaveTheCurveAndTheThresholdOfTheResults) {
   const FigureTable& answers = set.tables[own.series[1].table];
   const std::size_t ratio = answers.place_of("ratio");
   EXPECT_NEAR(answers.rows[2][ratio].number.value(), 0.8, 1e-12);
-  // The line at the threshold, up to where the curve is at one half.
+  // The line stands at the threshold and ends where the curve is at one half.
   ASSERT_EQ(own.lines.size(), 1U);
   EXPECT_NEAR(own.lines[0].at, 0.2, 1e-9);
   EXPECT_EQ(own.lines[0].until, 0.5);

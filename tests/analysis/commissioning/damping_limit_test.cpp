@@ -15,17 +15,17 @@ namespace damping_limit_test {
 constexpr double kPeriod_s = 0.001;
 constexpr int kSweepTicks = 128;
 
-/// Masses side by side, each with an input of its own, whose velocity is read a whole number of
-/// ticks after the force that changed it.
+/// Several masses side by side, each with its own input. Their velocity is read a whole number
+/// of ticks after the force that changed it.
 struct Masses {
   std::vector<double> mass_kg;
   int delay_ticks = 0;
 };
 
-/// v(k + 1) = v(k) + T / m u(k - d), so G(z) = T / m z^-d / (z - 1). Its phase is -180 degrees
-/// where w d + w / 2 = 90 degrees, and |z - 1| = 2 sin(w / 2), so that by hand
-///
-///     limit = 2 m / T sin(w / 2) / share,   w = pi / (2 d + 1).
+/// Returns the limit, worked out by hand. From v(k + 1) = v(k) + T / m u(k - d) follows G(z) =
+/// T / m z^-d / (z - 1). Its phase is -180 degrees where w d + w / 2 = 90 degrees, and |z - 1|
+/// = 2 sin(w / 2), so
+///   limit = 2 m / T sin(w / 2) / share,   w = pi / (2 d + 1).
 double limit_by_hand(double mass_kg, double share_ratio, int delay_ticks) {
   const double angle = std::numbers::pi / (2.0 * delay_ticks + 1.0);
   return 2.0 * mass_kg / kPeriod_s * std::sin(0.5 * angle) / share_ratio;
@@ -108,7 +108,8 @@ TEST(DampingLimit, IntervalsHoldTheTruthAndLowerEndsLieBelowIt) {
     held += limit.damping_n_s_per_m.holds(truth) ? 1 : 0;
     above += limit.damping_n_s_per_m.ci95_low > truth ? 1 : 0;
   }
-  // Jackknife over eight ways: not much below what it says.
+  // The jackknife uses only eight ways, so the interval holds the true value slightly less
+  // often than it claims.
   EXPECT_GE(held, static_cast<int>(0.91 * kStudies));
   EXPECT_LE(above, static_cast<int>(0.05 * kStudies));
 }

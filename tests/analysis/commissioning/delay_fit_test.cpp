@@ -23,7 +23,7 @@ struct Device {
   double cogging_n = 0.0, position_sd_m = 0.0;
 };
 
-/// Stepped by twentieths of a tick.
+/// Simulates the device in steps of a twentieth of a tick.
 std::vector<PushedWindow> pushed(const Device& device, int num_ways,
                                  core::RandomStream& random) {
   constexpr int kSteps = 20, kGathering = 300, kWindows = 3, kWindowTicks = 10 * kPushTicks;
@@ -75,7 +75,8 @@ TEST(DelayFit, DampingIsNoDelay) {
   const DelayFit known = fit_delay(windows, kPeriod_s, kPushTicks, 5.0);
   EXPECT_NEAR(known.delay_s.value, device.delay_s, 5e-6);
   EXPECT_NEAR(known.mass_per_gain_kg.value, 0.3, 0.0005);
-  // damping / (w^2 mass) = 5 / (209.44^2 0.3) = 0.38 ms.
+  // The neglected damping changes the delay by damping / (w^2 mass) = 5 / (209.44^2 0.3) = 0.38
+  // ms.
   const DelayFit unknown = fit_delay(windows, kPeriod_s, kPushTicks, 0.0);
   EXPECT_NEAR(unknown.delay_s.value, device.delay_s - 0.00038, 2e-5);
 }
@@ -85,7 +86,7 @@ TEST(DelayFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
   core::RandomStream random(2, "delay");
   int delay = 0, mass = 0;
   for (int study = 0; study < kStudies; ++study) {
-    // As exactly as the steps tell it.
+    // The delay is a multiple of the steps by which the simulation proceeds.
     const Device device{.delay_s = 5e-5 * std::round(random.uniform(10.0, 80.0)),
                         .mass_kg = random.uniform(0.3, 1.2),
                         .damping_n_s_per_m = 2.0,
@@ -96,7 +97,7 @@ TEST(DelayFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
     delay += fit.delay_s.holds(device.delay_s) ? 1 : 0;
     mass += fit.mass_per_gain_kg.holds(device.mass_kg) ? 1 : 0;
   }
-  // Within the binomial's 99.9 % range at 0.95.
+  // The limit is the 99.9 % range of the binomial distribution at 0.95.
   EXPECT_GE(delay, 87);
   EXPECT_GE(mass, 87);
 }
@@ -117,7 +118,7 @@ TEST(DelayFit, SomethingThatDoesNotMoveHasNone) {
 TEST(DelayFit, WhatSeemsToMoveBeforeItIsPushedIsNoSingleMass) {
   core::RandomStream random(6, "delay");
   auto windows = pushed({.delay_s = 0.0}, 6, random);
-  // Positions two ticks early, forces two ticks late.
+  // The forces are now two ticks late, so that positions come two ticks early.
   for (PushedWindow& window : windows) {
     std::rotate(window.commanded_n.begin(), window.commanded_n.end() - 2,
                 window.commanded_n.end());
@@ -153,7 +154,7 @@ TEST(NoiseFit, TellsDeviationAndSteps) {
   }
   const NoiseFit fit = fit_noise(position_m, velocity_m_per_s);
   EXPECT_NEAR(fit.position_resolution_m, 8e-6, 1e-12);
-  // Rounding adds a twelfth of its square.
+  // Rounding adds a twelfth of the square of its step to the variance.
   EXPECT_NEAR(fit.position_sd_m.value, std::sqrt(4e-10 + 64e-12 / 12.0), 6e-7);
   EXPECT_TRUE(fit.velocity_sd_m_per_s.holds(0.002));
   EXPECT_LT(fit.velocity_sd_m_per_s.ci95_high, 0.0021);

@@ -11,7 +11,7 @@
 namespace jnd::analysis {
 namespace force_fit_test {
 
-/// A device by its numbers.
+/// The true values of a device.
 struct Truth {
   double gain = 0.9, weight_n = 1.5, damping_n_s_per_m = 2.4, friction_n = 0.6, mass_kg = 0.7;
   double sideways_n = 0.2;  ///< A constant force along +x.
@@ -19,7 +19,8 @@ struct Truth {
 
 constexpr double kMassPerGain_kg = 0.7 / 0.9;
 
-/// What it has to be commanded for a way, so that forces and inertia balance.
+/// Returns the force that the device must be commanded on this way, so that forces and inertia
+/// balance.
 double commanded_n(const Truth& truth, const GuidedWay& way, const Eigen::Vector3d& up) {
   const Eigen::Vector3d constant_n =
       -truth.weight_n * up + truth.sideways_n * Eigen::Vector3d::UnitX();
@@ -41,7 +42,7 @@ std::vector<GuidedWay> ways_of(const Truth& truth, const Eigen::Vector3d& up, do
                   .load_n = load_n * (1.0 + load_error_ratio),
                   .pose = pose};
     way.commanded_n = commanded_n(truth, way, up) + random.normal(0.0, sd_n);
-    way.load_n = load_n;  // As the laboratory believes.
+    way.load_n = load_n;  // The load as the laboratory believes it to be.
     ways.push_back(way);
   };
   for (int axis = 0; axis < 3; ++axis) {
@@ -62,7 +63,7 @@ std::vector<GuidedWay> ways_of(const Truth& truth, const Eigen::Vector3d& up, do
 TEST(ForceFit, FindsEverythingWhereNothingIsNoisy) {
   const Truth truth;
   core::RandomStream random(1, "force");
-  // The device's y points up.
+  // The device's y axis points up.
   const Eigen::Vector3d up = Eigen::Vector3d::UnitY();
   const ForceFit fit = fit_force(ways_of(truth, up, 0.0, random), up, kMassPerGain_kg, 0.0);
   EXPECT_NEAR(fit.gain.value, truth.gain, 1e-9);
@@ -87,7 +88,7 @@ TEST(ForceFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
     damping += fit.damping_n_s_per_m.holds(truth.damping_n_s_per_m) ? 1 : 0;
     friction += fit.friction_n.holds(truth.friction_n) ? 1 : 0;
   }
-  // Three standard errors of a proportion of 0.95.
+  // The tolerance is three standard errors of a proportion of 0.95.
   for (const int held : {gain, weight, damping, friction}) {
     EXPECT_NEAR(held / static_cast<double>(kStudies), 0.95, 0.015);
   }
@@ -101,7 +102,7 @@ TEST(ForceFit, WhatIsOpenOfTheLoadsWidensAllThatIsInNewtons) {
       ways_of(truth, up, 0.0, random, /*load_error_ratio=*/0.01);
   const ForceFit sure = fit_force(ways, up, kMassPerGain_kg, 0.0),
                  unsure = fit_force(ways, up, kMassPerGain_kg, 0.01);
-  // Heavier than believed by 1 %, so all of it comes out too small by that.
+  // The loads are 1 % heavier than believed, so all values come out too small by 1 %.
   EXPECT_NEAR(sure.gain.value, truth.gain / 1.01, 1e-9);
   EXPECT_FALSE(sure.gain.holds(truth.gain));
   EXPECT_TRUE(unsure.gain.holds(truth.gain));
@@ -116,7 +117,7 @@ TEST(ForceFit, DampingThatDiffersBetweenAxesIsThatOfTheFirst) {
   std::vector<GuidedWay> ways = ways_of(truth, up, 0.03, random);
   const ForceFit alike = fit_force(ways, up, kMassPerGain_kg, 0.0);
   EXPECT_TRUE(alike.damps_alike);
-  // Ten times as damped along y, where nothing hangs.
+  // The damping along y, where nothing hangs, is ten times as large.
   for (GuidedWay& way : ways) {
     if (way.direction.y() != 0.0) {
       way.commanded_n += 9.0 * truth.damping_n_s_per_m * way.speed_m_per_s / truth.gain;
@@ -125,11 +126,11 @@ TEST(ForceFit, DampingThatDiffersBetweenAxesIsThatOfTheFirst) {
   const ForceFit fit = fit_force(ways, up, kMassPerGain_kg, 0.0);
   EXPECT_FALSE(fit.damps_alike);
   EXPECT_TRUE(fit.damping_n_s_per_m.holds(truth.damping_n_s_per_m));
-  // One damping for all axes would leave much more open.
+  // With one damping for all axes, the interval would be much wider.
   EXPECT_LT(fit.damping_n_s_per_m.ci95_high - fit.damping_n_s_per_m.ci95_low, 2.0);
   ASSERT_EQ(fit.damping_by_axis_n_s_per_m.size(), 3U);
   EXPECT_TRUE(fit.damping_by_axis_n_s_per_m[1].holds(10.0 * truth.damping_n_s_per_m));
-  // What loads tell is as sure as before.
+  // What loads determine is as certain as before.
   EXPECT_DOUBLE_EQ(fit.gain.value, alike.gain.value);
   EXPECT_DOUBLE_EQ(fit.gain.ci95_low, alike.gain.ci95_low);
   EXPECT_DOUBLE_EQ(fit.weight_n.value, alike.weight_n.value);
@@ -156,13 +157,14 @@ TEST(ForceFit, WaysThatDoNotTellItApartAreRefused) {
     if (way.load_n == 0.0) without_loads.push_back(way);
   }
   EXPECT_THROW((void)fit_force(without_loads, up, kMassPerGain_kg, 0.0), core::Error);
-  // Hung from the wrong end.
+  // The loads hang from the wrong end.
   EXPECT_THROW((void)fit_force(ways_of({}, up, 0.0, random), -up, kMassPerGain_kg, 0.0),
                core::Error);
 }
 
 TEST(GuidedWay, IsTheBalanceOfEnergyAlongTheWay) {
-  // From 0.1 to 0.3 m/s within 0.4 s: 0.5 m/s^2; 2 N against a spring that gives as it takes.
+  // The speed rises from 0.1 to 0.3 m/s within 0.4 s, which is 0.5 m/s^2. The force is 2 N,
+  // against a spring that gives back as much as it takes.
   std::vector<double> position_m, force_n;
   for (int i = 0; i <= 400; ++i) {
     const double t = 0.001 * i;
@@ -172,7 +174,8 @@ TEST(GuidedWay, IsTheBalanceOfEnergyAlongTheWay) {
   const GuidedWay way =
       guided_way(Eigen::Vector3d::UnitY(), position_m, force_n, 0.001, 1.2, 2);
   EXPECT_NEAR(way.acceleration_m_per_s2, 0.5, 0.002);
-  // The integral of v^2 over that of v, of the ticks between 8 ms from either end.
+  // The expected speed is the integral of v^2 over that of v, for the ticks between 8 ms from
+  // either end.
   const double from = 0.104, to = 0.296;
   const double expected =
       (to * to * to - from * from * from) / 3.0 / ((to * to - from * from) / 2.0);
@@ -185,9 +188,10 @@ TEST(GuidedWay, IsTheBalanceOfEnergyAlongTheWay) {
 }
 
 TEST(GuidedWay, FromRestToRestCountsTheWholePathAndNothingOfWhatLinksGaveBack) {
-  // A tool of 1 kg with a link of 2 kg on a spring behind it goes 10 cm, some beyond, and comes
-  // to rest: what was put in is what both dampers took, wherever it was meanwhile. Its own
-  // equations in steps of 0.02 ms, told once a millisecond.
+  // A tool of 1 kg with a link of 2 kg on a spring behind it goes 10 cm, moves somewhat beyond,
+  // and comes to rest. The work that was put in is what both dampers took, wherever the tool
+  // was meanwhile. The equations are solved in steps of 0.02 ms, and one value is kept in each
+  // millisecond.
   constexpr double kStep_s = 2e-5, kTick_s = 1e-3;
   double x_m = 0.0, v = 0.0, link_m = 0.0, link_v = 0.0, taken_j = 0.0, path_m = 0.0;
   std::vector<double> position_m, force_n;
@@ -195,7 +199,7 @@ TEST(GuidedWay, FromRestToRestCountsTheWholePathAndNothingOfWhatLinksGaveBack) {
     const double s = std::min(1.0, tick * kTick_s / 0.8);
     const double to_m = 0.1 * s * s * s * (10.0 + s * (6.0 * s - 15.0));
     const double force = 150.0 * (to_m - x_m) - 20.0 * v;
-    // At the middle of the time in which the force stands.
+    // The position in the middle of the time for which the force is constant.
     double middle_m = x_m;
     for (int step = 0; step < 50; ++step) {
       const double link_n = 80.0 * (link_m - x_m) + 4.0 * (link_v - v);

@@ -10,7 +10,8 @@ namespace jnd::analysis {
 namespace homing_fit_test {
 
 TEST(HomingFit, SpreadIsTheLargestDistanceBetweenTwoPlaces) {
-  // Between the second and the third 3, 4 and 0 mm along the axes: 5 mm.
+  // The second and the third place differ by 3, 4 and 0 mm along the axes, so they are 5 mm
+  // apart.
   const HomingFit fit =
       fit_homing({{0.001, 0.001, 0.0}, {0.0, 0.0, 0.0}, {0.003, 0.004, 0.0}}, 0.02);
   EXPECT_NEAR(fit.spread_m, 0.005, 1e-15);

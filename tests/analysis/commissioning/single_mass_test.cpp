@@ -8,8 +8,8 @@
 namespace jnd::analysis {
 namespace single_mass_test {
 
-/// Swings of a mass on a spring that a loop renders, in steps of a microsecond: how large they
-/// are at the end, over how large they were in the beginning.
+/// Simulates in steps of a microsecond how a mass swings on a spring that a loop renders.
+/// Returns the amplitude at the end over that in the beginning.
 double growth_by_steps(const SingleMass& device, double stiffness_n_per_m) {
   constexpr double kStep_s = 1e-6;
   constexpr double kDuration_s = 8.0;
@@ -45,7 +45,7 @@ TEST(SingleMass, SwingsGrowAboveItsLimitAndDecayBelow) {
     const double limit_n_per_m = stiffness_limit_n_per_m(device);
     EXPECT_GT(growth_by_steps(device, 1.1 * limit_n_per_m), 1.0) << limit_n_per_m;
     EXPECT_LT(growth_by_steps(device, 0.9 * limit_n_per_m), 1.0) << limit_n_per_m;
-    // The rule of thumb (Gil et al. 2004).
+    // The rule of thumb is from Gil et al. (2004).
     const double thumb_n_per_m =
         device.damping_n_s_per_m / (device.delay_s + 0.5 * device.period_s);
     EXPECT_NEAR(limit_n_per_m, thumb_n_per_m, 0.1 * thumb_n_per_m);

@@ -11,7 +11,7 @@ namespace adaptive_runs_test {
 
 using experiments::Block;
 
-/// A study whose one block has these keys besides those of every block.
+/// Returns the block of a study whose one block has these keys besides those of every block.
 Block block_with(const std::string& keys) {
   const experiments::Study study = experiments::read_study_text(
       R"json({"format": 1, "name": "adaptive", "languages": ["en"], "title": {"en": "A"},
@@ -101,7 +101,7 @@ TEST(AdaptiveRuns, LimitsAreMeansOfTransitionsByDirection) {
   EXPECT_NEAR(*run.limits.constant_error, std::log(2.0), 1e-9) << "habituation";
 }
 
-/// Whoever has the pse 10 and the Weber fraction 0.2, ten answers a level.
+/// Returns ten answers at each level of a person with the pse 10 and the Weber fraction 0.2.
 std::vector<Answer> around_10() {
   std::vector<Answer> answers;
   for (const auto& [level, num_yes] : std::vector<std::pair<double, int>>{

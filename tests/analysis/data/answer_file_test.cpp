@@ -125,7 +125,7 @@ TEST(AnswerFile, GroupsAndTakesTheRowsThatAreAskedFor) {
 }
 
 TEST(AnswerFile, TakesWhatPsychoPyWrites) {
-  // A comma at each line's end, instruction rows that are empty, and rows that are shorter.
+  // Each line ends with a comma, the rows of instructions are empty, and some rows are shorter.
   const AnswerFile file = parse_answers(
       "level,trials.thisN,resp.keys,resp.corr,date,\n"
       ",,,,2026-01-05,\n"

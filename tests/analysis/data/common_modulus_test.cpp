@@ -27,7 +27,7 @@ StudyResults results(const HandMadeStudy& study, const Published& published = {}
   return results_of(load_study(study.store()), published, {.num_resamples = 100});
 }
 
-/// S = I^2, told in tens by one and in thousands by the other.
+/// Adds two people with S = I^2. One of them answers in tens, the other in thousands.
 void add_two_counts(HandMadeStudy& study) {
   study.add("P01");
   estimate(study, 1.0, 10.0);

@@ -77,7 +77,7 @@ TEST(ComparedBlocks, RefuseWhatCannotBeCompared) {
             "and stiffness_n_per_m in `s`");
 }
 
-/// Three blocks of three people.
+/// Returns the results of three people, each in three blocks.
 StudyResults results(const std::vector<BlockNames>& compared) {
   HandMadeStudy study;
   int person = 0;

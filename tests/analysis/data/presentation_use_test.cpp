@@ -21,7 +21,8 @@ void present(HandMadeStudy& study, const std::string& block, const std::string& 
                            .max_speed_m_per_s = width_m}});
 }
 
-/// Wide references, narrow tests; in group_e most tests have no whole stroke.
+/// A study with wide strokes in references and narrow ones in tests. In group_e most tests have
+/// no whole stroke.
 class PresentationUses : public ::testing::Test {
  protected:
   PresentationUses() {
@@ -70,7 +71,8 @@ TEST_F(PresentationUses, LevelsThatPeopleSetThemselvesAreCountedTogether) {
 
 TEST_F(PresentationUses, IntervalsWeighEquallyBesideTheMeanOverAllPresentations) {
   const StudyResults of = results_of(load_study(study_.store()), {}, kQuick);
-  // group_e: one reference and one test are left of each person; group_d has as many of both.
+  // In group_e, one reference and one test of each person remain. In group_d there are as many
+  // of both.
   EXPECT_NEAR(*of.find("stroke_width_m.group_d.equal_intervals")->value, 0.55, 1e-12);
   EXPECT_NEAR(*of.find("stroke_width_m.group_e.equal_intervals")->value, 0.45, 1e-12);
   EXPECT_NEAR(*of.find("stroke_width_m.group_d_minus_group_e.equal_intervals")->value, 0.1,

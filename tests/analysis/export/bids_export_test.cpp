@@ -43,7 +43,7 @@ class BidsExportTest : public ::testing::Test {
     study_.estimate(1.0, 100.0);
   }
 
-  /// Ticks 90 to 119 but for 103 and 106 to 107.
+  /// Records the ticks 90 to 119 without 103, 106 and 107.
   void record() { record(study_.store()); }
   static void record(const core::StudyStore& store) {
     core::RecordingWriter writer(store.recording_file(1), 1000.0, core::Durability::kAtClose);
@@ -168,7 +168,7 @@ TEST_F(BidsExportTest, AtAFifthOfTheRateMotionHasARowEveryFiveTicksOfTheChosenCh
   ASSERT_EQ(rows.size(), 2U) << "ticks 100 to 109";
   EXPECT_EQ(rows[0][0], "0");
   EXPECT_EQ(rows[1][0], "0.005");
-  // Ticks 100 to 104 without 103, which is lost.
+  // These are the ticks 100 to 104 without 103, which was lost.
   EXPECT_EQ(rows[0][1], "0.0000102") << "the mean of 100, 101, 102 and 104 steps";
   EXPECT_EQ(rows[0].size(), 1U + 15U + 4U) << "latency, positions of five points, flags";
   EXPECT_EQ(sidecar["SamplingFrequency"], 200.0);
@@ -213,7 +213,8 @@ TEST_F(BidsExportTest, PresentationsOfExcludedTrialsAreEventsAndMarked) {
   EXPECT_EQ(value(rows, 2, "excluded"), "1");
 }
 
-/// Of a study that only shows media, too: its samples are tasks named by their stages.
+/// This also holds for a study that only presents media. Its samples are tasks that have the
+/// names of their stages.
 TEST_F(BidsExportTest, StagesInWhichMediaAreExploredAreTasks) {
   HandMadeStudy study;
   study.add("P01");
@@ -409,7 +410,7 @@ TEST_F(BidsExportTest, TheSourceKnowsNobodyWhoWasNotAskedFor) {
   const std::int64_t other = study_.add("P_77", /*pilot=*/false, R"({"name": "made"})");
   study_.report_adverse_event(other, "a pinched finger of another person");
   study_.happens("note_added", R"({"text": "a secret of P_77"})");
-  // The first one is open for writing.
+  // The original study is open for writing, so the appointment is added to a copy.
   const fs::path copy = temporary_.path() / "copy.study";
   fs::copy(study_.folder(), copy, fs::copy_options::recursive);
   (void)core::add_appointment(copy, "P_77", 1, 1);

@@ -61,7 +61,7 @@ class CsvExportTest : public ::testing::Test {
     return of.cell(row, of.find(column).value());
   }
 
-  // Neither fits in fewer than 17 digits.
+  // This number needs all 17 digits.
   static constexpr double kAwkward = 0.1 + 0.2;
   HandMadeStudy study_;
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
@@ -69,7 +69,7 @@ class CsvExportTest : public ::testing::Test {
 
 constexpr const char* kTables[] = {"sessions.csv", "trials.csv", "presentations.csv",
                                    "events.csv", "answers.csv"};
-// Worked out of several tables, or of the study file.
+// These tables are computed from several tables or from the study file.
 constexpr const char* kMadeTables[] = {"participants.csv", "questionnaires.csv",
                                        "questions.csv",    "codebook.csv",
                                        "markers.csv",      "session_values.csv"};
@@ -353,7 +353,7 @@ TEST_F(CsvExportTest, AGapOfARecordingIsToldAndNotFilledIn) {
             "session,participant,simulated,first_tick,last_tick,missed_ticks\n1,P01,0,2,4,0\n");
 }
 
-/// Whatever somebody typed, in the study file or while it ran.
+/// This holds for whatever somebody typed into the study file or during the session.
 TEST_F(CsvExportTest, NoCellThatSomebodyTypedIsAFormula) {
   HandMadeStudy study(R"json({"name": "typed", "participant_fields": [{"name": "group",
       "options": [{"value": "=GROUP()"}]}],
@@ -381,7 +381,8 @@ TEST_F(CsvExportTest, NoCellThatSomebodyTypedIsAFormula) {
       }
     }
   }
-  // Of answers three; of participants the field; of questionnaires question, unit and answer.
+  // There are three answers, the field of the participants, and the question, the unit and the
+  // answer of the questionnaires.
   EXPECT_EQ(num_texts, 3U + 1U + 3U);
   EXPECT_NE(read_file(out() / "answers.csv").find(",'=cmd|' /C calc'!A0\n"), std::string::npos)
       << read_file(out() / "answers.csv");
@@ -451,8 +452,8 @@ TEST_P(RecordingsExportTest, HaveARowASampleAndTheirColumnsInTheCodebook) {
   ASSERT_EQ(samples.num_rows(), 100U);
   EXPECT_EQ(cell(samples, 99, "tick"), "99");
   if (GetParam()) {
-    // Of single precision, whose own digits would be 1.5707999467849731 and
-    // 0.30000001192092896.
+    // The values have single precision. Printed with all digits of double precision, they would
+    // be 1.5707999467849731 and 0.30000001192092896.
     EXPECT_EQ(cell(samples, 99, "middle_proximal_position_rad"), "1.5708");
     EXPECT_EQ(cell(samples, 99, "middle_proximal_torque_n_m"), "0.3");
   }
@@ -466,7 +467,7 @@ TEST_P(RecordingsExportTest, HaveARowASampleAndTheirColumnsInTheCodebook) {
   EXPECT_EQ(told, std::set<std::string>(samples.columns().begin(), samples.columns().end()));
 }
 
-/// A study of blocks with factors.
+/// Exports a study of blocks with factors.
 class TidyExportTest : public ::testing::Test {
  protected:
   TidyExportTest() {

@@ -125,7 +125,7 @@ class Hdf5ExportTest : public ::testing::Test {
     return letters;
   }
 
-  static constexpr std::int64_t kNumTicks = 40000;  // More than two chunks.
+  static constexpr std::int64_t kNumTicks = 40000;  // So many ticks fill more than two chunks.
   HandMadeStudy study_;
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
@@ -137,7 +137,7 @@ TEST_F(Hdf5ExportTest, HoldsEverySampleAsTheCsvDoes) {
   EXPECT_EQ(ticks[6], 6.0);
   EXPECT_EQ(ticks[7], 9.0) << "nothing is filled in";
   EXPECT_EQ(ticks.back(), kNumTicks - 1);
-  // Point by point, axis by axis, in steps.
+  // The values come point by point, axis by axis, in steps.
   const std::size_t num = ticks.size();
   const std::vector<double> position = numbers("/session_0001/position_m");
   const std::vector<double> force = numbers("/session_0001/force_n");
@@ -172,7 +172,7 @@ TEST_F(Hdf5ExportTest, WhatIsNoNumberIsMissingAndWhatIsTooLargeIsTheLargest) {
 }
 
 TEST_F(Hdf5ExportTest, IsAtMostFifteenTimesAsLargeAsTheRecording) {
-  // A hand that moves as a person's does and is felt with some noise: all points alike.
+  // The hand moves as a person's does, with some noise, and all points move alike.
   fs::remove(study_.store().recording_file(1));
   {
     core::RecordingWriter writer(study_.store().recording_file(1), 1000.0,
@@ -200,7 +200,7 @@ TEST_F(Hdf5ExportTest, OfOneChannelAtATenthOfTheRateEachRowIsTheMeanOfItsTicks) 
   ASSERT_EQ(ticks.size(), kNumTicks / 10);
   EXPECT_EQ(ticks[1], 10.0);
   const std::vector<double> x = numbers("/session_0001/position_m");
-  // 0 to 9 without 7 and 8: 30 / 8, to the step that is stored.
+  // The mean of 0 to 9 without 7 and 8 is 30 / 8, rounded to the stored step.
   EXPECT_EQ(x[0], 4.0);
   EXPECT_EQ(x[1], 15.0) << "10 to 19 have the mean 14.5";
   EXPECT_EQ(numbers("/session_0001/attached_bits").at(3), 31.0);

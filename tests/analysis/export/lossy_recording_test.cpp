@@ -19,7 +19,7 @@ namespace lossy_recording_test {
 namespace fs = std::filesystem;
 using test_support::read_file;
 
-/// A recorded session whose events speak of the ticks 0 to 8999; in every format.
+/// Exports a recorded session in every format. Its events refer to the ticks 0 to 8999.
 class LossyRecordingTest : public ::testing::TestWithParam<const char*> {
  protected:
   LossyRecordingTest() {
@@ -45,7 +45,8 @@ class LossyRecordingTest : public ::testing::TestWithParam<const char*> {
     if (GetParam() == std::string("hdf5")) return export_hdf5(study_.store(), out(), options);
     return export_bids(study_.store(), out(), options, "");
   }
-  /// The sentence that is thrown; nothing is left.
+  /// Returns the message with which the export is refused, and expects that nothing is left of
+  /// it.
   [[nodiscard]] std::string refusal() const {
     std::string sentence;
     try {
@@ -56,7 +57,7 @@ class LossyRecordingTest : public ::testing::TestWithParam<const char*> {
     EXPECT_TRUE(fs::is_empty(temporary_.path()));
     return sentence;
   }
-  /// What the data set says of the loss.
+  /// Returns the part of the data set that tells of the loss.
   [[nodiscard]] std::string told() const {
     if (GetParam() == std::string("csv")) return read_file(out() / "recordings/gaps.csv");
     return read_file(out() / (GetParam() == std::string("bids") ? "README.md" : "study.h5"));
@@ -75,7 +76,7 @@ TEST_P(LossyRecordingTest, OneThatHoldsEverythingIsNoProblem) {
   EXPECT_TRUE(outcome.samples);
 }
 
-/// The bytes decode: only their hash tells that they are others.
+/// The damaged bytes can be decoded. Only their hash shows that they were changed.
 TEST_P(LossyRecordingTest, ADamagedChunkIsRefusedAndNothingIsLeft) {
   record(0, 8999);
   {
@@ -132,7 +133,7 @@ TEST_P(LossyRecordingTest, TicksThatLackAtStartAndEndAreTold) {
             std::string::npos);
 }
 
-/// As a signal does it.
+/// The export stops as by a signal.
 TEST_P(LossyRecordingTest, WhoeverStopsItLeavesNothing) {
   record(0, 8999);
   int num_calls = 0;

@@ -46,7 +46,7 @@ TEST(SessionClock, EventsGetTheTimeOfTheirTickAndOthersThatOfTheDay) {
   clock.finish();
   EXPECT_NEAR(clock.time_s(events[1]), 700.1, 1e-9);
   EXPECT_NEAR(clock.time_s(events[2]), 702.1, 1e-9);
-  // The day is 49309.9 or 49310.4 s ahead, as the two of them tell; either may be taken.
+  // By one event the day is 49309.9 s ahead, by the other 49310.4 s. The clock may use either.
   EXPECT_NEAR(clock.time_s(events[3]), 710.1, 0.6);
   EXPECT_NEAR(clock.time_s(sample(10, 700.01)), 700.01, 1e-9);
 }
@@ -63,7 +63,7 @@ TEST(SessionClock, WhereAStreamWasOpenedTheDifferenceIsKnown) {
   EXPECT_NEAR(clock.time_s(events[3]), 50'020.0 - 50'001.0 + 691.125, 1e-6);
 }
 
-/// The second part began after the machine was started anew: its monotonic clock is another.
+/// The second part began after the machine had restarted, so its monotonic clock begins anew.
 TEST(SessionClock, ASessionGoesOnWhereTheMachineWasStartedAnew) {
   const std::vector<core::EventRow> events = {
       event("session_started", 50'000.0), event("presentation_started", 50'010.0, 10),

@@ -48,7 +48,8 @@ TEST_F(UnfinishedFolderTest, TakesAnEmptyFolderALinkToOneAndOneWithASlash) {
   EXPECT_TRUE(fs::is_symlink(temporary_.path() / "link"));
 }
 
-/// So that a disk which is mounted there takes it, and its parent need not be writable.
+/// The files must go to the disk that may be mounted there, and the parent folder need not be
+/// writable.
 TEST_F(UnfinishedFolderTest, FillsAnEmptyFolderFromWithin) {
   fs::create_directory(out_);
   {
@@ -105,7 +106,7 @@ TEST_F(UnfinishedFolderTest, AFileInItsPlaceIsNotCalledAFolder) {
   }
 }
 
-/// Nobody may make a folder there, root neither.
+/// Nobody may make a folder there, not even root.
 TEST_F(UnfinishedFolderTest, ARightThatLacksIsToldApart) {
   std::error_code error;
   if (fs::create_directory("/sys/jnd", error) || error == std::errc::read_only_file_system) {

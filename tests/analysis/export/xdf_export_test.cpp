@@ -29,7 +29,8 @@ namespace xdf_export_test {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// As a reader of its own has it, which knows the specification and nothing of this program.
+/// Returns the file as a separate reader sees it, which follows the specification and knows
+/// nothing of this program.
 json read_back(const fs::path& file) {
   const fs::path script = test_support::source_folder() / "tests/analysis/export/read_xdf.py";
   const fs::path out = file.string() + ".json";
@@ -65,7 +66,8 @@ class XdfExportTest : public ::testing::Test {
 
   [[nodiscard]] fs::path recording() const { return study_.store().recording_file(1); }
 
-  /// The stream of an amplifier elsewhere, whose clock is two seconds behind ours.
+  /// Records the stream of an amplifier on another machine, whose clock is two seconds behind
+  /// ours.
   core::StreamFileSeal record_amplifier() {
     core::StreamFileWriter file(
         core::next_stream_file(recording()),
@@ -160,7 +162,8 @@ TEST_F(XdfExportTest, ADamagedStreamIsToldAndTheRestIsThere) {
     std::fstream damaged(core::stream_files(recording()).front(),
                          std::ios::in | std::ios::out | std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(damaged), {}};
-    const std::size_t at = bytes.find("\x28\xB5\x2F\xFD");  // Where a block of zstd begins.
+    // A block of zstd begins with these bytes.
+    const std::size_t at = bytes.find("\x28\xB5\x2F\xFD");
     ASSERT_NE(at, std::string::npos);
     damaged.clear();
     damaged.seekp(static_cast<std::streamoff>(at + 12));

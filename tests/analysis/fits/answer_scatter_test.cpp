@@ -8,7 +8,7 @@
 namespace jnd::analysis {
 namespace answer_scatter_test {
 
-/// 8 of 10 and 2 of 10 at one level: chi-squared of the two by two table, 7.2.
+/// 8 of 10 and 2 of 10 at one level give chi-squared 7.2 for the two by two table.
 TEST(RowScatter, IsPearsonsChiSquaredOfRowsThatAskTheSame) {
   const RowScatter scatter = row_scatter({{1.0, 8, 10}, {1.0, 2, 10}, {2.0, 9, 10}});
   EXPECT_NEAR(scatter.statistic, 7.2, 1e-12);
@@ -30,8 +30,8 @@ TEST(RowScatter, RowsOfOneAnswerAreOneRow) {
   EXPECT_FALSE(scatter.is_significant());
 }
 
-/// Twenty rounds of four levels; in the first ten everything is a yes, then nothing:
-/// chi-squared of four runs of five answers at each level is 20.
+/// Returns twenty rounds of four levels. Everything is a yes in the first ten rounds, and
+/// nothing after that. Chi-squared of four runs of five answers at each level is 20.
 std::vector<AnswerCount> rounds(bool sorted) {
   std::vector<AnswerCount> rows;
   for (int i = 0; i < 80; ++i) {
@@ -60,9 +60,9 @@ TEST(RowScatter, OfSeveralPeopleAddsUp) {
   EXPECT_EQ(all.degrees_of_freedom, 2);
 }
 
-/// Two answers at probability 1/2: none or both have deviance 4 ln 2 in half of all cases, so
-/// the mean is 2 ln 2 and the variance (2 ln 2)^2, and the gamma distribution the exponential
-/// one of that mean.
+/// With two answers at probability 1/2, none or both have deviance 4 ln 2 in half of all cases.
+/// So the mean is 2 ln 2 and the variance (2 ln 2)^2, and the gamma distribution is the
+/// exponential distribution with that mean.
 TEST(MisfitPValue, HasTheMomentsOfBinomialAnswers) {
   const std::optional<double> p_value = misfit_p_value({{2.0, 2.0, 0.5}}, 0.0);
   ASSERT_TRUE(p_value);
@@ -70,7 +70,7 @@ TEST(MisfitPValue, HasTheMomentsOfBinomialAnswers) {
 }
 
 TEST(MisfitPValue, IsThatOfChiSquaredWithManyAnswers) {
-  // (5100 - 5000)^2 / 2500 = 4, of one degree of freedom.
+  // (5100 - 5000)^2 / 2500 = 4, with one degree of freedom.
   const std::optional<double> p_value = misfit_p_value({{5100.0, 10000.0, 0.5}}, 0.0);
   ASSERT_TRUE(p_value);
   EXPECT_NEAR(*p_value, std::erfc(std::sqrt(4.0 / 2.0)), 2e-4);
@@ -88,8 +88,8 @@ TEST(MisfitPValue, OfAnImpossibleAnswerIsSmall) {
   EXPECT_LT(*p_value, 1e-6);
 }
 
-/// Of five answers a level, where chi-squared is far from right: true answers are warned of
-/// about as often as one says, here in 0.3 to 3 of a hundred sets.
+/// With five answers at a level, chi-squared is far from right. Here 0.3 to 3 % of the sets of
+/// true answers are warned of, which is about the claimed 1 %.
 TEST(MisfitPValue, FindsLittleInTrueAnswers) {
   std::mt19937_64 random(7);
   const double probabilities[] = {0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98};

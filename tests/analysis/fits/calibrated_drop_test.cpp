@@ -12,7 +12,8 @@
 namespace jnd::analysis {
 namespace calibrated_drop_test {
 
-/// A line of slope 1 through 0 at eight places, each with so many answers.
+/// Returns the drops for a line of slope 1 through 0 at eight places, each with `num_trials`
+/// answers.
 CalibratedDrops drops_at(double num_trials, std::uint64_t seed = 7, int num_redraws = 2000) {
   Eigen::MatrixXd design = Eigen::MatrixXd::Ones(8, 2);
   for (Eigen::Index row = 0; row < 8; ++row)
@@ -22,7 +23,8 @@ CalibratedDrops drops_at(double num_trials, std::uint64_t seed = 7, int num_redr
 }
 
 TEST(CalibratedDrops, AreThoseOfChiSquaredWhereAnswersAreMany) {
-  // The standard error of a 95 % quantile of 20,000 ratios is 0.05; a drop is half of one.
+  // The standard error of a 95 % quantile of 20,000 ratios is 0.05, and a drop is half of a
+  // ratio.
   const CalibratedDrops drops = drops_at(1000.0, 7, 20'000);
   EXPECT_NEAR(drops.slope, kLikelihoodDrop, 0.08);
   EXPECT_NEAR(drops.pse, kLikelihoodDrop, 0.08);
@@ -80,8 +82,8 @@ TEST(CalibratedDrops, WidenWhatHasOtherParametersAtFewAnswers) {
 
 constexpr double kTrue = 0.7;
 
-/// Levels of group D of the study `viscosity_discrimination`, five answers each, the test in
-/// either interval.
+/// Draws answers at the levels of group D of the study `viscosity_discrimination`, five for
+/// each level, with the test in either interval.
 std::vector<AnswerCount> drawn_answers(core::RandomStream& random) {
   std::vector<AnswerCount> rows;
   int number = 0;
@@ -123,7 +125,8 @@ TEST(CalibratedDrops, HoldTheTruthWherePlainIntervalsDoSoTooRarely) {
     num_plain += holds(plain.weber_fraction_ci95) ? 1 : 0;
     num_calibrated += holds(fit_with(200).weber_fraction_ci95) ? 1 : 0;
   }
-  // On the same sets, so that one of the two fails where both are alike.
+  // Both counts use the same sets, so one of the two conditions fails if both intervals are
+  // alike.
   EXPECT_LT(num_plain, 0.93 * num_fits);
   EXPECT_GT(num_calibrated, 0.93 * num_fits);
 }

@@ -10,7 +10,7 @@
 namespace jnd::analysis {
 namespace chance_level_test {
 
-/// Answers to the levels, each with the probability of the curve.
+/// Draws answers to the levels, each with the probability of the curve.
 template <typename Curve>
 std::vector<AnswerCount> drawn(const std::vector<double>& intensities, std::int64_t num_trials,
                                core::RandomStream& random, const Curve& curve) {
@@ -25,7 +25,7 @@ std::vector<AnswerCount> drawn(const std::vector<double>& intensities, std::int6
   return rows;
 }
 
-/// Share of drawn sets that are suspected of any chance.
+/// Returns the share of drawn sets in which any chance level is suspected.
 template <typename Curve>
 double share_suspected(const std::vector<double>& intensities, std::int64_t num_trials,
                        const Curve& curve) {
@@ -55,8 +55,8 @@ auto forced(double chance, double lapse = 0.0) {
 }
 
 TEST(ChanceLevel, APublishedForcedChoiceIsSuspectedThoughALevelLiesBelowChance) {
-  // The demonstration data of psignifit (Wichmann and Hill 2001), two alternatives: 44 of 90
-  // lie below one half.
+  // The demonstration data of psignifit (Wichmann and Hill 2001) have two alternatives, and 44
+  // of 90 lie below one half.
   const std::vector<AnswerCount> demo = {
       {0.001, 45, 90},  {0.0015, 50, 90}, {0.002, 44, 90},  {0.0025, 44, 90}, {0.003, 52, 90},
       {0.0035, 53, 90}, {0.004, 62, 90},  {0.0045, 64, 90}, {0.005, 76, 90},  {0.006, 79, 90},
@@ -65,7 +65,8 @@ TEST(ChanceLevel, APublishedForcedChoiceIsSuspectedThoughALevelLiesBelowChance) 
 }
 
 TEST(ChanceLevel, AStaircaseOfForcedChoicesIsSuspected) {
-  // Two down, one up: hardly a level where nothing is felt, and one wrong answer there.
+  // A staircase of two down, one up has hardly a level at which nothing is felt, and one wrong
+  // answer there.
   const std::vector<AnswerCount> rows = {{0.6, 1, 3},   {0.8, 7, 12},  {1.0, 14, 22},
                                          {1.3, 21, 28}, {1.7, 15, 17}, {2.2, 8, 8}};
   EXPECT_EQ(suspected_chance(rows), 1.0 / 2.0);
@@ -82,7 +83,8 @@ TEST(ChanceLevel, TheChanceIsTheLargestThatNoLevelLiesBelow) {
 TEST(ChanceLevel, AnswersOfYesAndNoAreNot) {
   EXPECT_FALSE(suspected_chance({{5, 2, 20}, {8, 10, 20}, {12, 17, 20}, {20, 20, 20}}));
   EXPECT_FALSE(suspected_chance({{0.5, 0, 5}, {0.8, 1, 5}, {1.25, 4, 5}, {2, 5, 5}}));
-  // Everybody's answers to a thin fluid: the lowest level is far, but not all, below.
+  // Everybody's answers to a thin fluid: the proportion at the lowest level is low, but not
+  // near 0.
   EXPECT_FALSE(suspected_chance({{1.093, 14, 65},
                                  {1.237, 17, 65},
                                  {1.646, 26, 65},

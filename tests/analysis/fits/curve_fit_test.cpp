@@ -13,7 +13,7 @@
 namespace jnd::analysis {
 namespace curve_fit_test {
 
-/// Answers as a curve has them on average, of so many trials that rounding is lost.
+/// Returns the expected answers of a curve, of so many trials that rounding does not matter.
 std::vector<AnswerCount> expected_answers(const CurveModel& model, double location,
                                           double scale, double guess, double lapse) {
   CurveFit curve;
@@ -42,7 +42,7 @@ TEST(CurveFit, TwoLevelsOfALogisticCurveAreWorkedByHand) {
   EXPECT_NEAR(*fit.scale.value, 1.0 / std::log(3.0), 1e-12);
   EXPECT_NEAR(*fit.thresholds[0].intensity.value, 1.0, 1e-12);
   EXPECT_NEAR(*fit.jnd.value, 1.0, 1e-12);
-  // p (1 - p) / scale
+  // The slope is p (1 - p) / scale.
   EXPECT_NEAR(*fit.thresholds[0].slope.value, 0.1875 * std::log(3.0), 1e-12);
   const double log_likelihood = 2.0 * (25.0 * std::log(0.25) + 75.0 * std::log(0.75));
   EXPECT_NEAR(*fit.log_likelihood, log_likelihood, 1e-10);
@@ -52,8 +52,8 @@ TEST(CurveFit, TwoLevelsOfALogisticCurveAreWorkedByHand) {
 }
 
 TEST(CurveFit, TwoLevelsOfEachFamilyGiveLocationAndScaleOfItsFormula) {
-  // F at location 0.4 and scale 0.8, at x = 0 and 1, by each formula of the help.
-  const double low = -0.5, high = 0.75;  // (x - location) / scale
+  // These are F at location 0.4 and scale 0.8, at x = 0 and 1, by each formula of the help.
+  const double low = -0.5, high = 0.75;  // These are (x - location) / scale.
   struct Case {
     CurveFamily family;
     double at_low, at_high;
@@ -160,7 +160,8 @@ TEST(CurveFit, IntervalsOfANormalCurveAreThoseOfTheWeberFit) {
   EXPECT_NEAR(*own.scale.value, weibull.parameters[1].value, 1e-8);
 }
 
-/// Minus the log-likelihood of a curve over ln x whose JND is `jnd`, least over its PSE.
+/// Returns minus the log-likelihood of a curve over ln x whose JND is `jnd`, minimised over its
+/// PSE.
 double least_cost_at_jnd(const std::vector<AnswerCount>& rows, double jnd) {
   const auto cost = [&](double pse) {
     const double scale = std::log1p(jnd / pse);
@@ -191,7 +192,7 @@ TEST(CurveFit, TheJndOfALogarithmicAxisHasTheIntervalOfItsProfile) {
     ASSERT_TRUE(end.has_value());
     EXPECT_NEAR(least_cost_at_jnd(kSix, *end) - least, 1.9207294103470617, 1e-4);
   }
-  // At level 0.84 the threshold is a JND above the PSE.
+  // At level 0.84 the threshold is one JND above the PSE.
   EXPECT_NEAR(*fit.pse.value * std::exp(*fit.scale.value) - *fit.pse.value, *fit.jnd.value,
               1e-9);
 }
@@ -240,7 +241,7 @@ TEST(CurveFit, AnswersWithoutACurveSayWhy) {
 }
 
 TEST(CurveFit, AThresholdOfAProportionIsWorkedByHandWhereRatesAreFree) {
-  // 0.2 + 0.7 S: S is 0.5 at 0.55, and 0.75, that is a logit of ln 3, at 0.725.
+  // The curve is 0.2 + 0.7 S. S is 0.5 at 0.55, and 0.75, which is a logit of ln 3, at 0.725.
   for (const bool falling : {false, true}) {
     const CurveModel model = {.family = CurveFamily::kLogistic,
                               .free_guess = true,
@@ -294,7 +295,7 @@ TEST(CurveFit, AThresholdOfAProportionHasTheIntervalOfItsLikelihood) {
     return best;
   };
   EXPECT_NEAR(best_at(*threshold.intensity.value), *fit.log_likelihood, 2e-3);
-  // Half the 95 % quantile of chi-squared below the best.
+  // The ends lie half the 95 % quantile of chi-squared below the maximum.
   EXPECT_NEAR(best_at(*threshold.intensity.ci95.low), *fit.log_likelihood - 1.9207, 4e-3);
   EXPECT_NEAR(best_at(*threshold.intensity.ci95.high), *fit.log_likelihood - 1.9207, 4e-3);
 }
@@ -336,7 +337,7 @@ TEST(CurveFit, ManyLevelsAreFittedAsTheyAre) {
   EXPECT_LT(*fit.location.ci95.low, *fit.location.value);
   EXPECT_GT(*fit.location.ci95.high, *fit.location.value);
   EXPECT_LE(fit.points.size(), 201U);
-  // The optimum is that of all levels, not of the bins.
+  // The optimum is that of all levels, and not of the bins.
   const FoundCurve found = found_curve(rows, {});
   EXPECT_LT(found.found.optimum.cost.gradient.head<2>().cwiseAbs().maxCoeff(), 1e-6);
 }
@@ -415,9 +416,9 @@ TEST(CurveComparison, FindsWhichParameterDiffers) {
 }
 
 TEST(CurveComparison, TheLikelihoodRatioIsThatOfTheModelsWorkedByHand) {
-  // Two saturated groups of two levels, whose joint models with the same scale are symmetric:
-  // logits -+ln 3 and -+ln 9 at -+1, so that the same slope b solves
-  // 25 + 10 = 100 (1 - f(b)) of both, the location being 0.
+  // Two saturated groups have two levels each. Their joint models with the same scale are
+  // symmetric, with logits -+ln 3 and -+ln 9 at -+1. So the location is 0, and the same slope b
+  // solves 25 + 10 = 100 (1 - f(b)) for both.
   const CurveModel model = {.family = CurveFamily::kLogistic};
   const CurveComparison found = compare_curves(
       {{"a", {{-1.0, 25, 100}, {1.0, 75, 100}}}, {"b", {{-1.0, 10, 100}, {1.0, 90, 100}}}},

@@ -12,9 +12,10 @@
 #include "analysis/fits/curve_fit.h"
 #include "support/places.h"
 
-// Curves of data sets of others against R's glm, psyphy's links and optim:
-// data/reference/curves/curves.R; against what psignifit, Palamedes, quickpsy and psyphy
-// printed themselves: data/reference/agreement. docs/methods/agreement.md tells the tables.
+// Compares curves of other people's data sets with R's glm, psyphy's links and optim
+// (data/reference/curves/curves.R), and with what psignifit, Palamedes, quickpsy and psyphy
+// printed themselves (data/reference/agreement). The tables are explained in
+// docs/methods/agreement.md.
 
 namespace jnd::analysis {
 namespace curve_reference_test {
@@ -39,7 +40,7 @@ void add_answers(const char* folder, Groups& groups) {
   }
 }
 
-/// Of both folders.
+/// Returns the answers of both folders.
 Groups answers() {
   Groups groups;
   add_answers("curves", groups);
@@ -63,7 +64,8 @@ CurveModel model_of(const CsvTable& table, std::size_t row) {
   return model;
 }
 
-/// Without what has no logarithm, where the curve is one of it: the references leave it out.
+/// Leaves out intensities that have no logarithm if the curve is logarithmic, as the references
+/// do.
 std::vector<AnswerCount> rows_for(const CurveModel& model, std::vector<AnswerCount> rows) {
   if (model.is_logarithmic()) {
     std::erase_if(rows, [](const AnswerCount& one) { return !(one.intensity > 0.0); });
@@ -85,12 +87,15 @@ TEST(CurveReference, EveryMaximumIsThatOfTheOtherProgramsOrHigher) {
     std::ostringstream where;
     where << table.name() << " line " << table.line(row);
     const CurveFit fit = fit_curve(rows, {.model = model, .intervals = false});
-    if (fit.status != FitStatus::kOk) continue;  // A step: others tell any slope.
+    // The best curve is a step, for which other programs report any slope.
+    if (fit.status != FitStatus::kOk) continue;
     ++num_compared;
     const double peers = number(row, "log_likelihood");
     EXPECT_GT(*fit.log_likelihood, peers - 1e-5 * std::fabs(peers)) << where.str();
-    if (*fit.log_likelihood > peers + 1e-6 * std::fabs(peers)) continue;  // Ours is higher.
-    // As near as the other's own precision: likelihoods alike to 1e-6 have curves alike.
+    // Our likelihood is higher.
+    if (*fit.log_likelihood > peers + 1e-6 * std::fabs(peers)) continue;
+    // The tolerance is the other program's own precision: likelihoods that agree to 1e-6 belong
+    // to curves that agree so far.
     EXPECT_NEAR(*fit.scale.value, number(row, "scale"), 1e-2 * number(row, "scale"))
         << where.str();
     if (table.cell(row, *table.find("program")).find("glm") == std::string::npos) continue;
@@ -101,7 +106,7 @@ TEST(CurveReference, EveryMaximumIsThatOfTheOtherProgramsOrHigher) {
   EXPECT_GT(num_compared, 80);
 }
 
-/// A cell of compared.csv; absent where the other program printed none.
+/// Returns a cell of compared.csv, or nothing if the other program printed none.
 std::optional<double> printed(const CsvTable& table, std::size_t row, const char* column) {
   const std::string& cell = table.cell(row, *table.find(column));
   return cell.empty() ? std::nullopt : std::optional(std::stod(cell));
@@ -121,7 +126,8 @@ TEST(CurveReference, NumbersThatOtherProgramsPrintedAreNoLikelierThanOurs) {
     const CurveFit fit = fit_curve(rows_for(model, groups.at({data_set, group})),
                                    {.model = model, .intervals = false});
     if (fit.status != FitStatus::kOk) {
-      // A step: psignifit's priors hold the slope, the others stop at a steep one.
+      // The best curve is a step. The priors of psignifit keep its slope finite, and the other
+      // programs stop at a steep one.
       EXPECT_TRUE(group == "test_2AFC_logistic" || group == "Square 2 Downward" ||
                   data_set == "modelfree Schofield_etal")
           << where.str() << ": " << fit.reason;
@@ -130,7 +136,7 @@ TEST(CurveReference, NumbersThatOtherProgramsPrintedAreNoLikelierThanOurs) {
     ++num_compared[program];
     const double scale = *fit.scale.value;
     const double near = *fit.log_likelihood;
-    // R's maximum of the same model.
+    // R found the maximum of the same model.
     EXPECT_NEAR(near, *printed(table, row, "r_log_likelihood"), 1e-8 * std::fabs(near))
         << where.str();
     EXPECT_NEAR(*fit.location.value, *printed(table, row, "r_location"), 1e-5 * scale)
@@ -140,7 +146,8 @@ TEST(CurveReference, NumbersThatOtherProgramsPrintedAreNoLikelierThanOurs) {
         << where.str();
     EXPECT_NEAR(*fit.lapse_rate.value, *printed(table, row, "r_lapse_rate"), 1e-5)
         << where.str();
-    // Theirs, where it is a maximum of the likelihood or of it with their priors.
+    // The other program's maximum may be of the likelihood alone or of the likelihood with its
+    // priors.
     const std::optional<double> theirs = printed(table, row, "log_likelihood");
     if (theirs) {
       EXPECT_GT(near, *theirs - 1e-9 * std::fabs(near)) << where.str();
@@ -158,7 +165,8 @@ TEST(CurveReference, NumbersThatOtherProgramsPrintedAreNoLikelierThanOurs) {
 }
 
 TEST(CurveReference, ModelsThatShareASlopeAreAsLikelyAsQuickpsySays) {
-  // dlinares.org/model_selection.html prints three digits, with binomial coefficients.
+  // The page dlinares.org/model_selection.html prints three digits, and its likelihoods contain
+  // binomial coefficients.
   struct Printed {
     const char* participant;
     double log_likelihood, aic;

@@ -38,7 +38,7 @@ TEST(DetectionFit, CatchTrialsWithoutAFalseAlarmLeaveTheThreshold) {
 }
 
 TEST(DetectionFit, FalseAlarmsRaiseTheThreshold) {
-  // Exactly g + (1 - g) Phi(z) of 1000 at z = -1, 0, 1 with g = 0.2.
+  // The answers are exactly g + (1 - g) Phi(z) of 10000 at z = -1, 0, 1 with g = 0.2.
   const std::vector<AnswerCount> data = {
       {0.0, 2000, 10000}, {0.5, 3269, 10000}, {1.0, 6000, 10000}, {2.0, 8731, 10000}};
   const DetectionFit fit = fit_detection(data);
@@ -68,7 +68,7 @@ TEST(DetectionFit, DegenerateAnswersSayWhy) {
 }
 
 TEST(SignalDetection, RatesOfZeroAndOneHaveASensitivity) {
-  // (20.5 / 21, 0.5 / 11): z = 1.98092 and -1.69062.
+  // The rates are (20.5 / 21, 0.5 / 11), with z = 1.98092 and -1.69062.
   const SignalDetection found = signal_detection({20, 20, 0, 10});
   EXPECT_NEAR(found.d_prime, 1.98092 + 1.69062, 2e-3);
   EXPECT_NEAR(found.criterion, -0.5 * (1.98092 - 1.69062), 2e-3);

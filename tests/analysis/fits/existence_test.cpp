@@ -10,8 +10,8 @@
 #include "analysis/fits/psychometric_fit.h"
 #include "core/random_stream.h"
 
-// Whether a fit exists, against a fine scan that shares nothing with the fits: not their costs,
-// not their limits, not their search.
+// Tests whether a fit exists against a fine scan. The scan shares nothing with the fits:
+// neither their costs nor their limits nor their search.
 
 namespace jnd::analysis {
 namespace existence_test {
@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double phi(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-/// Misfit of the probabilities f: minus the log-likelihood, or the sum of squares.
+/// Returns the misfit of the probabilities f: minus the log-likelihood, or the sum of squares.
 double misfit(const std::vector<AnswerCount>& data, const std::vector<double>& f,
               PsychometricMethod method) {
   double sum = 0.0;
@@ -37,8 +37,8 @@ double misfit(const std::vector<AnswerCount>& data, const std::vector<double>& f
   return sum;
 }
 
-/// Lowest misfit of curves of slopes, in z per ln(intensity), from next to flat to a step
-/// between the closest levels; a free pse puts each level anywhere on the curve.
+/// Returns the lowest misfit of curves whose slopes in z per ln(intensity) range from almost
+/// flat to a step between the closest levels. A free pse puts each level anywhere on the curve.
 double lowest_of_scan(const std::vector<AnswerCount>& data, PsychometricMethod method,
                       bool free_pse) {
   double lowest = kInfinity;
@@ -60,8 +60,9 @@ double lowest_of_scan(const std::vector<AnswerCount>& data, PsychometricMethod m
   return lowest;
 }
 
-/// Lowest misfit in the limits: of infinite slope, where one level may lie anywhere on the step
-/// if the pse is free to lie at it; of slope 0; and, with a free pse, of one that runs away.
+/// Returns the lowest misfit in the limits. Either the slope is infinite, where one level may
+/// lie anywhere on the step if the pse is free, or the slope is 0. With a free pse, the pse may
+/// also diverge.
 double lowest_of_limits(const std::vector<AnswerCount>& data, PsychometricMethod method,
                         bool free_pse) {
   double yes = 0.0, trials = 0.0, shares = 0.0;
@@ -74,7 +75,7 @@ double lowest_of_limits(const std::vector<AnswerCount>& data, PsychometricMethod
   const double mean = squares ? shares / static_cast<double>(data.size()) : yes / trials;
   std::vector<double> f(data.size(), free_pse ? mean : 0.5);
   double lowest = misfit(data, f, method);
-  // Steps at, and just above, each level; a pse that runs away is a step beyond them all.
+  // Steps lie at each level and just above it. A pse that diverges is a step beyond all levels.
   std::vector<double> steps = {1.0};
   if (free_pse) {
     for (const AnswerCount& row : data) steps.push_back(row.intensity);
@@ -164,9 +165,10 @@ TEST(Existence, APowerFitIsOkJustWhereAFineScanHasAnInteriorOptimum) {
       data.push_back({static_cast<double>(1 + random.below(4)),
                       static_cast<double>(random.below(4)) - 1.0});
     }
-    // For each exponent the best k > 0, by its closed form.
+    // For each exponent, the best k > 0 has a closed form.
     double interior = kInfinity, edge = 0.0;
-    for (const Magnitude& row : data) edge += row.magnitude * row.magnitude;  // k = 0
+    // This is the misfit at k = 0.
+    for (const Magnitude& row : data) edge += row.magnitude * row.magnitude;
     for (double a = -200.0; a <= 200.0; a += 0.02) {
       const double top = a > 0.0 ? 4.0 : 1.0;
       double products = 0.0, squares = 0.0, sum = 0.0;

@@ -9,10 +9,10 @@ namespace falling_test_test {
 
 using Rows = std::vector<AnswerCount>;
 
-/// The share of all placements of the "yes" over single trials that lie as low: by looking at
-/// every one of them.
+/// Returns the share of all placements of the "yes" over single trials that lie as low or
+/// lower. The function enumerates all placements.
 double by_enumeration(const Rows& rows) {
-  std::vector<int> ranks;  // One a trial.
+  std::vector<int> ranks;  // The vector has one entry for each trial.
   int num_yes = 0, observed = 0;
   for (std::size_t level = 0; level < rows.size(); ++level) {
     for (int trial = 0; trial < rows[level].num_trials; ++trial) {
@@ -37,7 +37,7 @@ double by_enumeration(const Rows& rows) {
 }
 
 TEST(FallingTest, IsFishersExactTestAtTwoLevels) {
-  // One placement of six has both "yes" at the lower of two levels with two trials each.
+  // One of six placements has both "yes" at the lower of two levels with two trials each.
   EXPECT_NEAR(falling_p_value({{4.0, 2, 2}, {16.0, 0, 2}}).value(), 1.0 / 6.0, 1e-15);
   // R: fisher.test(matrix(c(9, 1, 1, 9), 2), alternative = "greater")$p.value
   EXPECT_NEAR(falling_p_value({{4.0, 9, 10}, {16.0, 1, 10}}).value(), 0.000546666955335686,
@@ -45,7 +45,8 @@ TEST(FallingTest, IsFishersExactTestAtTwoLevels) {
 }
 
 TEST(FallingTest, CountsEveryPlacementOfTheAnswers) {
-  // One "yes" of three trials at three levels, at the lowest: one in three.
+  // One "yes" in three trials at three levels lies at the lowest level in one of three
+  // placements.
   EXPECT_NEAR(falling_p_value({{1.0, 1, 1}, {2.0, 0, 1}, {3.0, 0, 1}}).value(), 1.0 / 3.0,
               1e-15);
   for (const Rows& rows : {Rows{{1.0, 4, 5}, {2.0, 2, 5}, {5.0, 1, 5}},
@@ -61,7 +62,7 @@ TEST(FallingTest, TakesEachOrderOfTheIntervalsByItself) {
                      {4.0, 2, 2, kTestSecond},
                      {16.0, 0, 2, kTestSecond}};
   EXPECT_NEAR(falling_p_value(rows).value(), 1.0 / 36.0, 1e-15);
-  // Who always takes the second interval is no one who has the question the wrong way round.
+  // A person who always takes the second interval has not misunderstood the question.
   const Rows of_bias = {{4.0, 0, 9, kTestFirst},
                         {16.0, 0, 1, kTestFirst},
                         {4.0, 1, 1, kTestSecond},

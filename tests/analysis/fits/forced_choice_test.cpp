@@ -16,7 +16,7 @@
 #include "core/random_stream.h"
 #include "support/reference_data.h"
 
-// Curves between other ends than 0 and 1: guesses of forced choices, lapses that are known, and
+// Tests curves between other ends than 0 and 1: guesses of forced choices, known lapses, and
 // lapses of the upper end alone.
 
 namespace jnd::analysis {
@@ -29,7 +29,7 @@ constexpr auto kLikelihood = PsychometricMethod::kMaximumLikelihood;
 constexpr auto kLeastSquares = PsychometricMethod::kLeastSquares;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Computed by SciPy: see the script beside it.
+/// The reference was computed by SciPy with the script beside it.
 const json& reference() {
   return test_support::reference_data("forced_choice/forced_choice.json");
 }
@@ -61,7 +61,7 @@ TEST(ForcedChoice, AgreesWithSciPy) {
     expect_reference(fit.deviance, expected.at("deviance"), 1e-8, name + " deviance");
     expect_reference(fit.standard_error, expected.at("standard_error"), 2e-5, name + " error");
     const json& ends = expected.at("weber_fraction_ci95");
-    // SciPy looks no lower than w e^-4.
+    // SciPy searches no lower than w e^-4.
     if (!ends[0].is_null()) expect_reference(fit.weber_fraction_ci95.low, ends[0], 1e-5, name);
     expect_reference(fit.weber_fraction_ci95.high, ends[1], 1e-5, name + " high");
     ASSERT_EQ(fit.pse_ci95.has_value(), !expected.at("pse_ci95").is_null()) << name;
@@ -79,7 +79,7 @@ TEST(ForcedChoice, BothSolversFindTheSameCurve) {
 }
 
 TEST(ForcedChoice, TwoLevelsAreSolvedByHand) {
-  // f = 0.5 + 0.5 F is 0.625 at 1 and 0.875 at 4: F is 0.25 and 0.75, the pse 2.
+  // f = 0.5 + 0.5 F is 0.625 at 1 and 0.875 at 4, so F is 0.25 and 0.75, and the pse is 2.
   for (const PsychometricMethod method : {kLikelihood, kLeastSquares}) {
     const PsychometricFit found = fit_psychometric(
         {{1.0, 5, 8}, {4.0, 7, 8}},
@@ -92,7 +92,8 @@ TEST(ForcedChoice, TwoLevelsAreSolvedByHand) {
 }
 
 TEST(ForcedChoice, KnownLapsesOfOneLevelAreSolvedByHand) {
-  // 0.02 + 0.96 F = 0.788 at twice the reference: F = 0.8. Of the upper end 0.95 F = 0.76.
+  // 0.02 + 0.96 F = 0.788 at twice the reference, so F = 0.8. With lapses of the upper end
+  // alone, 0.95 F = 0.76.
   const PsychometricFit both = fit_psychometric(
       {{2.0, 788, 1000}}, {.reference = 1.0, .lapse_rate = 0.02, .symmetric_lapse = true});
   const PsychometricFit upper = fit_psychometric(
@@ -147,7 +148,8 @@ struct Ends {
   double lapse;
 };
 
-/// Misfit of curves of the Weber family, with probabilities of its own.
+/// Returns the misfit of a curve of the Weber family, with probabilities that this test
+/// computes itself.
 double misfit(const std::vector<AnswerCount>& data, const Ends& ends, PsychometricMethod method,
               double slope, double offset, double lapse) {
   double sum = 0.0;
@@ -168,7 +170,7 @@ double misfit(const std::vector<AnswerCount>& data, const Ends& ends, Psychometr
   return sum;
 }
 
-/// Lowest over these slopes, with each level anywhere on the curve.
+/// Returns the lowest misfit over these slopes, with each level anywhere on the curve.
 double lowest_at(const std::vector<double>& slopes, double z_step,
                  const std::vector<AnswerCount>& data, const Ends& ends,
                  PsychometricMethod method, bool free_pse) {

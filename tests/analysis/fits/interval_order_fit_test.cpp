@@ -13,15 +13,15 @@
 namespace jnd::analysis {
 namespace interval_order_fit_test {
 
-/// Answers of somebody who favours the first interval.
+/// Returns the answers of a person who favours the first interval.
 std::vector<AnswerCount> biased_answers() {
   return {{4.0, 2, 10, kTestFirst},  {5.0, 5, 10, kTestFirst},  {7.0, 8, 10, kTestFirst},
           {9.0, 10, 10, kTestFirst}, {4.0, 0, 10, kTestSecond}, {5.0, 1, 10, kTestSecond},
           {7.0, 5, 10, kTestSecond}, {9.0, 8, 10, kTestSecond}};
 }
 
-/// With the test first, "the test is more, at x" said as "the reference is more, at its mirror
-/// image": then an order effect q is a pse of exp(q / 2) in ordinary answers.
+/// Rewrites "the test is more, at x" with the test first as "the reference is more, at its
+/// mirror image". An order effect q then is a pse of exp(q / 2) in ordinary answers.
 std::vector<AnswerCount> mirrored(const std::vector<AnswerCount>& rows, double reference) {
   std::vector<AnswerCount> all;
   for (const AnswerCount& row : rows) {
@@ -68,7 +68,7 @@ TEST(IntervalOrderFit, AnOrderWithEveryAnswerAlikeLeavesTheSlopeToTheOther) {
   ASSERT_FALSE(fit.warnings.empty());
   EXPECT_NE(fit.warnings.back().find("with the test first every answer is the same"),
             std::string::npos);
-  // At the reference both orders have one place between them, and the fit is that of both.
+  // At the reference, both orders together have one place on the axis, and the fit uses both.
   EXPECT_TRUE(fit_psychometric(rows, {.reference = 1.0, .by_order = true}).order_effect_ln);
   for (AnswerCount& row : rows) row.num_yes = row.num_trials;
   EXPECT_EQ(
@@ -77,8 +77,9 @@ TEST(IntervalOrderFit, AnOrderWithEveryAnswerAlikeLeavesTheSlopeToTheOther) {
 }
 
 TEST(IntervalOrderFit, AnOrderWithEveryAnswerAlikeIsFoundWhateverTheRounding) {
-  // Levels of a staircase, as exact as they are drawn. Far out the order's own part of the
-  // information is less than the rounding of the rest.
+  // The levels of a staircase have all the digits with which they were drawn. Far from the
+  // reference, the order's own part of the information is smaller than the rounding of the
+  // rest.
   std::vector<AnswerCount> rows = {{12.24, 1, 3, kTestFirst},
                                    {13.612797239431485, 0, 1, kTestFirst},
                                    {13.708800000000002, 0, 1, kTestFirst},
@@ -99,7 +100,8 @@ TEST(IntervalOrderFit, AnOrderWithEveryAnswerAlikeIsFoundWhateverTheRounding) {
                                        {19.125, 3}}) {
     rows.push_back({intensity, num, num, kTestSecond});
   }
-  // The same whatever rounds otherwise: the unit of the intensities, and the order of the rows.
+  // The result must not depend on rounding, and so neither on the unit of the intensities nor
+  // on the order of the rows.
   for (int turn = 0; turn < 200; ++turn) {
     const double unit = 1.0 + 0.01 * turn;
     std::vector<AnswerCount> scaled = rows;
@@ -129,7 +131,7 @@ TEST(IntervalOrderFit, FewAnswersAreWarnedOfAsInOtherFits) {
 }
 
 TEST(IntervalOrderFit, WithoutAWeberFractionTheMeanOfBothOrdersIsTwoSteps) {
-  // Steps of a half at exp(-0.3) and exp(0.3).
+  // Each order has a step of one half, at exp(-0.3) and exp(0.3).
   EXPECT_EQ(mean_over_orders(1.0, 0.0, 0.6, 0.7), 0.0);
   EXPECT_EQ(mean_over_orders(1.0, 0.0, 0.6, 1.0), 0.5);
   EXPECT_EQ(mean_over_orders(1.0, 0.0, 0.6, 1.4), 1.0);
@@ -150,7 +152,7 @@ TEST(IntervalOrderFit, ABiasForAnIntervalLeavesTheWeberFractionAlone) {
   EXPECT_NEAR(*apart.weber_fraction, kTrue, 1e-3);
   EXPECT_NEAR(*apart.order_effect_ln, 2.0 * kBias, 1e-3);
   EXPECT_NEAR(*apart.pse, 1.0, 1e-3);
-  // What the mean of two curves would say.
+  // A fit that ignores the order finds a larger fraction.
   const PsychometricFit pooled = fit_psychometric(rows, {.reference = 1.0, .free_pse = true});
   EXPECT_GT(*pooled.weber_fraction, 1.4 * kTrue);
 }

@@ -9,7 +9,7 @@ namespace jnd::analysis {
 namespace normal_tail_test {
 
 TEST(NormalTail, AgreesWithPublishedValuesFarOutInTheTail) {
-  // scipy.stats.norm.logcdf.
+  // The values are from scipy.stats.norm.logcdf.
   EXPECT_NEAR(log_normal_tails(-1.0).log_lower, -1.8410216450092636, 1e-14);
   EXPECT_NEAR(log_normal_tails(-10.0).log_lower, -53.23128515051247, 1e-12);
   EXPECT_NEAR(log_normal_tails(-37.5).log_lower, -707.6689893175072, 1e-10);
@@ -44,9 +44,10 @@ TEST(NormalTail, TheTailsMirrorEachOther) {
   }
 }
 
-/// By long double, whose own functions are right to 1e-18.
+/// Compares with long double, whose own functions are right to 1e-18.
 TEST(NormalTail, IsRightToThirteenDigitsAtAndBetweenTheKnotsOfItsTable) {
-  // No multiple of it is a knot, 1 / 64; the first goes through all knots.
+  // The knots are 1 / 64 apart. The first step meets all knots, and no multiple of the second
+  // one is a knot.
   for (const double step : {1.0 / 64.0, 0.00719}) {
     for (double z = -12.0; z <= 12.0; z += step) {
       const long double x = z;

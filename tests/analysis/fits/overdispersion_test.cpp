@@ -20,7 +20,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Computed by SciPy: see the script beside it.
+/// The reference was computed by SciPy with the script beside it.
 const json& reference() {
   return test_support::reference_data("overdispersion/overdispersion.json");
 }
@@ -70,8 +70,8 @@ TEST(Overdispersion, ScaledErrorsGrowByTheRootOfTheFactor) {
   EXPECT_EQ(*scaled.weber_fraction, *plain.weber_fraction);
 }
 
-/// Answers whose probability varies about the curve by `noise` in z, the same for all of a
-/// level.
+/// Draws answers whose probability varies about the curve by `noise` in z. All answers of a
+/// level share one deviation.
 std::vector<AnswerCount> scattered(core::RandomStream& random, double noise) {
   std::vector<AnswerCount> rows;
   for (const double x : {0.5, 0.62, 0.75, 0.88, 1.0, 1.15, 1.35, 1.6, 2.0}) {
@@ -96,7 +96,7 @@ TEST(Overdispersion, IntervalsHoldTheTruthThatBinomialOnesMiss) {
       const PsychometricFit fit =
           fit_psychometric(rows, {.reference = 1.0, .free_pse = true, .overdispersion = how});
       ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
-      // The noise flattens the curve by a known factor: z / sqrt(1 + noise^2).
+      // The noise flattens the curve by a known factor, z / sqrt(1 + noise^2).
       const double truth = std::expm1(std::log1p(0.4) * std::sqrt(1.0 + 0.4 * 0.4));
       const Interval& ends = fit.weber_fraction_ci95;
       num[place++] += ends.low.value_or(0.0) <= truth && truth <= ends.high.value_or(1e9);
@@ -117,8 +117,8 @@ TEST(Overdispersion, WhereNoDegreeIsLeftThereIsNoScaledInterval) {
   EXPECT_THAT(fit.warnings, Contains(HasSubstr("no degree of freedom")));
 }
 
-/// Sums of a level lie on the curve, the rows do not: R's quasibinomial probit through the
-/// origin has the dispersion 9.2252 on 11 degrees of freedom.
+/// The sums of each level lie on the curve, but the rows do not. R's quasibinomial probit
+/// through the origin has the dispersion 9.2252 on 11 degrees of freedom.
 TEST(Overdispersion, RowsOfOneLevelScatterWhateverTheirSumDoes) {
   const std::vector<AnswerCount> rows = {
       {0.5, 0, 20},   {0.5, 2, 20},   {0.5, 8, 20},  {0.8, 0, 20}, {0.8, 4, 20}, {0.8, 18, 20},
@@ -140,7 +140,7 @@ TEST(Overdispersion, RowsOfOneLevelScatterWhateverTheirSumDoes) {
   }
 }
 
-/// A table of single answers has nothing but its levels to tell scatter by.
+/// In a table of single answers, only the levels can show scatter.
 TEST(Overdispersion, SingleAnswersCountByTheirLevels) {
   std::vector<AnswerCount> counts = reference_answers(reference().at("cases")[1].at("data")),
                            single;
@@ -180,7 +180,7 @@ TEST(Overdispersion, TheNoteOffersTheIntervalsByName) {
 }
 
 TEST(Overdispersion, WhereOneLapseExplainsTheScatterTheNoteSaysSo) {
-  // One no at a level that is otherwise far above.
+  // There is one no at a level that is otherwise far above the reference.
   const std::vector<AnswerCount> rows = {{0.80, 0, 40},  {0.90, 4, 40},  {0.96, 14, 40},
                                          {1.05, 27, 40}, {1.12, 37, 40}, {2.00, 39, 40}};
   EXPECT_THAT(advice_of(rows), Contains(HasSubstr("--free lapse")));

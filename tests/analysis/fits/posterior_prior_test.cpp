@@ -11,7 +11,7 @@
 namespace jnd::analysis {
 namespace posterior_prior_test {
 
-/// About w = 0.3 with a lapse or two at either end.
+/// The answers have about w = 0.3, with a lapse or two at either end.
 const std::vector<AnswerCount> kAnswers = {{0.5, 1, 30},  {0.7, 3, 30},  {0.9, 12, 30},
                                            {1.1, 19, 30}, {1.4, 27, 30}, {2.0, 28, 30}};
 
@@ -24,7 +24,7 @@ PsychometricPosterior posterior_with(const BetaPrior& prior, bool has_effects = 
       .posterior;
 }
 
-/// The median of the lapse rate by sums over a far finer grid than the fit's.
+/// Returns the median of the lapse rate by sums over a far finer grid than that of the fit.
 double lapse_median_by_hand(const BetaPrior& prior) {
   std::vector<double> mass;
   constexpr int kNumRates = 2000;

@@ -43,12 +43,13 @@ TEST(PowerFit, BothMethodsReturnALawThatTheDataFollow) {
 }
 
 TEST(PowerFit, LineThroughTheLogarithmsIsWorkedByHand) {
-  // ln S = 0, ln 4, ln 4 at ln I = 0, ln 2, ln 4: slope ln 4 / (2 ln 2) = 1.
+  // ln S = 0, ln 4, ln 4 at ln I = 0, ln 2, ln 4, so the slope is ln 4 / (2 ln 2) = 1.
   const PowerFit found = fit_power({{1, 1}, {2, 4}, {4, 4}}, PowerMethod::kLogLog);
   EXPECT_NEAR(*found.a, 1.0, 1e-14);
   EXPECT_NEAR(*found.k, std::exp(std::log(4.0) * 2.0 / 3.0 - std::log(2.0)), 1e-14);
   EXPECT_NEAR(*found.r_squared, 0.75, 1e-14);
-  // Residuals (-1, 2, -1) ln(2)/3: sse = 6/9 ln^2 2, one degree of freedom, Sxx = 2 ln^2 2.
+  // The residuals are (-1, 2, -1) ln(2)/3: sse = 6/9 ln^2 2, one degree of freedom, Sxx = 2
+  // ln^2 2.
   EXPECT_NEAR(*found.a_standard_error, std::sqrt(1.0 / 3.0), 1e-14);
 }
 
@@ -108,7 +109,7 @@ TEST(PowerFit, MagnitudesAllAlikeHaveNoRSquared) {
   for (const PowerMethod method : {PowerMethod::kNonlinear, PowerMethod::kLogLog}) {
     std::vector<Magnitude> data;
     for (double intensity = 1.0; intensity < 12.0; intensity += 1.0) {
-      data.push_back({intensity, 0.6});  // Eleven logarithms, whose mean rounding moves.
+      data.push_back({intensity, 0.6});  // Rounding moves the mean of eleven logarithms.
       const PowerFit found = fit_power(data, method);
       if (data.size() < 2) continue;
       ASSERT_EQ(found.status, FitStatus::kOk);
@@ -208,7 +209,8 @@ TEST(PowerFit, RowsAtIntensityZeroTellNothingAndAreNoDegreesOfFreedom) {
 }
 
 TEST(PowerFit, SomethingFeltAtZeroDoesNotHideAFallingLaw) {
-  // 0^a is infinite for a < 0: 20 there is no row of its magnitude less 0.
+  // 0^a is infinite for a < 0, so the magnitude 20 at intensity 0 is no row that the law could
+  // fit.
   const PowerFit found = fit_power({{0, 20}, {1, 10}, {2, 5}, {4, 2.6}, {8, 1.2}});
   EXPECT_NEAR(*found.a, -0.993, 5e-4);
   EXPECT_GT(*found.r_squared, 0.99);

@@ -38,7 +38,8 @@ TEST(PsychometricBootstrap, SpreadsAsWideAsTheStandardErrorSays) {
 }
 
 TEST(PsychometricBootstrap, RefitsWithoutAnOptimumCountAtTheirLimitAndOpenAnEnd) {
-  // Nearly separated: many redrawn sets are, and their w falls to 0.
+  // The answers are nearly separated, so many redrawn sets are separated, and their w falls to
+  // 0.
   const PsychometricFit found = fit({{0.5, 0, 5}, {0.9, 1, 5}, {1.2, 5, 5}, {2, 5, 5}}, 400, 1);
   ASSERT_EQ(found.status, FitStatus::kOk);
   EXPECT_GT(found.bootstrap.num_degenerate, 40);

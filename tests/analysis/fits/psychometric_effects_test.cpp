@@ -42,7 +42,7 @@ TEST(PsychometricEffects, AnIntensityOfZeroIsRefused) {
 }
 
 TEST(PsychometricEffects, TheSlopeIsToldWithItsInterval) {
-  // z = 2 ln x at two levels: the answers lie on the line.
+  // With z = 2 ln x at two levels, the answers lie on the line.
   const double below = 0.5 * std::erfc(2.0 * std::log(2.0) / std::sqrt(2.0));
   const PsychometricEffects found =
       psychometric_effects({{0.5, 100.0 * below, 100}, {2.0, 100.0 * (1.0 - below), 100}}, 1.0);
@@ -53,7 +53,7 @@ TEST(PsychometricEffects, TheSlopeIsToldWithItsInterval) {
   EXPECT_FALSE(psychometric_effects({{0.5, 0, 10}, {2.0, 10, 10}}, 1.0).slope);
 }
 
-/// Early and late answers at two levels, so many "yes" of 20 each.
+/// Returns early and late answers at two levels, with these numbers of "yes" of 20 each.
 std::vector<OrderedAnswers> early_and_late(double early_low, double early_high, double late_low,
                                            double late_high) {
   return {{0.5, early_low, 20, 1.0},
@@ -103,7 +103,8 @@ TEST(PsychometricEffects, AReferenceOutsideTheLevelsIsAWarning) {
   }
 }
 
-/// z = ln x but for the criterion of each session, and the same without.
+/// One set of answers has z = ln x plus the criterion of each session, the other has z = ln x
+/// alone.
 TEST(PsychometricEffects, SessionsThatScatterAreWarnedOf) {
   std::vector<OrderedAnswers> moved, steady;
   for (const double criterion : {-2.0, 2.0, 1.8, 1.2, -0.5}) {
@@ -122,7 +123,7 @@ TEST(PsychometricEffects, SessionsThatScatterAreWarnedOf) {
   EXPECT_TRUE(psychometric_effects(steady, 1.0).warnings.empty());
 }
 
-/// Rows of one answer each tell of the curve's form together.
+/// Rows of one answer each show the form of the curve only together.
 TEST(PsychometricEffects, RowsOfOneAnswerCountTogether) {
   std::vector<OrderedAnswers> answers;
   const double levels[] = {0.5, 0.8, 1.25, 2.0};
@@ -138,18 +139,18 @@ TEST(PsychometricEffects, RowsOfOneAnswerCountTogether) {
   EXPECT_NE(warnings[0].find("scatter more"), std::string::npos) << warnings[0];
 }
 
-/// One answer at one level, at a running number.
+/// Returns one answer at one level, with the number of its trial.
 OrderedAnswers answer(double intensity, bool yes, double trial) {
   return {.intensity = intensity, .num_yes = yes ? 1.0 : 0.0, .trial = trial};
 }
 
 TEST(TrialTrend, IsTheCovarianceOverItsPermutationsByHand) {
-  // Two answers above the reference, no then yes, at times -0.5 and 0.5: covariance 0.5; in
-  // either order it is +-0.5, so its sd is 0.5 and z is 1.
+  // Two answers above the reference are no and then yes, at times -0.5 and 0.5, so the
+  // covariance is 0.5. The two possible orders give +-0.5, so the sd is 0.5 and z is 1.
   const TrialTrend up = trial_trend({answer(2.0, false, 1), answer(2.0, true, 2)}, 1.0);
   EXPECT_NEAR(*up.drift, 1.0, 1e-12);
   EXPECT_NEAR(*up.learning, 1.0, 1e-12);
-  // Below the reference a late yes is a late error.
+  // Below the reference, a late yes is a late error.
   const TrialTrend down = trial_trend({answer(0.5, false, 1), answer(0.5, true, 2)}, 1.0);
   EXPECT_NEAR(*down.drift, 1.0, 1e-12);
   EXPECT_NEAR(*down.learning, -1.0, 1e-12);
@@ -162,7 +163,8 @@ TEST(TrialTrend, APerfectOrSilentObserverHasNone) {
   EXPECT_FALSE(trial_trend({}, 1.0).drift);
 }
 
-/// The sum of so many terms is rounded, which must not look like a step that makes it worse.
+/// The sum of so many terms is rounded. The search must not take the rounding for a step that
+/// makes the fit worse.
 TEST(PsychometricEffects, HalfAMillionSingleAnswersAreFittedAsTheirSums) {
   const std::vector<OrderedAnswers> sums = {{1.0, 17000.0, 100000.0},
                                             {1.5, 33000.0, 100000.0},

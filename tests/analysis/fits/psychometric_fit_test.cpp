@@ -61,7 +61,7 @@ TEST(PsychometricFit, OneLevelIsSolvedByHand) {
 }
 
 TEST(PsychometricFit, TwoLevelsWithTheirPseAreSolvedByHand) {
-  // Phi = 0.25 at 1 and 0.75 at 4: the pse is 2 and z = ln 2 / ln(1+w) = 0.6744898.
+  // Phi = 0.25 at 1 and 0.75 at 4, so the pse is 2 and z = ln 2 / ln(1+w) = 0.6744898.
   const PsychometricFit found = fit({{1.0, 2, 8}, {4.0, 6, 8}}, 1.0, kLikelihood, true);
   ASSERT_EQ(found.status, FitStatus::kOk);
   EXPECT_NEAR(*found.pse, 2.0, 1e-12);
@@ -69,7 +69,7 @@ TEST(PsychometricFit, TwoLevelsWithTheirPseAreSolvedByHand) {
 }
 
 TEST(PsychometricFit, LikelihoodRatioIntervalOfOneLevelIsThatOfItsProportion) {
-  // With one level the curve's interval is the interval of p, carried over.
+  // With one level, the interval of the curve is the interval of p, transformed.
   const PsychometricFit found = fit({{2.0, 8, 10}}, 1.0);
   const auto likelihood_at = [](double w) {
     const double p = core::standard_normal_cdf(std::log(2.0) / std::log1p(w));
@@ -77,7 +77,7 @@ TEST(PsychometricFit, LikelihoodRatioIntervalOfOneLevelIsThatOfItsProportion) {
   };
   EXPECT_NEAR(*found.log_likelihood - likelihood_at(*found.weber_fraction_ci95.low),
               1.920729410347062, 1e-9);
-  // p = 0.5, w without bound, is only 1.93 lower: just out of reach on the far side.
+  // p = 0.5, where w has no bound, is only 1.93 lower, which is just outside the interval.
   EXPECT_NEAR(*found.log_likelihood - 10.0 * std::log(0.5), 1.9274, 1e-4);
   ASSERT_TRUE(found.weber_fraction_ci95.high.has_value());
   EXPECT_NEAR(*found.log_likelihood - likelihood_at(*found.weber_fraction_ci95.high),
@@ -139,7 +139,7 @@ TEST(PsychometricFit, FindsAWeberFractionOfAMillionthAsWell) {
 }
 
 TEST(PsychometricFit, SmallDifferencesKeepTheirAccuracyAtAnyReference) {
-  // Intensities exact in binary, so that only the fit's own rounding is seen.
+  // The intensities are exact in binary, so that only the fit's own rounding is tested.
   const auto at = [](double reference) {
     std::vector<AnswerCount> data;
     for (const int step : {-2, -1, 1, 3}) {
@@ -257,14 +257,16 @@ TEST(PsychometricFit, SaysWhichWayTheDataHaveNoOptimum) {
 }
 
 TEST(PsychometricFit, WhatOnlyEqualsItsLimitIsNoOptimum) {
-  // Inverted: with a lapse near 0.5, every step does as well as any slope, to the last digit.
+  // The person inverts the question. With a lapse near 0.5, every step fits as well as any
+  // slope, to the last digit.
   const PsychometricFit found =
       fit({{1.1, 17, 30}, {1.5, 10, 18}}, 1.0, kLeastSquares, false, true);
   EXPECT_EQ(found.status, FitStatus::kDegenerate) << *found.lapse_rate;
 }
 
 TEST(PsychometricFit, AShallowOptimumIsFoundAmongManySteps) {
-  // 1.1e-5 below the limits, which every start on the steps between the levels runs into.
+  // The optimum is 1.1e-5 below the limits, into which every start on the steps between the
+  // levels leads.
   const PsychometricFit found =
       fit({{0.8, 0, 1}, {1.1, 2, 3}, {1.5, 0, 1}}, 1.0, kLeastSquares, true, true);
   ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
@@ -272,7 +274,7 @@ TEST(PsychometricFit, AShallowOptimumIsFoundAmongManySteps) {
 }
 
 TEST(PsychometricFit, ProportionsAllAlikeHaveNoRSquared) {
-  // Their mean is not the proportion itself, but for rounding.
+  // Rounding makes the mean differ from the proportion itself.
   const PsychometricFit found =
       fit({{1.5, 7, 10}, {2.0, 7, 10}, {3.0, 7, 10}}, 1.0, kLeastSquares);
   ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
@@ -286,7 +288,8 @@ TEST(PsychometricFit, AnAnswerRateThatHardlyRisesIsNotGivenAnInfiniteNumber) {
 }
 
 TEST(PsychometricFit, LeastSquaresTakesTheLowerOfTwoMinima) {
-  // Near levels answered finely, far ones coarsely: sse has a steep and a shallow minimum.
+  // Near levels have fine answers and far levels coarse ones, so sse has a steep and a shallow
+  // minimum.
   const std::vector<AnswerCount> data = {
       {1.01, 19, 20}, {1.02, 20, 20}, {3.0, 13, 20}, {6.0, 14, 20}, {12.0, 15, 20}};
   const PsychometricFit found = fit(data, 1.0, kLeastSquares);
@@ -325,7 +328,7 @@ TEST(PsychometricFit, OfEveryFamilyTheWeberFractionIsTheStepFromThePseOverThePse
       {2, 1, 20}, {3, 5, 20}, {4, 11, 20}, {5, 15, 20}, {6, 19, 20}};
   for (const PsychometricFamily family :
        {PsychometricFamily::kWeber, PsychometricFamily::kGauss, PsychometricFamily::kWeibull}) {
-    // The reference is not the pse, and the fraction does not know it.
+    // The reference is not the pse, and the fraction does not depend on it.
     for (const double reference : {2.5, 9.0}) {
       const PsychometricFit found =
           fit_psychometric(data, {.reference = reference, .family = family, .free_pse = true});
@@ -348,12 +351,12 @@ TEST(PsychometricFit, AGaussianWhosePseIsNotAboveZeroHasNoWeberFraction) {
   const PsychometricFit found =
       fit_psychometric({{1, 12, 20}, {2, 14, 20}, {3, 15, 20}},
                        {.reference = 2.0, .family = PsychometricFamily::kGauss});
-  // 60, 70 and 75 %: the mean lies below the levels, and below 0.
+  // With 60, 70 and 75 %, the mean lies below the levels, and below 0.
   ASSERT_EQ(found.status, FitStatus::kOk);
   EXPECT_THAT(found.reason, HasSubstr("not above 0"));
   EXPECT_FALSE(found.weber_fraction || found.standard_error);
   EXPECT_FALSE(found.weber_fraction_ci95.low || found.weber_fraction_ci95.high);
-  // The curve itself is there, whatever the unit's zero is.
+  // The curve itself exists, wherever the unit has its zero.
   const PsychometricFit moved =
       fit_psychometric({{101, 12, 20}, {102, 14, 20}, {103, 15, 20}},
                        {.reference = 2.0, .family = PsychometricFamily::kGauss});
@@ -386,7 +389,8 @@ TEST(PsychometricFit, DoubtfulValuesCarryANote) {
   const std::string yes = notes({{1, 5, 5}, {2, 5, 5}, {3, 5, 5}, {4, 5, 5}});
   EXPECT_THAT(yes, HasSubstr("every answer is the same"));
   EXPECT_THAT(yes, HasSubstr("beyond the stimuli"));
-  EXPECT_THAT(yes, HasSubstr("farther from the curve"));  // Deviance 27 on 3 degrees.
+  // The deviance is 27 on 3 degrees of freedom.
+  EXPECT_THAT(yes, HasSubstr("farther from the curve"));
   const std::string jumps = notes({{1, 0, 5}, {2, 5, 5}, {3, 0, 5}, {4, 5, 5}});
   EXPECT_THAT(jumps, HasSubstr("beyond the stimuli"));
   EXPECT_THAT(jumps, HasSubstr("farther from the curve"));

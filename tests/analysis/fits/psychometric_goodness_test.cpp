@@ -14,7 +14,7 @@ namespace psychometric_goodness_test {
 
 const std::vector<AnswerCount> kGood = {{0.6, 1, 12}, {0.8, 3, 12}, {0.9, 5, 12},
                                         {1.1, 8, 12}, {1.3, 9, 12}, {1.6, 12, 12}};
-/// Up, down, up: no curve that rises is near.
+/// The answers go up, down and up, so no rising curve is near them.
 const std::vector<AnswerCount> kBad = {{0.6, 8, 12},  {0.8, 1, 12}, {0.9, 5, 12},
                                        {1.1, 12, 12}, {1.3, 4, 12}, {1.6, 12, 12}};
 
@@ -62,7 +62,7 @@ TEST(PsychometricGoodness, IsTheSameWithoutTheCorrelationOfResiduals) {
   EXPECT_FALSE(without.level_correlation_p_value.has_value());
 }
 
-/// Such a curve passes through every level, and p = 1 would look like praise.
+/// Such a curve passes through every level, and p = 1 would look like a good result.
 TEST(PsychometricGoodness, WithoutADegreeOfFreedomNothingIsTested) {
   const PsychometricFit fit = fit_psychometric(
       {{0.7, 4, 20}, {1.3, 15, 20}},
@@ -82,7 +82,7 @@ TEST(PsychometricGoodness, ItIsLeftOutUnlessAskedFor) {
 }
 
 TEST(PsychometricGoodness, RedrawnDataWithoutAnOptimumCountWithTheirLimit) {
-  // Few answers, steep: many redrawn sets are separated.
+  // There are few answers on a steep curve, so many redrawn sets are separated.
   const PsychometricFit found =
       fit({{0.8, 0, 3}, {0.95, 1, 3}, {1.05, 2, 3}, {1.3, 3, 3}}, 300);
   ASSERT_EQ(found.status, FitStatus::kOk);
@@ -103,8 +103,9 @@ TEST(PsychometricGoodness, ResidualsNameTheIntensitiesAsTheyWereGiven) {
   }
 }
 
-/// Of single answers at levels near the reference the deviance is far from chi-squared: taken
-/// for it, more than half of such sets were called far from their own curve.
+/// For single answers at levels near the reference, the deviance is far from chi-squared. If it
+/// were taken for chi-squared, more than half of such sets would be called far from their own
+/// curve.
 TEST(PsychometricGoodness, SingleAnswersOfTheCurveItselfAreRarelyCalledFarFromIt) {
   core::RandomStream random(1, "single answers");
   int num_warned = 0;
@@ -125,7 +126,8 @@ TEST(PsychometricGoodness, SingleAnswersOfTheCurveItselfAreRarelyCalledFarFromIt
   EXPECT_LE(num_warned, 5) << "of 100, where 1 is expected";
 }
 
-/// The search looked at every level for each of its curves: gigabytes at twenty thousand.
+/// A search that looks at every level for each of its curves would take gigabytes at twenty
+/// thousand levels.
 TEST(PsychometricGoodness, ThousandsOfLevelsWithLapsesAreFittedAsFewAre) {
   core::RandomStream random(2, "many levels");
   std::vector<AnswerCount> rows;
@@ -143,7 +145,8 @@ TEST(PsychometricGoodness, ThousandsOfLevelsWithLapsesAreFittedAsFewAre) {
   EXPECT_NEAR(*found.pse, 2.0, 0.05);
 }
 
-/// The deviance of single answers about a half is 2 ln 2 each, whatever was answered.
+/// For single answers whose probability is about one half, the deviance is 2 ln 2 each,
+/// whatever the answer.
 TEST(PsychometricGoodness, SingleAnswersAboutAHalfAreNotFarFromAFlatCurve) {
   const std::string answers = "11100001000000101011";
   std::vector<AnswerCount> rows;
@@ -158,7 +161,7 @@ TEST(PsychometricGoodness, SingleAnswersAboutAHalfAreNotFarFromAFlatCurve) {
   EXPECT_GT(*found.misfit_p_value, 0.05);
 }
 
-/// In tens they tell a wrong curve nevertheless.
+/// Grouped into tens, single answers nevertheless reveal a wrong curve.
 TEST(PsychometricGoodness, SingleAnswersThatRiseAndFallAreFarFromEveryCurve) {
   std::vector<AnswerCount> rows;
   for (int level = 0; level < 80; ++level) {

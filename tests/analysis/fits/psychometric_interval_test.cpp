@@ -72,8 +72,8 @@ struct Range {
   double low, high;
 };
 
-/// The lowest misfit over a box, by a grid that closes in on its best point: whatever the
-/// derivatives are.
+/// Returns the lowest misfit over a box, by a grid that closes in on its best point. It uses no
+/// derivatives.
 double lowest(const Range& first, const Range& second, const auto& cost) {
   constexpr int kSteps = 60, kRounds = 24;
   Range x = first, y = second;
@@ -172,7 +172,8 @@ TEST(PsychometricInterval, EveryEndOfThePseIsWhereABruteForceProfileCrosses) {
 }
 
 TEST(PsychometricInterval, NothingIsReportedPastTheRangeOfNumbers) {
-  // Answers that rise by less and less: w grows, its interval opens, then there is no fit.
+  // The answers rise by less and less. So w grows, its interval opens, and at last there is no
+  // fit.
   int num_ok = 0;
   for (std::int64_t rise = 1'000'000; rise >= 1; rise /= 3) {
     for (const bool free_pse : {false, true}) {

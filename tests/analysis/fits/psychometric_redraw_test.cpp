@@ -26,13 +26,13 @@ TEST(AnswerNumbering, GivesEverySetOfAnswersANumberOfItsOwn) {
 }
 
 TEST(AnswerNumbering, HasNoNumbersWhereThereAreMoreSetsThanNumbers) {
-  const std::vector<double> num_trials(40, 5.0), num_yes(40, 1.0);  // 6^40 sets
+  const std::vector<double> num_trials(40, 5.0), num_yes(40, 1.0);  // 6^40 sets are possible.
   EXPECT_FALSE(AnswerNumbering(num_trials).of(num_yes).has_value());
-  const std::vector<double> few(20, 5.0);  // 6^20 = 3.7e15
+  const std::vector<double> few(20, 5.0);  // 6^20 = 3.7e15 sets are possible.
   EXPECT_TRUE(AnswerNumbering(few).of({num_yes.begin(), num_yes.begin() + 20}).has_value());
 }
 
-/// Also where the levels change in between.
+/// This also holds if the levels change in between.
 TEST(LeastSquaresFractions, AreThoseOfAFitByLeastSquares) {
   LeastSquaresFractions fractions;
   const std::vector<std::vector<double>> levels = {{0.6, 0.8, 1.2, 1.6}, {0.7, 0.9, 1.3, 1.5}};

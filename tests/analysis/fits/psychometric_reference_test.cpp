@@ -15,7 +15,7 @@ namespace psychometric_reference_test {
 
 using nlohmann::json;
 
-/// Computed by R: see the script beside it.
+/// The reference was computed by R with the script beside it.
 const json& reference() {
   return test_support::reference_data("psychometric_families/psychometric_reference.json");
 }
@@ -131,7 +131,8 @@ TEST(PsychometricReference, TheGaussianPosteriorOfTheWeberFractionIsThatOfSpread
           rows, {.reference = 3.0, .family = PsychometricFamily::kGauss, .posterior = true})
           .posterior;
   ASSERT_EQ(found.status, FitStatus::kOk) << found.reason;
-  // By sums over a fine grid of ln spread and pse, within priors that are far wider.
+  // The expected values come from sums over a fine grid of ln spread and pse, within priors
+  // that are far wider.
   constexpr int kSteps = 600;
   std::vector<std::pair<double, double>> fraction_and_weight;
   double all = 0.0;

@@ -28,7 +28,7 @@ constexpr Case kCases[] = {
     {kLeastSquares, false, true}, {kLeastSquares, true, true},
 };
 
-/// Few levels and trials, answers at random: half of such data have no optimum.
+/// Returns few levels and trials with random answers. Half of such data have no optimum.
 std::vector<AnswerCount> random_data(core::RandomStream& random) {
   const double intensities[] = {0.0, 0.5, 0.8, 0.95, 1.0, 1.1, 1.5, 2.5};
   std::vector<AnswerCount> data;

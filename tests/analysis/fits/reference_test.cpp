@@ -14,7 +14,7 @@ namespace reference_test {
 
 using nlohmann::json;
 
-/// data/reference/fits_reference.json: computed by SciPy, see the script beside it.
+/// The file data/reference/fits_reference.json was computed by SciPy with the script beside it.
 const json& reference() { return test_support::reference_data("fits_reference.json"); }
 
 void expect_close(const json& found, const json& expected, const std::string& where) {

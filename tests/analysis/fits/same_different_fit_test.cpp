@@ -9,7 +9,8 @@
 namespace jnd::analysis {
 namespace same_different_fit_test {
 
-/// Ten thousand answers at each quotient, as often "different" as the model has it.
+/// Returns ten thousand answers at each quotient, with the proportion of "different" that the
+/// model predicts.
 std::vector<AnswerCount> exact_answers(double criterion_ln, double spread_ln) {
   std::vector<AnswerCount> data;
   for (const double quotient : {1.0, 1.1, 1.3, 0.8, 1.6}) {

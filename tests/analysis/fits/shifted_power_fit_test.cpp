@@ -11,7 +11,7 @@ namespace shifted_power_fit_test {
 using namespace jnd::analysis;
 
 const std::vector<double> kIntensities = {1.0, 1.5, 2.5, 4.0, 7.0, 12.0, 20.0};
-// Residuals that sum to 0 and go with none of the intensities.
+// These residuals add up to 0 and do not correlate with the intensities.
 const std::vector<double> kScatter = {0.04, -0.06, 0.03, 0.02, -0.05, 0.04, -0.02};
 
 template <typename LawOf>
@@ -46,7 +46,8 @@ TEST(ShiftedPowerFit, RecoversThresholdsOffsetsAndPlainLaws) {
 }
 
 TEST(ShiftedPowerFit, AProfileOfAParabolaIsStudentsInterval) {
-  // A line through logarithms: the squares are a parabola of the slope and of the intercept.
+  // For a line through logarithms, the sum of squares is a parabola of the slope and of the
+  // intercept.
   const std::vector<Magnitude> rows =
       rows_of([](double i) { return 2.0 * std::pow(i, 0.8); }, 1.0);
   const PowerFit wald = fit_power(rows, PowerMethod::kLogLog);
@@ -67,7 +68,7 @@ TEST(ShiftedPowerFit, PlainLeastSquaresIsTheFitWithoutAShift) {
       fit_shifted_power(rows, PowerMethod::kNonlinear, PowerShift::kNone);
   EXPECT_NEAR(*profile.k, *plain.k, 1e-6);
   EXPECT_NEAR(*profile.a, *plain.a, 1e-7);
-  // The profile is not symmetric, but near the parabola for so little scatter.
+  // The profile is not symmetric, but with so little scatter it is close to the parabola.
   EXPECT_NEAR(*profile.a_ci95.low, *plain.a_ci95.low, 0.005);
   EXPECT_NEAR(*profile.a_ci95.high, *plain.a_ci95.high, 0.005);
 }

@@ -52,7 +52,7 @@ TEST(Sigmoid, LogarithmsAgreeAndStayFiniteWhereTheTailsUnderflow) {
       EXPECT_NEAR(logs.mills_upper, tails.density / tails.upper, 1e-11);
     }
   }
-  // ln F = z + ln ln 2 far below, and F' / F = 1; far above F' / F = 0.
+  // ln F = z + ln ln 2 far below, and F' / F = 1. Far above, F' / F = 0.
   const LogSigmoidTails below = log_sigmoid_tails(Sigmoid::kWeibull, -800.0);
   EXPECT_NEAR(below.log_lower, -800.0 + std::log(std::log(2.0)), 1e-9);
   EXPECT_NEAR(below.mills_lower, 1.0, 1e-12);

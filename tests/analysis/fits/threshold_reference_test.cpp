@@ -15,7 +15,7 @@ namespace threshold_reference_test {
 
 using nlohmann::json;
 
-/// data/reference/thresholds: computed by SciPy, see the script beside it.
+/// The reference in data/reference/thresholds was computed by SciPy with the script beside it.
 const json& reference() { return test_support::reference_data("thresholds/thresholds.json"); }
 
 TEST(ThresholdReference, EveryDetectionFitAgreesWithScipy) {

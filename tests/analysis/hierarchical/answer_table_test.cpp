@@ -9,7 +9,7 @@ namespace answer_table_test {
 
 constexpr double kLapseRates[] = {0.0, 1e-12, 1e-6, 1e-3, 0.03, 0.3};
 constexpr double kGuessRates[] = {0.0, 1.0 / 3.0, 0.5};
-/// No multiple of it is a knot, and it goes beyond both ends of the table.
+/// No multiple of the step is a knot, and the range goes beyond both ends of the table.
 constexpr double kStep = 0.00719, kFarthest = 12.0;
 
 TEST(AnswerTable, HasTheLogarithmsOfTheFunctionToTenDecimals) {

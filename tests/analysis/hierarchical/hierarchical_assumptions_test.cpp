@@ -9,8 +9,9 @@
 namespace jnd::analysis {
 namespace hierarchical_assumptions_test {
 
-/// Ten people with w = 0.22 on average at easy levels, twenty answers each, as even as counts
-/// can be. `place_ln`: how far the pse of every other one is shifted, up and down by turns.
+/// Returns ten people with w = 0.22 on average at easy levels, with twenty answers each, as
+/// even as counts can be. `place_ln` shifts the pse of one person up and that of the next
+/// person down.
 std::vector<ParticipantAnswers> people(double place_ln, int num_lapses) {
   std::vector<ParticipantAnswers> all;
   for (int person = 0; person < 10; ++person) {

@@ -19,7 +19,7 @@ constexpr HierarchicalOptions kWithoutLapses = {.lapses = HierarchicalLapses::kN
 constexpr HierarchicalOptions kAtReference = {.pse = HierarchicalPse::kReference,
                                               .lapses = HierarchicalLapses::kNone};
 
-/// Answers as near as whole numbers come to a curve's probabilities.
+/// Returns answers that are as close to the curve's probabilities as whole numbers allow.
 ParticipantAnswers exact_answers(const std::string& participant, double w, double pse,
                                  std::int64_t num_trials, const std::string& condition = "") {
   ParticipantAnswers one{participant, condition, 1.0, {}};
@@ -55,11 +55,13 @@ TEST(HierarchicalFit, PeopleWhoDoNotDifferGiveTheirCommonCurveAndASpreadOfNothin
 }
 
 TEST(HierarchicalFit, TheMedianPersonIsTheMiddleOfPeopleWhoDifferByFactors) {
-  // ln of the factors is symmetric about ln 1 but for 0.85 and 1.2, which nearly are.
+  // The logarithms of the factors are symmetric about ln 1, except 0.85 and 1.2, which nearly
+  // are.
   const HierarchicalFit fit = fit_hierarchical(differing_people(4000), kAtReference);
   ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
   EXPECT_NEAR(*fit.conditions[0].weber_fraction, 0.5, 0.01);
-  // With this many answers the spread is that of the seven values, over n as likelihood has it.
+  // With this many answers, the spread is that of the seven values, divided by n as in the
+  // likelihood.
   EXPECT_NEAR(fit.conditions[0].slope_sd, 0.4285, 0.002);
 }
 
@@ -72,7 +74,8 @@ TEST(HierarchicalFit, ThePooledCurveIsFlatterThanTheMedianPerson) {
   const PsychometricFit curve = fit_psychometric(pooled, {.reference = 1.0});
   const HierarchicalFit fit = fit_hierarchical(all, kAtReference);
   EXPECT_GT(*curve.weber_fraction, 1.02 * *fit.conditions[0].weber_fraction);
-  // An interval that knows that people differ is wider than that of pooled answers.
+  // An interval that allows for differences between people is wider than that of pooled
+  // answers.
   const Interval& group = fit.conditions[0].weber_fraction_ci95;
   EXPECT_GT(*group.high - *group.low,
             3.0 * (*curve.weber_fraction_ci95.high - *curve.weber_fraction_ci95.low));
@@ -141,7 +144,7 @@ TEST(HierarchicalFit, TwoConditionsDifferByWhatTheirCurvesDo) {
   EXPECT_GT(*fit.correlation, 0.95);
 }
 
-/// In the one condition people's pses differ by much, in the other not at all.
+/// Returns people whose pses differ much in one condition and not at all in the other.
 std::vector<ParticipantAnswers> people_with_a_bias_in_one_condition(std::int64_t num_trials) {
   std::vector<ParticipantAnswers> all;
   int number = 0;
@@ -194,7 +197,7 @@ TEST(HierarchicalFit, ADifferenceCanBeReckonedAgainFromWhatIsTold) {
       << "Student's t with 6 degrees of freedom";
 }
 
-/// People whose ln ln(1 + w) differ between two conditions by ln of `factors`.
+/// Returns people whose ln ln(1 + w) differ between two conditions by ln of `factors`.
 std::vector<ParticipantAnswers> people_with_differences(const std::vector<double>& factors,
                                                         std::int64_t num_trials) {
   std::vector<ParticipantAnswers> all;
@@ -212,14 +215,16 @@ TEST(HierarchicalFit, WithManyAnswersADifferenceIsThatOfThePairedTTest) {
   const HierarchicalFit fit =
       fit_hierarchical(people_with_differences(factors, 20000), kAtReference);
   ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
-  // Mean of ln of the factors, and their sd (n - 1) over the root of six, by hand.
+  // The mean of ln of the factors, and their sd (n - 1) divided by the root of six, worked out
+  // by hand.
   EXPECT_NEAR(fit.differences[0].estimate, -0.255246, 1e-3);
   EXPECT_NEAR(*fit.differences[0].standard_error, 0.091798, 1e-3);
 }
 
 TEST(HierarchicalFit, ADifferenceMayBeSurerThanAnswersByChanceWouldLeaveIt) {
-  // These people differ by less than the chance of twelve answers a level. By chance alone a
-  // difference has the error of a condition times the root of two, and a paired t test less.
+  // These people differ by less than the chance of twelve answers a level. By chance alone, a
+  // difference has the error of a condition times the root of two, and a paired t test finds
+  // less.
   const std::vector<double> factors = {0.68, 0.7, 0.72, 0.69, 0.71, 0.7};
   const HierarchicalFit fit =
       fit_hierarchical(people_with_differences(factors, 12), kAtReference);
@@ -305,7 +310,8 @@ TEST(HierarchicalFit, ManyLapsesAreSaid) {
   EXPECT_NE(fit.note.find("looks random"), std::string::npos) << fit.note;
 }
 
-/// Few answers to comparisons as hard as those of group D of `viscosity_discrimination`.
+/// Returns few answers to comparisons that are as hard as those of group D of
+/// `viscosity_discrimination`.
 std::vector<ParticipantAnswers> hard_answers(double widest) {
   std::vector<ParticipantAnswers> all;
   for (int person = 0; person < 6; ++person) {
@@ -334,7 +340,8 @@ TEST(HierarchicalFit, WithoutLapsesFoundAnIntervalStillKnowsOfThoseThatMayBe) {
   const Interval& wide = free.conditions[0].weber_fraction_ci95;
   EXPECT_LT(*wide.low, 0.93 * *fixed.low) << "lapses would make the curve steeper";
   EXPECT_NEAR(*wide.high, *fixed.high, 1e-4) << "and none flatter";
-  // A known rate at the end of what is left has the lower end of the union for its own.
+  // With a known rate at the end of the remaining range, the lower end of the interval is that
+  // of the union.
   options.lapses = HierarchicalLapses::kKnown;
   options.lapse_rate = *free.lapse_rate_with_prior_ci95.high;
   const HierarchicalFit most = fit_hierarchical(hard_answers(0.7), options);
@@ -344,7 +351,7 @@ TEST(HierarchicalFit, WithoutLapsesFoundAnIntervalStillKnowsOfThoseThatMayBe) {
 
 TEST(HierarchicalFit, ALapseRatesIntervalEndsWhereTheLikelihoodHasFallen) {
   std::vector<ParticipantAnswers> answers = differing_people(40);
-  answers[0].rows[0].num_yes += 2;  // Lapses at the easiest levels.
+  answers[0].rows[0].num_yes += 2;  // These are lapses at the easiest levels.
   answers[3].rows[5].num_yes -= 2;
   HierarchicalOptions options = kAtReference;
   options.lapses = HierarchicalLapses::kCommon;
@@ -364,7 +371,7 @@ TEST(HierarchicalFit, ALapseRatesIntervalEndsWhereTheLikelihoodHasFallen) {
 }
 
 TEST(HierarchicalFit, LevelsThatDoNotReachTheWeberFractionAreACaution) {
-  // w = 0.7 is 0.53 in ln: levels within 0.4 of the reference are all harder.
+  // w = 0.7 is 0.53 in ln, so levels within 0.4 of the reference are all harder.
   for (const auto& [widest, is_hard] : {std::pair{0.4, true}, {0.7, false}}) {
     const HierarchicalFit fit =
         fit_hierarchical(hard_answers(widest), {.pse = HierarchicalPse::kReference});
@@ -383,7 +390,7 @@ TEST(HierarchicalFit, LevelsThatDoNotReachTheWeberFractionAreACaution) {
 }
 
 TEST(HierarchicalFit, AForcedChoiceHasItsGuesses) {
-  // Right answers of two alternatives are half of the rest of those that are felt.
+  // With two alternatives, half of the answers to what is not felt are right as well.
   std::vector<ParticipantAnswers> felt = differing_people(4000), right = felt;
   for (ParticipantAnswers& one : right) {
     for (AnswerCount& row : one.rows) row.num_yes = 2000 + row.num_yes / 2;
@@ -400,7 +407,7 @@ TEST(HierarchicalFit, AForcedChoiceHasItsGuesses) {
   EXPECT_THROW((void)fit_hierarchical(right, options), core::Error);
 }
 
-/// Four people's answers drawn, eight at each level, one of a hundred random.
+/// Draws the answers of four people, eight at each level, one of a hundred of which is random.
 std::vector<ParticipantAnswers> drawn_people(const std::string& condition, double w,
                                              std::uint64_t seed) {
   std::vector<ParticipantAnswers> all;
@@ -422,7 +429,7 @@ std::vector<ParticipantAnswers> drawn_people(const std::string& condition, doubl
 }
 
 TEST(HierarchicalFit, OfTwoMaximaWithAndWithoutLapsesTheLargerIsFound) {
-  // A search that starts at a lapse in a hundred ends at none here.
+  // A search that starts at a lapse rate of 1 % ends at 0 here.
   const std::vector<ParticipantAnswers> all = drawn_people("b", 0.28, 251);
   HierarchicalOptions options = kAtReference;
   const HierarchicalFit without = fit_hierarchical(all, options);
@@ -430,7 +437,8 @@ TEST(HierarchicalFit, OfTwoMaximaWithAndWithoutLapsesTheLargerIsFound) {
   const HierarchicalFit with = fit_hierarchical(all, options);
   ASSERT_EQ(with.status, FitStatus::kOk) << with.reason;
   EXPECT_GT(*with.lapse_rate, 0.01);
-  const double log_prior = 19.0 * std::log1p(-2.0 * *with.lapse_rate);  // Beta(1, 20)
+  // The prior is Beta(1, 20).
+  const double log_prior = 19.0 * std::log1p(-2.0 * *with.lapse_rate);
   EXPECT_GT(*with.log_likelihood + log_prior, *without.log_likelihood + 1e-6);
 }
 
@@ -454,8 +462,9 @@ TEST(HierarchicalFit, ConditionsOfOtherPeopleAreToldAlikeInEitherOrder) {
 }
 
 TEST(HierarchicalFit, FewAnswersToHardComparisonsAreNotTakenForLapses) {
-  // Drawn without lapses, five answers a level, none of which is easy: a lapse rate that
-  // nothing held back would come out at some percent, and the Weber fraction a tenth too small.
+  // The answers are drawn without lapses, five at each level, none of which is easy. Without a
+  // prior, the lapse rate would come out at some percent, and the Weber fraction a tenth too
+  // small.
   constexpr int kGroups = 12;
   double sum_of_logs = 0.0;
   for (int group = 0; group < kGroups; ++group) {
@@ -509,7 +518,8 @@ TEST(HierarchicalFit, WhatHasNoValueSaysWhy) {
   EXPECT_NE(reason(zero).find("intensity 0"), std::string::npos);
 }
 
-/// People who favour the second interval by more or less, each with a Weber fraction of 0.3.
+/// Returns people with a Weber fraction of 0.3 who favour the second interval by different
+/// amounts.
 std::vector<ParticipantAnswers> people_with_interval_biases(bool mirrored) {
   std::vector<ParticipantAnswers> all;
   for (const double bias : {-0.25, -0.1, 0.0, 0.05, 0.2, 0.4}) {
@@ -531,7 +541,8 @@ std::vector<ParticipantAnswers> people_with_interval_biases(bool mirrored) {
 }
 
 TEST(HierarchicalFit, AConditionWithoutOrdersKeepsItsOwnPseBesideOneWithOrders) {
-  // The same Weber fraction in both; here people favour an interval, there they differ in pse.
+  // Both conditions have the same Weber fraction. In the first, people favour an interval, and
+  // in the second they differ in pse.
   std::vector<ParticipantAnswers> both;
   int number = 0;
   for (ParticipantAnswers one : people_with_interval_biases(false)) {
@@ -560,7 +571,7 @@ TEST(HierarchicalFit, ABiasForAnIntervalIsAPersonsOwnAndLeavesTheWeberFractionAl
   EXPECT_NEAR(*fit.conditions[0].weber_fraction, 0.3, 2e-3);
   EXPECT_NEAR(*fit.conditions[0].pse, 1.0, 2e-3);
   EXPECT_NE(fit.method.find("bias for an interval"), std::string::npos) << fit.method;
-  // Both orders taken for one.
+  // A fit that takes both orders for one finds a larger fraction.
   std::vector<ParticipantAnswers> pooled = people_with_interval_biases(false);
   for (ParticipantAnswers& one : pooled) {
     for (AnswerCount& row : one.rows) row.order = 0.0;
@@ -641,8 +652,8 @@ TEST(HierarchicalFit, AConditionOfOnePersonHasNoValueAndNoDifference) {
 const std::vector<AnswerCount> kStepWithLapses = {{0.5, 1, 20},   {0.7, 0, 20},  {0.85, 0, 20},
                                                   {1.15, 20, 20}, {1.3, 20, 20}, {1.5, 19, 20}};
 
-/// Five people whose answers are one step but for a lapse at either end: every steep curve
-/// suits them, and where the search stops is nobody's value.
+/// The answers of five people are one step with a lapse at either end. Every steep curve fits
+/// them, so the point at which the search stops is nobody's value.
 TEST(HierarchicalFit, AStepWithLapsesHasNoValue) {
   std::vector<ParticipantAnswers> people;
   for (const char* name : {"a", "b", "c", "d", "e"}) {
@@ -674,7 +685,7 @@ TEST(HierarchicalFit, AStepInOneConditionLeavesTheOtherItsValue) {
   }
 }
 
-/// Answers of another shape than the curve: no lapse rate makes them rise, fall and rise.
+/// The answers have another shape than the curve: no lapse rate makes them rise, fall and rise.
 TEST(HierarchicalFit, AnswersOfAnotherShapeHaveACaution) {
   const std::vector<AnswerCount> wrong = {{0.5, 2, 40},   {0.7, 16, 40}, {0.85, 8, 40},
                                           {1.15, 32, 40}, {1.3, 24, 40}, {1.5, 38, 40}};

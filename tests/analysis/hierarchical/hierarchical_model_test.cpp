@@ -13,7 +13,8 @@
 namespace jnd::analysis {
 namespace hierarchical_model_test {
 
-/// Four people in this many conditions, of unequal answers; the last lacks the last condition.
+/// Returns four people with unequal answers in `num_conditions` conditions. The last person
+/// lacks the last condition.
 HierarchicalArrangement people_in(int num_conditions) {
   std::vector<ParticipantAnswers> all;
   for (int person = 0; person < 4; ++person) {
@@ -32,9 +33,9 @@ HierarchicalArrangement people_in(int num_conditions) {
   return arranged(all);
 }
 
-/// The same model, told that every random effect moves a number of another condition as well,
-/// by a parameter of its own that the tests keep at 0. Then nothing is independent, and all
-/// nodes are gone through.
+/// Returns the same model with one change: every random effect also moves a number of another
+/// condition, by a parameter that the tests keep at 0. Then nothing is independent, and the
+/// integral uses all nodes.
 HierarchicalStructure all_shared(HierarchicalStructure structure, int idle_parameter) {
   const std::vector<int> conditions = structure.conditions_of_effects();
   for (int effect = 0; effect < structure.num_random_effects; ++effect) {
@@ -52,7 +53,8 @@ TEST_P(ManyConditions, TheNestedSumIsThatOverAllNodes) {
   for (const int num_conditions : {2, 3}) {
     const HierarchicalArrangement all = people_in(num_conditions);
     HierarchicalStructure nested = structure_of(all, GetParam());
-    // One more parameter, at the end but for the lapses' angle, that moves nothing.
+    // One more parameter, which moves nothing, stands at the end, before the angle of the lapse
+    // rate.
     const int idle = nested.num_parameters - (nested.has_lapses ? 1 : 0);
     ++nested.num_parameters;
     const HierarchicalStructure whole = all_shared(nested, idle);
@@ -94,7 +96,7 @@ TEST(HierarchicalModel, EffectsOfOneConditionComeBeforeThoseOfSeveral) {
             (std::vector<int>{0, 1, 1, HierarchicalStructure::kSeveral}));
 }
 
-/// So many people in one condition, each with answers of their own to six levels.
+/// Returns `num_people` people in one condition, each with different answers to six levels.
 HierarchicalArrangement different_people(int num_people) {
   std::vector<ParticipantAnswers> all;
   for (int person = 0; person < num_people; ++person) {
@@ -110,8 +112,8 @@ HierarchicalArrangement different_people(int num_people) {
   return arranged(all);
 }
 
-/// Where a fit of them may ask: slope and place of the median person, both spreads and the
-/// angle of the lapse rate.
+/// Returns parameters at which a fit may evaluate the likelihood: slope and place of the median
+/// person, both spreads, and the angle of the lapse rate.
 Eigen::VectorXd somewhere(const HierarchicalStructure& structure, double angle) {
   Eigen::VectorXd at(structure.num_parameters);
   at << 1.4, 0.05, 0.3, 0.1, angle;
@@ -120,7 +122,7 @@ Eigen::VectorXd somewhere(const HierarchicalStructure& structure, double angle) 
 
 class ManyPeople : public ::testing::TestWithParam<HierarchicalOptions> {};
 
-/// Thirty people ask for 14,580 probabilities, which are read off a table; two for 972.
+/// Thirty people need 14,580 probabilities, which come from a table. Two people need 972.
 TEST_P(ManyPeople, HaveTheLikelihoodsThatFewOfThemHave) {
   const HierarchicalArrangement all = different_people(30);
   const HierarchicalStructure structure = structure_of(all, GetParam());
@@ -145,12 +147,13 @@ TEST_P(ManyPeople, HaveTheLikelihoodsThatFewOfThemHave) {
       sum += two_values.sum();
     }
     EXPECT_NEAR(many(at) - structure.log_prior(at), sum, 1e-9 * std::fabs(sum)) << angle;
-    // Every parameter counts, or the above would prove nothing of it.
+    // Every parameter has an effect, because otherwise the comparison above would prove nothing
+    // about it.
     EXPECT_GT(scores.topRows(4).cwiseAbs().rowwise().maxCoeff().minCoeff(), 0.1);
   }
 }
 
-/// The score is that of the table's own likelihood, by which a search comes to rest.
+/// The score is the gradient of the table's own likelihood, so that a search converges.
 TEST_P(ManyPeople, HaveScoresThatAreTheSlopeOfTheirLikelihood) {
   const HierarchicalArrangement all = different_people(30);
   const HierarchicalStructure structure = structure_of(all, GetParam());
@@ -161,7 +164,7 @@ TEST_P(ManyPeople, HaveScoresThatAreTheSlopeOfTheirLikelihood) {
   (void)many(at, &gradient);
   for (Eigen::Index i = 0; i < at.size(); ++i) {
     const Eigen::VectorXd step = 1e-4 * Eigen::VectorXd::Unit(at.size(), i);
-    // The exact integral's against that of a rule of nine nodes.
+    // One gradient is that of the exact integral, the other that of a rule of nine nodes.
     EXPECT_NEAR(gradient(i), (many(at + step) - many(at - step)) / 2e-4,
                 1e-3 * (1.0 + std::fabs(gradient(i))))
         << i;
@@ -174,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Structures, ManyPeople,
                                                .link = HierarchicalLink::kLinear},
                                            HierarchicalOptions{.guess_rate = 0.5}));
 
-/// The search goes by fewer nodes and by the table first; where it ends, neither may be seen.
+/// The search begins with fewer nodes and with the table. Neither may influence where it ends.
 TEST(HierarchicalModel, OfManyPeopleHasItsOptimumWhereTheExactScoresOfFewAddUpToNothing) {
   const HierarchicalArrangement all = different_people(30);
   const HierarchicalStructure structure = structure_of(all, {});

@@ -13,7 +13,8 @@ namespace hierarchical_reference_test {
 
 using nlohmann::json;
 
-/// Computed by lme4's glmer, and by integration on a grid in R: see the script beside it.
+/// The reference was computed by lme4's glmer, and by integration on a grid in R, with the
+/// script beside it.
 const json& reference() {
   return test_support::reference_data("hierarchical/hierarchical_reference.json");
 }
@@ -31,7 +32,7 @@ std::vector<ParticipantAnswers> answers_of(const json& one) {
   return all;
 }
 
-/// Rows [participant, intensity, num_yes, num_trials] of one condition.
+/// Reads rows [participant, intensity, num_yes, num_trials] of one condition.
 std::vector<ParticipantAnswers> answers_to_one_reference(const json& one) {
   std::vector<ParticipantAnswers> all;
   for (const json& row : one.at("rows")) {
@@ -65,7 +66,8 @@ void expect_fit(const json& one, int num_nodes, double tolerance) {
   const HierarchicalFit fit = fit_hierarchical(answers_of(one), options_of(one, num_nodes));
   ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
   const json& expected = one.at("expected");
-  // glmer's Laplace deviance is rounded by its inner iterations, which second differences show.
+  // The inner iterations of glmer round its Laplace deviance, which becomes visible in second
+  // differences.
   const double error_tolerance = fit.num_nodes == 1 ? 1e-4 : tolerance;
   const auto near = [&](double found, const char* key, std::size_t condition, double relative) {
     if (!expected.contains(key)) return;

@@ -16,9 +16,9 @@ namespace hierarchical_robust_test {
 
 constexpr double kLevels[] = {0.5, 0.65, 0.8, 0.92, 1.1, 1.25, 1.5, 2.0};
 
-/// People with w = 0.3 on average, whose answers to one level correlate by rho: the next one is
-/// a yes with (p + phi times the yes so far) / (1 + phi times the answers so far), which is
-/// Polya's urn and a beta-binomial count.
+/// Returns people with w = 0.3 on average, whose answers to one level correlate by rho. The
+/// next answer is a yes with (p + phi times the yes so far) / (1 + phi times the answers so
+/// far). This is Polya's urn, and the count is beta-binomial.
 std::vector<ParticipantAnswers> scattered_people(double rho, int num_people, int num_trials,
                                                  std::uint64_t seed) {
   const double phi = rho / (1.0 - rho);
@@ -71,7 +71,7 @@ TEST(HierarchicalRobust, ACorrelationThatWasPutInIsFound) {
       << "answers that go together say less";
   EXPECT_GT(width(fit), width(without));
   EXPECT_NE(fit.method.find("beta-binomial"), std::string::npos) << fit.method;
-  // What scatters is no misfit any more.
+  // The model with scatter no longer calls the scatter a misfit.
   EXPECT_FALSE(without.conditions[0].cautions.empty());
   EXPECT_TRUE(fit.conditions[0].cautions.empty()) << fit.conditions[0].cautions[0];
 }
@@ -84,7 +84,7 @@ TEST(HierarchicalRobust, TheIntervalOfACorrelationEndsWhereTheLikelihoodHasFalle
   ASSERT_TRUE(ends.low && ends.high);
   EXPECT_LT(*ends.low, fit.scatter->correlation);
   EXPECT_GT(*ends.high, fit.scatter->correlation);
-  // By a likelihood that is made anew, at its largest over the other two parameters.
+  // The test computes its own likelihood and maximises it over the other two parameters.
   std::vector<HierarchicalPerson> people;
   for (const ParticipantAnswers& one : answers) {
     HierarchicalCell cell;
@@ -147,8 +147,8 @@ TEST(HierarchicalRobust, SingleAnswersHaveNoCorrelation) {
   EXPECT_NE(fit.reason.find("answered any level twice"), std::string::npos) << fit.reason;
 }
 
-/// As even as counts can be, of people with w = 0.3 who lapse as told, the easiest comparisons
-/// so easy that a lapse is no flat curve.
+/// Returns answers, as even as counts can be, of people with w = 0.3 who lapse at these rates.
+/// The easiest comparisons are so easy that lapses differ from a flat curve.
 std::vector<ParticipantAnswers> people_who_lapse(const std::vector<double>& lapse_rates,
                                                  std::int64_t num_trials) {
   std::vector<ParticipantAnswers> all;
@@ -169,7 +169,7 @@ std::vector<ParticipantAnswers> people_who_lapse(const std::vector<double>& laps
 
 TEST(HierarchicalRobust, APersonWhoLapsesIsFoundAndNotTakenForEverybody) {
   std::vector<double> rates(10, 0.01);
-  rates[2] = 0.15;  // One with the median slope.
+  rates[2] = 0.15;  // This person has the median slope.
   const auto answers = people_who_lapse(rates, 60);
   HierarchicalOptions options{.pse = HierarchicalPse::kReference};
   const HierarchicalFit common = fit_hierarchical(answers, options);
@@ -188,7 +188,7 @@ TEST(HierarchicalRobust, APersonWhoLapsesIsFoundAndNotTakenForEverybody) {
   const HierarchicalOwnLapses& found = own.own_lapses.value();
   EXPECT_GT(found.angle_sd, 0.05);
   EXPECT_LT(*found.p_value, 0.01);
-  // Of other numbers of nodes.
+  // The two fits use other numbers of nodes.
   EXPECT_NEAR(*found.log_likelihood_common, *common.log_likelihood, 1e-4);
   EXPECT_NEAR(*found.common_lapse_rate, *common.lapse_rate, 1e-5);
   EXPECT_NEAR(*found.weber_fractions_common[0], *common.conditions[0].weber_fraction, 1e-5);
@@ -197,7 +197,7 @@ TEST(HierarchicalRobust, APersonWhoLapsesIsFoundAndNotTakenForEverybody) {
     return std::fabs(std::log(*fit.conditions[0].weber_fraction / 0.3));
   };
   EXPECT_LT(bias(own), 0.5 * bias(common));
-  // The person who lapses is the one whom a common rate has for one with a flat curve.
+  // With a common rate, the person who lapses seems to have a flat curve.
   EXPECT_LT(*own.participants[2].weber_fraction, *common.participants[2].weber_fraction);
   const Interval& rate = own.lapse_rate_with_prior_ci95;
   EXPECT_LE(*rate.low, *own.lapse_rate);
@@ -239,7 +239,7 @@ TEST(HierarchicalRobust, BothTogetherAreFitted) {
   EXPECT_FALSE(fit.scatter->correlation_ci95.low);
 }
 
-/// Hard enough for the prior to count, with a few random answers.
+/// Returns answers that are so hard that the prior matters, with a few random ones.
 std::vector<ParticipantAnswers> people_for_priors() {
   std::vector<ParticipantAnswers> all = scattered_people(0.0, 6, 10, 11);
   all[0].rows[0].num_yes += 1;

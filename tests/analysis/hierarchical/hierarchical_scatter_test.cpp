@@ -10,7 +10,8 @@
 namespace jnd::analysis {
 namespace hierarchical_scatter_test {
 
-/// Parameters a, p, sd of a, sd of p, then r, tau and v where the structure has them.
+/// The parameters are a, p, the sd of a and the sd of p, and then r, tau and v if the structure
+/// has them.
 HierarchicalStructure structure_with(bool has_scatter, bool has_own_lapses, bool has_lapses) {
   HierarchicalStructure structure{.has_places = true,
                                   .has_lapses = has_lapses,
@@ -28,7 +29,7 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
                                            static_cast<Eigen::Index>(values.size()));
 }
 
-/// Levels in ln(x / reference), with answers that lie on no curve.
+/// Returns levels in ln(x / reference), with answers that lie on no curve.
 HierarchicalPerson some_person(int more_yes = 0) {
   return {{.condition = 0,
            .log_ratio = {-0.8, -0.3, 0.1, 0.5, 0.9},
@@ -37,7 +38,8 @@ HierarchicalPerson some_person(int more_yes = 0) {
            .order = {0.0, 0.0, 0.0, 0.0, 0.0}}};
 }
 
-/// ln of what k yes among n have by a beta distribution of the mean p, by its own function.
+/// Returns ln of the probability of k yes among n under a beta distribution with the mean p.
+/// The test computes it by itself.
 double log_beta_binomial(double k, double n, double p, double rho) {
   const double sum = 1.0 / rho - 1.0;
   const auto log_beta = [](double a, double b) {
@@ -46,7 +48,8 @@ double log_beta_binomial(double k, double n, double p, double rho) {
   return log_beta(k + sum * p, n - k + sum * (1.0 - p)) - log_beta(sum * p, sum * (1.0 - p));
 }
 
-/// Of a person with the numbers a and p, without binomial coefficients.
+/// Returns ln of the probability of a person's answers with the numbers a and p, without
+/// binomial coefficients.
 double log_answers(const HierarchicalPerson& person, double a, double p, double lapse,
                    double rho) {
   double sum = 0.0;
@@ -60,7 +63,8 @@ double log_answers(const HierarchicalPerson& person, double a, double p, double 
   return sum;
 }
 
-/// Mean over a standard normal number, by steps far smaller than any rule's.
+/// Returns the mean over a standard normal number, with steps far smaller than those of any
+/// rule.
 double normal_mean(const std::function<double(double)>& value) {
   constexpr double kStep = 0.02;
   double sum = 0.0;
@@ -91,7 +95,7 @@ TEST(HierarchicalScatter, TheLikelihoodIsSmoothDownToNoScatter) {
   const std::vector<HierarchicalPerson> people = {some_person()};
   const HierarchicalLikelihood likelihood(structure_with(true, false, false), people, 9);
   const auto at = [&](double r) { return likelihood(vector_of({0.7, 0.1, 0.3, 0.2, r})); };
-  // Even in r: what r adds is in r squared.
+  // The likelihood is even in r, so r contributes by its square.
   const double slope = (at(1e-3) - at(0.0)) / 1e-6;
   EXPECT_NEAR((at(2e-3) - at(0.0)) / 4e-6, slope, 1e-3 * std::fabs(slope));
   EXPECT_EQ(at(1e-3), at(-1e-3));
@@ -99,8 +103,8 @@ TEST(HierarchicalScatter, TheLikelihoodIsSmoothDownToNoScatter) {
 }
 
 TEST(HierarchicalScatter, ALevelHasTheProductThatIsWorkedByHand) {
-  // Two yes and one no at p = 0.3 with phi = 0.25, rho = 0.2:
-  // 0.3 (0.3 + 0.25) 0.7 / (1 (1 + 0.25) (1 + 0.5)) = 0.0616
+  // Two yes and one no at p = 0.3 with phi = 0.25, rho = 0.2: 0.3 (0.3 + 0.25) 0.7 / (1 (1 +
+  // 0.25) (1 + 0.5)) = 0.0616
   const double log_yes = std::log(0.3), log_no = std::log(0.7);
   const double value = scattered_value(2.0, log_yes, 0.25) +
                        scattered_value(1.0, log_no, 0.25) - scatter_total(3.0, 0.25).value;
@@ -109,7 +113,7 @@ TEST(HierarchicalScatter, ALevelHasTheProductThatIsWorkedByHand) {
 }
 
 TEST(HierarchicalScatter, ALevelsDerivativesAreThoseOfItsValue) {
-  // p rises with z as fast as it is: d ln p / dz = 1; its density has the derivative -z.
+  // The test chooses d ln p / dz = 1, and a density whose derivative is -z.
   constexpr double kStep = 1e-5, kPhi = 0.4;
   const auto value = [](double p, double phi) {
     return scattered_value(7.0, std::log(p), phi);
@@ -133,7 +137,7 @@ TEST(HierarchicalScatter, ALevelsDerivativesAreThoseOfItsValue) {
 }
 
 TEST(HierarchicalScatter, ManyAnswersToALevelAreAsManyFactors) {
-  // 2,000 factors are multiplied; more are gamma functions.
+  // Up to 2,000 factors are multiplied. For more, gamma functions are used.
   double value = 0.0, by_phi = 0.0;
   for (int j = 1; j < 2500; ++j) {
     value += std::log(0.2 + 0.05 * j);
@@ -160,7 +164,7 @@ TEST(HierarchicalScatter, OnePersonsIntegralIsThatOfBruteForce) {
 }
 
 TEST(HierarchicalScatter, OwnLapsesAreIntegratedOverBothOfTheirModes) {
-  // This person lapses: of the angle v + tau b about 0.6 and -0.6 are likely alike.
+  // This person lapses. The angle v + tau b is about equally likely near 0.6 and near -0.6.
   HierarchicalPerson person = some_person();
   person[0].num_yes = {3.0, 3.0, 6.0, 7.0, 9.0};
   person[0].num_no = {9.0, 8.0, 4.0, 3.0, 3.0};
@@ -235,7 +239,8 @@ TEST(HierarchicalScatter, ThePriorIsOnTheMeanShareOfRandomAnswers) {
   EXPECT_NEAR(structure.lapse_rate(at), 0.5 * std::pow(std::sin(v), 2), 1e-15);
   EXPECT_NEAR(structure.log_prior(at), 2.0 * std::log(share) + 11.0 * std::log(1.0 - share),
               1e-9);
-  // Without a spread it is the share itself, and Beta(1, 20) all that there is without options.
+  // Without a spread, the rate is the share itself, and without options there is only the prior
+  // Beta(1, 20).
   EXPECT_NEAR(structure_with(false, false, true).log_prior(vector_of({0, 0, 0, 0, v})),
               19.0 * std::log(std::pow(std::cos(v), 2)), 1e-12);
 }

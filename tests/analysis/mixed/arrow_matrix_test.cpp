@@ -9,7 +9,8 @@
 namespace jnd::analysis {
 namespace arrow_matrix_test {
 
-/// Three blocks of two beside a corner of three; the second block touches two columns of it.
+/// A matrix of three blocks of two beside a corner of three. The second block touches two
+/// columns of the corner.
 struct Example {
   ArrowMatrix arrow{2, 3, {{0, 1, 2}, {0, 2}, {}}};
   Eigen::MatrixXd dense = Eigen::MatrixXd::Identity(9, 9);

@@ -9,7 +9,7 @@
 namespace jnd::analysis {
 namespace design_test {
 
-/// Six rows: u = 1..6, condition B A C B A C, day 2 10 2 10 2 10.
+/// Returns six rows: u = 1..6, condition B A C B A C, day 2 10 2 10 2 10.
 TrialTable six_rows() {
   return parse_trial_table(
       "u,condition,day,y\n1,B,2,1\n2,A,10,0\n3,C,2,1\n4,B,10,1\n5,A,2,0\n6,C,10,1\n", "six.csv",
@@ -31,7 +31,7 @@ TEST(Design, NamesColumnsAsRDoes) {
       names_of("u * condition", Contrasts::kSum),
       (Names{"(Intercept)", "u", "condition1", "condition2", "u:condition1", "u:condition2"}));
   EXPECT_EQ(names_of("0 + condition"), (Names{"conditionA", "conditionB", "conditionC"}));
-  // Without the intercept sum contrasts have nothing to be against.
+  // Without the intercept, sum contrasts have no reference.
   EXPECT_EQ(names_of("0 + condition", Contrasts::kSum),
             (Names{"conditionA", "conditionB", "conditionC"}));
   EXPECT_EQ(names_of("condition + u:condition"),
@@ -87,7 +87,7 @@ TEST(Design, FunctionsAreThoseOfTheRows) {
   const Design design(parse_formula("scale(u) + center(u) + log2(u)"), table,
                       Contrasts::kTreatment);
   const Eigen::MatrixXd x = design.matrix(table);
-  // Mean 3.5, and the standard deviation of 1 to 6 is the root of 3.5.
+  // The mean is 3.5, and the standard deviation of 1 to 6 is the root of 3.5.
   EXPECT_NEAR(x(0, 1), -2.5 / std::sqrt(3.5), 1e-15);
   EXPECT_EQ(x(0, 2), -2.5);
   EXPECT_EQ(x(3, 3), 2.0);

@@ -8,7 +8,7 @@
 namespace jnd::analysis {
 namespace formula_test {
 
-/// "1 u c u:c": the terms as they come out, by the names of their variables.
+/// Returns the parsed terms by the names of their variables, for example "1 u c u:c".
 std::string terms_of(const std::string& text) {
   const Formula formula = parse_formula(text);
   std::string words = formula.has_intercept ? "1" : "0";
@@ -22,7 +22,7 @@ std::string terms_of(const std::string& text) {
   return words;
 }
 
-// What R's terms() says of each: attr(terms(~ ...), "term.labels").
+// The expected terms are what R says: attr(terms(~ ...), "term.labels").
 TEST(Formula, IsTakenApartAsRDoes) {
   EXPECT_EQ(terms_of("1"), "1");
   EXPECT_EQ(terms_of("u"), "1 u");
@@ -54,7 +54,7 @@ TEST(Formula, KnowsTheColumnsAndTheirFunctions) {
   EXPECT_EQ(formula.variables[1].at, 16U);
 }
 
-/// Where the caret stands, and the sentence.
+/// Expects an error with the caret at this place and with these words.
 void expect_error(const std::string& text, std::size_t at, const std::string& words,
                   bool is_random = false) {
   try {

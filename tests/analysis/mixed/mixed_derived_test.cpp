@@ -8,7 +8,7 @@
 namespace jnd::analysis {
 namespace mixed_derived_test {
 
-constexpr double kQ75 = 0.6744897501960817;  ///< Phi^-1(0.75)
+constexpr double kQ75 = 0.6744897501960817;  ///< This is Phi^-1(0.75).
 
 TrialTable rows() {
   return parse_trial_table("u,c,w,y\n1,A,3,0\n2,A,5,1\n4,B,3,0\n8,B,5,1\n", "t.csv",
@@ -46,7 +46,7 @@ TEST(MixedDerived, OfALineByHand) {
   ASSERT_EQ(found.size(), 9U);
   const DerivedQuantity& pse = named(found, "PSE, c A");
   EXPECT_NEAR(*pse.value, 3.0, 1e-12);
-  // (var a + PSE^2 var b) / b^2
+  // The variance is (var a + PSE^2 var b) / b^2.
   EXPECT_NEAR(*pse.standard_error, std::sqrt((0.04 + 9.0 * 0.01) / 4.0), 1e-12);
   EXPECT_NEAR(*pse.ci95.high - *pse.value, 1.959963984540054 * *pse.standard_error, 1e-12);
   const DerivedQuantity& jnd = named(found, "JND, c A");
@@ -59,20 +59,20 @@ TEST(MixedDerived, OfALineByHand) {
 }
 
 TEST(MixedDerived, ContrastsAndUnitsOfScaleLeaveThemAsTheyAre) {
-  // With sum contrasts A is c1 = 1 and B is -1.
+  // With sum contrasts, A has c1 = 1 and B has c1 = -1.
   const auto found =
       derived_quantities(lines_of("u * c", Contrasts::kSum), MixedLink::kProbit, 0.75,
                          vector({-5.5, 2.25, -0.5, -0.25}), Eigen::MatrixXd::Zero(4, 4), {});
   EXPECT_NEAR(*named(found, "PSE, c A").value, 3.0, 1e-12);
   EXPECT_NEAR(*named(found, "PSE, c B").value, 2.0, 1e-12);
-  // The mean of u is 3.75: eta = 2 (u - 3.75).
+  // The mean of u is 3.75, so eta = 2 (u - 3.75).
   const auto centred = derived_quantities(lines_of("center(u)"), MixedLink::kLogit, 0.75,
                                           vector({0.0, 2.0}), Eigen::MatrixXd::Zero(2, 2), {});
   EXPECT_NEAR(*named(centred, "PSE").value, 3.75, 1e-12);
   EXPECT_NEAR(*named(centred, "JND").value, std::log(3.0) / 2.0, 1e-12);
 }
 
-// eta = a + b ln u: PSE = exp(-a / b), Weber fraction exp(q / b) - 1.
+// eta = a + b ln u, so PSE = exp(-a / b) and the Weber fraction is exp(q / b) - 1.
 TEST(MixedDerived, OfALineOverTheLogarithm) {
   const StimulusLines lines = lines_of("log(u)");
   EXPECT_EQ(lines.axis, StimulusAxis::kLogarithmic);
@@ -118,14 +118,14 @@ TEST(MixedDerived, CloglogHasItsMiddleElsewhere) {
                                         vector({0.0, 1.0}), Eigen::MatrixXd::Zero(2, 2), {});
   EXPECT_NEAR(*named(found, "PSE").value, std::log(std::log(2.0)), 1e-12);
   EXPECT_NEAR(*named(found, "JND").value, std::log(2.0), 1e-12);
-  // The PSE is below 0, where a fraction says nothing.
+  // The PSE is below 0, where a fraction has no meaning.
   EXPECT_FALSE(named(found, "Weber fraction").value);
 }
 
 TEST(MixedDerived, OtherCovariatesAreHeldAtTheirMeans) {
   const StimulusLines lines = lines_of("u + w");
   ASSERT_EQ(lines.held, (std::vector<std::string>{"w"}));
-  // The mean of w is 4: eta = -5 + 4 * 0.5 + u.
+  // The mean of w is 4, so eta = -5 + 4 * 0.5 + u.
   EXPECT_NEAR(derived_values(lines, MixedLink::kProbit, 0.75, vector({-5.0, 1.0, 0.5}))[0], 3.0,
               1e-12);
 }

@@ -22,7 +22,7 @@ MixedData data_of(const std::string& table_text, const std::string& fixed,
   return mixed_data(formulas, Design(formulas.fixed, table, contrasts), table, contrasts);
 }
 
-/// Three people at five levels of two conditions.
+/// Returns a table of three people at five levels of two conditions.
 std::string three_people(double unit = 1.0) {
   std::string text = "p,c,u,k,n\n";
   const int yes[3][2][5] = {{{1, 3, 8, 15, 19}, {2, 6, 12, 18, 20}},
@@ -39,7 +39,7 @@ std::string three_people(double unit = 1.0) {
   return text;
 }
 
-// Four groups of six of ten differ less than chance would have them: no spread.
+// Four groups with six of ten each differ less than chance predicts, so there is no spread.
 TEST(MixedFits, WithoutSpreadIsThatOfTheFixedEffectsAlone) {
   const MixedFit fit =
       fit_mixed(data_of("g,k,n\na,6,10\nb,6,10\nc,6,10\nd,6,10\n", "1", "1 | g"),
@@ -77,7 +77,7 @@ TEST(MixedFits, ContrastsSayTheSameInOtherWords) {
   EXPECT_NEAR(treatment.log_likelihood, sum.log_likelihood, 1e-9);
   EXPECT_EQ(treatment.fixed[1].name, "cB");
   EXPECT_EQ(sum.fixed[1].name, "c1");
-  // c1 is A less the mean of both; cB is B less A.
+  // c1 is A minus the mean of both, and cB is B minus A.
   EXPECT_NEAR(sum.fixed[1].estimate, -0.5 * treatment.fixed[1].estimate, 1e-6);
   EXPECT_NEAR(sum.fixed[0].estimate,
               treatment.fixed[0].estimate + 0.5 * treatment.fixed[1].estimate, 1e-6);
@@ -133,7 +133,7 @@ TEST(MixedFits, RedrawnAnswersDependOnTheSeedAlone) {
   EXPECT_NE(one, refit.redrawn(4, 5));
 }
 
-/// Redrawn slopes scatter about the fitted one as its standard error says.
+/// The slopes of redrawn answers scatter about the fitted slope as its standard error says.
 TEST(MixedFits, RedrawnAnswersScatterAsTheStandardErrorSays) {
   const MixedRefit refit(data_of(three_people(), "u + c", "1 | p"), {});
   double sum = 0.0, squares = 0.0;

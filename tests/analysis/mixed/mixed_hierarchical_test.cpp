@@ -10,9 +10,9 @@
 #include "analysis/hierarchical/hierarchical_fit.h"
 #include "analysis/mixed/mixed_table.h"
 
-// Models of other commands as formulas of `jnd fit glmm`: docs/methods/mixed_models.md says
-// which ones. Both maximise one likelihood, by code of their own, so that they agree to 1e-5 of
-// an estimate, and of 0.1 where that is more.
+// Tests models of other commands as formulas of `jnd fit glmm`. docs/methods/mixed_models.md
+// lists them. Both maximise one likelihood by separate code, so they agree to 1e-5 of an
+// estimate, or of 0.1 if that is more.
 
 namespace jnd::analysis {
 namespace mixed_hierarchical_test {
@@ -23,7 +23,8 @@ void expect_alike(double one, double other, const std::string& what) {
   EXPECT_NEAR(one, other, kTolerance * std::max(std::fabs(other), 0.1)) << what;
 }
 
-/// Eleven people at seven levels of two conditions, about the reference 10, without lapses.
+/// Returns eleven people at seven levels of two conditions, about the reference 10, without
+/// lapses.
 std::vector<ParticipantAnswers> made_up(int num_conditions) {
   std::mt19937_64 random(23);
   std::normal_distribution<double> normal;
@@ -142,8 +143,8 @@ TEST(MixedAsHierarchical, TwoConditionsAreColumnsOfAFactor) {
 }
 
 TEST(MixedAsEffects, ARegressionOnTheTrialIsAFormula) {
-  // Two people who answered alike, so that nothing differs between them: then the mixed model
-  // is the regression.
+  // Two people answered alike, so nothing differs between them, and the mixed model is the
+  // regression.
   std::vector<OrderedAnswers> answers;
   std::string text = "participant,u,t,o,y\n";
   std::mt19937_64 random(4);

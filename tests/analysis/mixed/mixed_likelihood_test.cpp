@@ -11,7 +11,7 @@
 namespace jnd::analysis {
 namespace mixed_likelihood_test {
 
-/// One row a group, an intercept that differs between groups.
+/// A model with one row for each group, and an intercept that differs between groups.
 MixedModel intercepts(MixedLink link, const std::vector<double>& yes,
                       const std::vector<double>& trials) {
   const auto rows = static_cast<Eigen::Index>(yes.size());
@@ -37,8 +37,8 @@ Eigen::VectorXd at(std::initializer_list<double> values) {
   return vector;
 }
 
-// Five of ten at eta = 0: the mode is 0 whatever theta is, and the information of eta is
-// 10 / 4 of the logit and 10 phi(0)^2 / (1 / 4) = 20 / pi of the probit.
+// With five of ten at eta = 0, the mode is 0 whatever theta is. The information of eta is 10 /
+// 4 for the logit, and 10 phi(0)^2 / (1 / 4) = 20 / pi for the probit.
 TEST(MixedLikelihoods, LaplaceByHandWhereTheModeIsZero) {
   const double answers = 10.0 * std::log(0.5) + std::log(252.0);
   for (const double theta : {0.0, 0.5, 2.0}) {
@@ -51,8 +51,8 @@ TEST(MixedLikelihoods, LaplaceByHandWhereTheModeIsZero) {
   }
 }
 
-/// ln of the integral over u of the answers' probability, by even steps, whose error falls
-/// faster than any power of them.
+/// Returns ln of the integral over u of the answers' probability. The steps are even, and their
+/// error falls faster than any power of their size.
 double integrated(const MixedCurve& curve, double yes, double trials, double beta,
                   double theta) {
   constexpr double kStep = 0.01;
@@ -95,7 +95,7 @@ TEST(MixedLikelihoods, WithoutSpreadIsThatOfTheFixedEffectsAlone) {
   }
 }
 
-/// Random rows of six people by four items, with correlated and uncorrelated effects.
+/// Returns random rows of six people by four items, with correlated and uncorrelated effects.
 MixedModel people_and_items(const MixedCurve& curve, bool with_items) {
   core::RandomStream stream(5, "rows");
   constexpr int kRows = 120;

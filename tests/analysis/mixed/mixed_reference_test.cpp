@@ -14,8 +14,8 @@
 #include "support/places.h"
 #include "support/reference_data.h"
 
-// Mixed models by lme4's glmer: data/reference/mixed/mixed_reference.R; and PSE and JND as
-// MixedPsy computes them: data/reference/agreement/mixedpsy.R.
+// Compares mixed models with lme4's glmer (data/reference/mixed/mixed_reference.R), and PSE and
+// JND with MixedPsy (data/reference/agreement/mixedpsy.R).
 
 namespace jnd::analysis {
 namespace mixed_reference_test {
@@ -27,7 +27,7 @@ std::string text_of(const std::string& name) {
                                  "mixed" / name);
 }
 
-/// VerbAgg as lme4 brings it, from its people and its items.
+/// Returns the data set VerbAgg of lme4, which is put together from its people and its items.
 std::string verbagg() {
   const auto table = [](const char* name, const std::vector<std::string>& variables,
                         const char* answers) {
@@ -95,7 +95,8 @@ TEST(MixedReference, EveryMaximumIsThatOfLme4OrHigher) {
       continue;
     }
     ++num_alike;
-    // Large sets are not polished there, and their errors are lme4's own differences.
+    // The reference does not polish the optimum of large sets, and their errors come from
+    // lme4's own differences.
     const bool is_large = model.at("data") == "verbagg";
     for (std::size_t i = 0; i < fit.fixed.size(); ++i) {
       const double estimate = model.at("estimates")[i], error = model.at("standard_errors")[i];
@@ -135,7 +136,7 @@ struct PsychophysicalModel {
   std::string study, fixed, random;
 };
 
-/// Its log-likelihood as "log_likelihood", and what it says of PSE and JND.
+/// Returns the log-likelihood of the model as "log_likelihood", and its PSE and JND.
 std::vector<DerivedQuantity> said_of(const PsychophysicalModel& model) {
   const MixedFormulas formulas{parse_formula(model.fixed), parse_random_terms(model.random)};
   const std::string text = test_support::read_file(
@@ -184,7 +185,7 @@ TEST(MixedReference, PseAndJndOfMixedPsysExamplesAreThoseOfItsFormulas) {
     const double error = std::stod(table.cell(row, 4));
     EXPECT_NEAR(*found->value, theirs, 1e-5 * error + 1e-5 * std::fabs(theirs))
         << study << " " << name;
-    // glmer's are of differences, and the second model is at its bound.
+    // The errors of glmer come from differences, and the second model is at its bound.
     EXPECT_NEAR(*found->standard_error, error, 5e-3 * error) << study << " " << name;
   }
   EXPECT_EQ(table.num_rows(), 8);

@@ -65,7 +65,7 @@ TEST(MixedTables, GroupsOfTwoColumnsAreTheirPairs) {
 }
 
 TEST(MixedTables, EffectsThatAreTheSameForAllAreNamedWherePeopleCouldDiffer) {
-  // Everybody has both conditions; nobody has both sexes.
+  // Everybody has both conditions, and nobody has both sexes.
   const TrialTable table = trials({"u", "c", "sex", "p"},
                                   "p,sex,c,u,y\na,f,x,1,1\na,f,z,2,0\nb,m,x,1,1\nb,m,z,2,0\n");
   const auto named = [&table](const char* random) {

@@ -12,10 +12,10 @@
 namespace jnd::analysis {
 namespace people_lines_test {
 
-/// Everybody at x = -1, 0 and 1, where a person's line has the intercept's variance 1/3 and the
-/// slope's 1/2 of the residual one, without a covariance. The scatter about a line is a
-/// contrast of second order, `bend` times (1, -2, 1), whose square is 6 bend^2 with one degree
-/// of freedom.
+/// Everybody has x = -1, 0 and 1. There, the intercept of a person's line has 1/3 and the slope
+/// 1/2 of the residual variance, without a covariance. The scatter about a line is a contrast
+/// of second order, `bend` times (1, -2, 1), whose square is 6 bend^2 with one degree of
+/// freedom.
 std::vector<PersonPoint> balanced(const std::vector<Line>& lines,
                                   const std::vector<double>& bends) {
   std::vector<PersonPoint> rows;
@@ -34,9 +34,10 @@ const std::vector<double> kBends = {0.1, -0.2, 0.05, 0.15};
 TEST(PeopleLines, OfABalancedDesignAreThoseWorkedByHand) {
   const PeopleLines fit = fit_people_lines(balanced(kLines, kBends), 4);
   ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
-  // Residual variance: 6 (0.01 + 0.04 + 0.0025 + 0.0225) / 4 = 0.1125.
+  // The residual variance is 6 (0.01 + 0.04 + 0.0025 + 0.0225) / 4 = 0.1125.
   EXPECT_NEAR(fit.residual_sd, std::sqrt(0.1125), 1e-6);
-  // Means of the lines; their variances, with n - 1, are 14/3 and 0.29/3, covariance 0.8/3.
+  // The group has the means of the lines. The variances, with n - 1, are 14/3 and 0.29/3, and
+  // the covariance is 0.8/3.
   EXPECT_NEAR(fit.group.intercept, 3.0, 1e-9);
   EXPECT_NEAR(fit.group.slope, 0.75, 1e-9);
   EXPECT_NEAR(fit.intercept_standard_error, std::sqrt(14.0 / 3.0 / 4.0), 1e-6);
@@ -52,8 +53,8 @@ TEST(PeopleLines, OfABalancedDesignAreThoseWorkedByHand) {
 TEST(PeopleLines, AreShrunkTowardTheGroupAsBayesRuleSays) {
   const PeopleLines fit = fit_people_lines(balanced(kLines, kBends), 4);
   ASSERT_EQ(fit.status, FitStatus::kOk);
-  // Deviation from the group: G (G + residual)^-1 of that of the own line, and G + residual is
-  // the covariance of the own lines: [14/3, 0.8/3; 0.8/3, 0.29/3].
+  // A person's deviation from the group is G (G + residual)^-1 times that of the own line. G +
+  // residual is the covariance of the own lines: [14/3, 0.8/3; 0.8/3, 0.29/3].
   const double g11 = 14.0 / 3.0 - 0.1125 / 3.0, g12 = 0.8 / 3.0,
                g22 = 0.29 / 3.0 - 0.1125 / 2.0;
   const double s11 = 14.0 / 3.0, s12 = 0.8 / 3.0, s22 = 0.29 / 3.0;
@@ -71,7 +72,7 @@ TEST(PeopleLines, AreShrunkTowardTheGroupAsBayesRuleSays) {
 
 TEST(PeopleLines, MoveAndStretchWithTheirUnits) {
   std::vector<PersonPoint> rows = balanced(kLines, kBends);
-  rows.pop_back();  // Unbalanced, so that nothing is alike by symmetry.
+  rows.pop_back();  // The data are unbalanced, so that no two values agree by symmetry.
   const PeopleLines plain = fit_people_lines(rows, 4);
   for (PersonPoint& row : rows) {
     row.x = 100.0 * row.x + 7.0;
@@ -96,15 +97,15 @@ TEST(PeopleLines, ProfilesFarFromTheRowsAreThoseOfTheSlope) {
   const Interval stretched = people_lines_profile(rows, 4, LineParameter::kSlope);
   EXPECT_NEAR(*stretched.low, 0.1 * *slope.low, 1e-7);
   EXPECT_NEAR(*stretched.high, 0.1 * *slope.high, 1e-7);
-  // What a line is a thousand units away is its slope a thousand times, but for its height
-  // here.
+  // The rows lie a thousand units from x = 0. There, the height of a line differs from its
+  // height at the rows by a thousand slopes.
   const Interval intercept = people_lines_profile(rows, 4, LineParameter::kIntercept);
   EXPECT_NEAR(*intercept.high - *intercept.low, 1000.0 * (*slope.high - *slope.low),
               10.0 * (*slope.high - *slope.low));
 }
 
 TEST(PeopleLines, SpreadsThatTheRowsDoNotShowAreAtTheirBound) {
-  // Own slopes that differ less than their standard error, and not with the intercepts.
+  // The own slopes differ less than their standard error, and not together with the intercepts.
   const PeopleLines fit = fit_people_lines(
       balanced({{1.0, 0.51}, {2.0, 0.51}, {3.0, 0.47}, {6.0, 0.51}}, {0.2, -0.2, 0.3, -0.1}),
       4);
@@ -112,8 +113,9 @@ TEST(PeopleLines, SpreadsThatTheRowsDoNotShowAreAtTheirBound) {
   EXPECT_EQ(fit.slope_sd, 0.0);
   EXPECT_FALSE(fit.correlation);
   for (const Line& person : fit.people) EXPECT_NEAR(person.slope, fit.group.slope, 1e-4);
-  // Lines are parallel then, and what slopes differ by is residual: 6 (0.04 + 0.04 + 0.09 +
-  // 0.01) of the bends and 2 (0.01^2 3 + 0.03^2) of the slopes, with 4 + 3 degrees of freedom.
+  // The lines then are parallel, and the differences of slopes are residual: 6 (0.04 + 0.04 +
+  // 0.09 + 0.01) from the bends and 2 (0.01^2 3 + 0.03^2) from the slopes, with 4 + 3 degrees
+  // of freedom.
   EXPECT_NEAR(fit.residual_sd, std::sqrt((6.0 * 0.18 + 2.0 * 0.0012) / 7.0), 1e-5);
   EXPECT_NEAR(fit.slope_standard_error, fit.residual_sd / std::sqrt(8.0), 1e-5);
 }
@@ -131,7 +133,8 @@ TEST(PeopleLines, ProfileOfManyPeopleIsNearlyThatOfTheMean) {
   const PeopleLines fit = fit_people_lines(rows, 60);
   const Interval profile = people_lines_profile(rows, 60, LineParameter::kSlope);
   ASSERT_TRUE(profile.low && profile.high);
-  // Of a mean of 60 own slopes, -2 ln L rises by about 60 ln(1 + t^2 / 59): nearly symmetric.
+  // For a mean of 60 own slopes, -2 ln L rises by about 60 ln(1 + t^2 / 59), which is nearly
+  // symmetric.
   const double t = std::sqrt(59.0 * (std::exp(3.841459 / 60.0) - 1.0));
   EXPECT_NEAR(*profile.high - fit.group.slope, t * fit.slope_standard_error,
               0.03 * t * fit.slope_standard_error);
@@ -162,8 +165,9 @@ TEST(PeopleLines, AreNoneWhereNothingTellsTheSpread) {
 }
 
 TEST(PeopleLines, AreThoseOfLme4) {
-  // data/reference/mixed/people_lines.R; sleepstudy is lme4's own (Belenky et al. 2003), whose
-  // lmer(Reaction ~ Days + (Days | Subject)) is published: 251.41, 10.47, 24.74, 5.92, 0.07.
+  // The reference is from data/reference/mixed/people_lines.R. The data set sleepstudy is
+  // lme4's own (Belenky et al. 2003), and its lmer(Reaction ~ Days + (Days | Subject)) is
+  // published: 251.41, 10.47, 24.74, 5.92, 0.07.
   const auto& sets = test_support::reference_data("mixed/people_lines.json")["sets"];
   for (const auto& set : sets) {
     const std::string name = set.at("name");

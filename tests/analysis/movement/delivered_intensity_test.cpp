@@ -119,14 +119,15 @@ TEST(DeliveredIntensity, WhereTheDatabaseIsSilentTheRecordingSays) {
 TEST(DeliveredIntensity, WhatTheDeviceMakesOfItIsInIt) {
   const StudyData data = one_person(
       {comparison(1, 4.0, true)}, {felt(1, "reference", 2.0, 1.0), felt(1, "test", 4.0, 1.0)});
-  // Sent 6 and 3 N s/m; a gain of 0.8 and 2.4 N s/m of its own make 7.2 and 4.8 of them.
+  // 6 and 3 N s/m were commanded. A gain of 0.8 and the device's own 2.4 N s/m make 7.2 and 4.8
+  // N s/m.
   const DeviceParts devices = {{1, {.gain = 0.8, .damping_n_s_per_m = 2.4}}};
   const DeliveredIntensities delivered = delivered_intensities(data, devices);
   EXPECT_NEAR(*delivered.at({1, 1}).test, 4.0 * 7.2 / 6.0, 1e-12);
   EXPECT_NEAR(*delivered.at({1, 1}).reference, 2.0 * 4.8 / 3.0, 1e-12);
   const DeliveredStudy study = with_delivered(data, delivered);
   EXPECT_NEAR(*study.data.participants[0].trials[0].intensity, 2.0 * 7.2 / 4.8, 1e-12);
-  // A device of which nothing was measured changes nothing.
+  // A device without measurements changes nothing.
   const DeviceParts other = {{2, {.gain = 0.8, .damping_n_s_per_m = 2.4}}};
   EXPECT_NEAR(*delivered_intensities(data, other).at({1, 1}).test, 4.0, 1e-12);
 }

@@ -23,7 +23,7 @@ Eigen::Vector3d palm_velocity_at(double time_s) {
   return 0.13 * kOmega * std::cos(kOmega * time_s) * Eigen::Vector3d(0.6, 0.8, 0.3);
 }
 
-/// Ten seconds of strokes with fingers that do what the palm did `lag_s` before.
+/// Feeds ten seconds of strokes in which the fingers do what the palm did `lag_s` before.
 void feed(FingerLag& lag, double lag_s) {
   for (double time_s = 0.0; time_s < 10.0; time_s += kTickS) {
     lag.feed(palm_at(time_s - lag_s) + kPosture, palm_at(time_s), palm_velocity_at(time_s));
@@ -34,7 +34,8 @@ TEST(FingerLag, FindsTheDelayOfFingersThatFollowAndOfFingersThatLead) {
   for (const double lag_s : {0.02, 0.002, -0.015}) {
     FingerLag lag;
     feed(lag, lag_s);
-    // Of a sine sin(omega lag) / omega, which is the lag less a part of omega^2 lag^2 / 6.
+    // For a sine, the result is sin(omega lag) / omega, which is less than the lag by the
+    // fraction omega^2 lag^2 / 6.
     EXPECT_NEAR(lag.finish().value(), std::sin(kOmega * lag_s) / kOmega, 1e-6) << lag_s;
   }
 }

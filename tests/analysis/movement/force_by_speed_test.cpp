@@ -21,7 +21,7 @@ core::Sample moving(double speed_m_per_s, double across_ratio) {
 TEST(CommandedForce, OfWaterGrowsWithTheSquareOfSpeedAndTheAngle) {
   const CommandedForce water("water", 2.0, std::nullopt);
   ASSERT_TRUE(water.is_known());
-  // F = scale 7.4 C_D v^2, C_D 0.8899 head on and 0.2689 edge on (thesis, sec. 4.1).
+  // F = scale 7.4 C_D v^2, with C_D 0.8899 head on and 0.2689 edge on (thesis, sec. 4.1).
   EXPECT_NEAR(water.opposing_n(moving(0.5, 1.0), 0.5), 2.0 * 7.4 * 0.8899 * 0.25, 1e-9);
   EXPECT_NEAR(water.opposing_n(moving(0.5, 0.0), 0.5), 2.0 * 7.4 * 0.2689 * 0.25, 1e-9);
 }
@@ -36,7 +36,7 @@ TEST(CommandedForce, OfWaterOnFewerPointsIsAsTheLoopHasIt) {
       sample.tip_position_m[i] = {0.1, 0.01 * static_cast<double>(i), -0.2};
       sample.tip_velocity_m_per_s[i] = {0.4, 0.0, 0.0};
     }
-    // Without a hand plane the hand meets the fluid head on.
+    // Without a hand plane, the hand meets the fluid head on.
     const double expected_n = amounts.drag_n({.velocity_m_per_s = {0.4, 0.0, 0.0},
                                               .speed_m_per_s = 0.4,
                                               .sin_angle_of_attack = 1.0});
@@ -52,7 +52,7 @@ TEST(CommandedForce, OfAViscousFluidIsItsDampingTimesSpeed) {
   EXPECT_NEAR(CommandedForce("viscous_stokes", 10.0, std::nullopt).opposing_n(sample, 0.5),
               6.161, 1e-3);
   EXPECT_EQ(CommandedForce("free_space", 0.0, std::nullopt).opposing_n(sample, 0.5), 0.0);
-  // The row knows better than the name.
+  // The damping of the row counts more than the name of the medium.
   EXPECT_NEAR(CommandedForce("syrup", 10.0, 4.0).opposing_n(sample, 0.5), 2.0, 1e-12);
 }
 
@@ -69,7 +69,8 @@ TEST(ForceSums, AreMeansOverallAndByClassesOfSpeed) {
   ForceSums sums, other;
   for (int i = 0; i < 20; ++i) sums.add(0.10 + 0.0005 * i, 1.0, 2.0);
   for (int i = 0; i < 40; ++i) other.add(0.31, 3.0, 4.0);
-  for (int i = 0; i < 19; ++i) other.add(0.50, 9.0, 9.0);  // Too few for a class.
+  // The samples are too few for a class.
+  for (int i = 0; i < 19; ++i) other.add(0.50, 9.0, 9.0);
   sums.add(other);
   const ForceBySpeed by_speed = sums.by_speed();
   ASSERT_EQ(by_speed.speed_m_per_s.size(), 2U);
@@ -103,7 +104,7 @@ TEST(ForceSums, WithoutMotionThereIsNoDampingAndWithoutTicksNothing) {
   EXPECT_EQ(*rest.delivered().delivered_n, 0.0);
   EXPECT_FALSE(rest.delivered().delivered_damping_n_s_per_m.has_value());
   EXPECT_FALSE(rest.delivered().delivered_ratio.has_value());
-  rest.add(1000.0, 1.0, 1.0);  // Beyond the classes.
+  rest.add(1000.0, 1.0, 1.0);  // The speed is beyond the classes.
   EXPECT_TRUE(std::isfinite(*rest.delivered().delivered_n));
 }
 

@@ -8,8 +8,8 @@
 
 namespace jnd::analysis {
 
-/// The tick of a recording at 1 kHz that the formulas of data/reference/movement make: strokes
-/// along (0.8, 0.6) with a tremor, and 0.4 s of rest in the middle of one.
+/// Returns a sample of a recording at 1 kHz that the formulas of data/reference/movement make:
+/// strokes along (0.8, 0.6) with a tremor, and 0.4 s of rest in the middle of one.
 inline core::Sample made_up_sample(std::int64_t tick) {
   constexpr double kPi = std::numbers::pi;
   const double t = static_cast<double>(tick) * 0.001;

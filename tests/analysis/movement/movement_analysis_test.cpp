@@ -43,7 +43,7 @@ TEST(MovementAnalysis, MeasuresEveryPresentationTrialAndCondition) {
   EXPECT_NEAR(*reference.mean_height_m, -0.5, 1e-6);
   EXPECT_NEAR(*reference.force.delivered_ratio, 0.9, 1e-3);
   EXPECT_NEAR(*reference.force.delivered_damping_n_s_per_m, 0.9 * 1.776, 2e-3);
-  // Power is damping speed^2: over a stroke 1.776 * 0.9 * (0.4 pi)^2 / 2.
+  // Power is damping speed^2, so over a stroke the mean is 1.776 * 0.9 * (0.4 pi)^2 / 2.
   EXPECT_NEAR(*reference.strokes.stroke_energy_j, 0.9 * 1.776 * 0.16 * M_PI * M_PI / 2.0, 2e-3);
 
   ASSERT_EQ(person.trials.size(), 2U);
@@ -178,7 +178,7 @@ TEST(MovementAnalysis, ForwardIsToTheSideOfTheEndEffectorUnlessSaid) {
                                           const MovementOptions& options) {
     RecordedStudy study;
     study.add("P01");
-    // Lower by 2 cm wherever it moves along +x.
+    // The hand is 2 cm lower wherever it moves along +x.
     study.present({.reference = std::nullopt}, [&](core::Sample& sample) {
       for (int point = 0; point < core::kNumContactPoints; ++point) {
         if (sample.tip_velocity_m_per_s[point][0] > 0) sample.tip_position_m[point][2] -= 0.02;

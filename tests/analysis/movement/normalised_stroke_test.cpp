@@ -47,7 +47,7 @@ TEST(StrokeBuffer, GivesEveryChannelOnTheLineBetweenTwoTicks) {
 
 TEST(StrokeBuffer, FindsTheMiddleOfAHalfStrokeFromEitherEnd) {
   StrokeBuffer buffer(20, /*has_joints=*/false);
-  // There by 1 a tick, back by 2.
+  // The hand moves forth by 1 a tick and back by 2 a tick.
   for (std::int64_t tick = 0; tick <= 9; ++tick) push(buffer, tick, static_cast<double>(tick));
   for (std::int64_t tick = 10; tick <= 13; ++tick) {
     push(buffer, tick, 9.0 - 2.0 * static_cast<double>(tick - 9));

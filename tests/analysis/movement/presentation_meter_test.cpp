@@ -18,7 +18,8 @@ using nlohmann::json;
 
 constexpr std::int64_t kNumTicks = 16000;
 
-using Change = std::function<bool(core::Sample&)>;  ///< Whether the sample was recorded.
+using Change = std::function<bool(core::Sample&)>;  ///< It returns whether the sample was
+                                                    ///< recorded.
 
 bool keep(core::Sample&) { return true; }
 
@@ -35,7 +36,7 @@ PresentationMeter::Result metered(std::int64_t num_ticks, const Change& change =
   return meter.finish();
 }
 
-/// Strokes of 1 s along x, 0.4 m wide, from the middle on.
+/// Returns a sample of strokes of 1 s along x, which are 0.4 m wide and begin in the middle.
 core::Sample even_sample(std::int64_t tick) {
   const double phase = 2.0 * std::numbers::pi * static_cast<double>(tick) / 1000.0;
   core::Sample sample{.tick = tick, .attached_bits = 31};
@@ -83,7 +84,8 @@ TEST(PresentationMeter, WhatSensorsOfForceMeasureIsWhatWasDelivered) {
   EXPECT_TRUE(measured.is_measured);
 }
 
-/// data/reference/movement: measured by NumPy and SciPy, see the script beside it.
+/// The reference in data/reference/movement was measured by NumPy and SciPy with the script
+/// beside it.
 TEST(PresentationMeter, AgreesWithScipyOnARecordingWithTremorRestAndGap) {
   const json& expected = test_support::reference_data("movement/movement_reference.json");
   const PresentationMeter::Result found =
@@ -151,7 +153,8 @@ TEST(PresentationMeter, LaysStrokesFromTheMiddleOfTheWayBackOverTheTurnAndForwar
 }
 
 TEST(PresentationMeter, AShortWayBackToTheUsualEndIsNoHalfOfAStroke) {
-  // Found 8 cm from the near end, on the way out, the hand turns and strokes once.
+  // The recording begins 8 cm from the near end, on the way out. The hand turns and strokes
+  // once.
   const auto near_end_first = [](core::Sample& sample) {
     double x_m = 0.0;
     const auto tick = static_cast<double>(sample.tick);
@@ -171,7 +174,8 @@ TEST(PresentationMeter, AShortWayBackToTheUsualEndIsNoHalfOfAStroke) {
 }
 
 TEST(PresentationMeter, JoinsTheEndOfASingleStrokeToItsBeginning) {
-  // Forward from 750 to 1250, back to 1750; the same with the way back first.
+  // The hand goes forward from 750 to 1250, and back to 1750. In the second case the way back
+  // comes first.
   for (const std::int64_t first_tick : {std::int64_t{600}, std::int64_t{1100}}) {
     const StrokeCurves curves =
         metered_evenly(first_tick, first_tick + 1300).sums.curves.curves();
@@ -191,7 +195,7 @@ TEST(PresentationMeter, JoinsTheEndOfASingleStrokeToItsBeginning) {
 
 TEST(PresentationMeter, DoesNotJoinAStrokeThatEndsFarFromItsBeginning) {
   const StrokeCurves curves = metered_evenly(600, 1900, [](core::Sample& sample) {
-                                // Back only by half.
+                                // The hand comes back only half the way.
                                 for (auto& position : sample.tip_position_m) {
                                   if (sample.tick > 1250) position[0] = 0.1 + 0.5 * position[0];
                                 }
@@ -208,7 +212,7 @@ TEST(PresentationMeter, NoStrokeReachesAcrossAGap) {
   EXPECT_EQ(torn.movement.marks.missing_ticks, 10);
   EXPECT_TRUE(torn.movement.marks.any());
   EXPECT_EQ(whole.movement.strokes.num_strokes, 5);
-  // Turning points at 250, 750 ... 2250 and at 2750 ... 5250.
+  // Turning points are at 250, 750 ... 2250 and at 2750 ... 5250.
   EXPECT_EQ(torn.movement.strokes.num_strokes, 4);
   EXPECT_NEAR(*torn.movement.strokes.stroke_width_m, 0.4, 1e-9);
   EXPECT_EQ(torn.sums.curves.curves().num_strokes, 2);
@@ -286,7 +290,7 @@ TEST(PresentationMeter, AStrokeWithAPauseCountsButIsNotLaidOverOthers) {
   PresentationMeter meter({});
   meter.begin({.first_tick = 0, .last_tick = 5899}, {});
   for (std::int64_t tick = 0; tick < 5900; ++tick) {
-    // At rest for 300 ticks in the middle of a way back.
+    // The hand rests for 300 ticks in the middle of a way back.
     const bool rests = tick >= 2500 && tick < 2800;
     core::Sample sample = even_sample(tick < 2500 ? tick : (rests ? 2500 : tick - 300));
     sample.tick = tick;
@@ -329,7 +333,7 @@ TEST(MovementSums, ThatAreAddedUpAreThoseOfAllTogether) {
     EXPECT_NEAR(first.band(i, 1).standard_deviation[0],
                 together.band(i, 1).standard_deviation[0], 1e-14);
   }
-  // 0, 1, 2, 3, 4: mean 2, variance 10 / 4.
+  // The values are 0, 1, 2, 3, 4, with the mean 2 and the variance 10 / 4.
   EXPECT_NEAR(together.band(0, 1).mean[0], 2.0, 1e-15);
   EXPECT_NEAR(together.band(0, 1).standard_deviation[0], std::sqrt(2.5), 1e-15);
   const PresentationMeter::Result once = metered_evenly(0, 5600);

@@ -57,7 +57,7 @@ TEST(RecordedResults, TellWhetherTallPeopleStrokeOtherwise) {
                        person("P05", 2.0, 0.0, 4.0)}};
   movement.participants.back().body_height_m.reset();
   const ResultsSection section = recorded_results(movement);
-  // Ranks 2 1 3 4 against 1 2 3 4, both evenly spaced: r = 1 - 6 * 2 / (4 * 15).
+  // The ranks are 2 1 3 4 and 1 2 3 4, both evenly spaced, so r = 1 - 6 * 2 / (4 * 15).
   const Comparison* width =
       comparison(section, "d: stroke_width_m with body_height_m, Pearson");
   ASSERT_NE(width, nullptr);

@@ -15,7 +15,7 @@ namespace recorded_strokes_test {
 
 constexpr double kTickS = 0.001;
 
-/// A hand along x, whose halves are collected.
+/// Moves a hand along x and collects the halves of its strokes.
 class Hand {
  public:
   explicit Hand(const HalfStrokeFinder::Parameters& parameters = {}) : finder_(parameters) {}
@@ -28,7 +28,7 @@ class Hand {
                                     .sound = sound});
     if (half) halves.push_back(*half);
   }
-  /// A straight way of this many ticks, the beginning left out.
+  /// Moves straight for this many ticks. The first place is left out.
   void sweep(double from_m, double to_m, int num_ticks) {
     for (int i = 1; i <= num_ticks; ++i) {
       go(from_m + (to_m - from_m) * i / num_ticks,
@@ -97,7 +97,7 @@ TEST(HalfStrokeFinder, ASpeedAndALossRightAfterATurningPointBelongToTheHalfThatB
   Hand hand;
   hand.go(0.0, 1.0);
   hand.go(0.2, 1.0, 7.0);
-  hand.go(0.19, 8.0, 2.0);  // Not yet known to have turned.
+  hand.go(0.19, 8.0, 2.0);  // The finder does not know yet that the hand has turned.
   hand.go(-0.2, 1.0, 3.0);
   hand.go(0.0, 1.0, 11.0);
   ASSERT_EQ(hand.halves.size(), 2U);

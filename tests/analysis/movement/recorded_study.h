@@ -11,13 +11,14 @@
 
 namespace jnd::analysis {
 
-/// A study folder with a recording: presentations of even strokes of 1 s, 0.4 m wide along x,
-/// in a viscous fluid of which 90 % are delivered.
+/// Writes a study folder with a recording. Its presentations are even strokes of 1 s, 0.4 m
+/// wide along x, in a viscous fluid of whose force 90 % is delivered.
 class RecordedStudy {
  public:
   static constexpr double kWidthM = 0.4;
   static constexpr double kDampingPerPaS = 1.776;
-  using Change = std::function<bool(core::Sample&)>;  ///< Whether the sample is recorded.
+  using Change = std::function<bool(core::Sample&)>;  ///< It returns whether the sample is
+                                                      ///< recorded.
 
   explicit RecordedStudy(double delivered_ratio = 0.9)
       : store_(folder(), core::StudyStore::Mode::kCreate, core::Durability::kAtClose),
@@ -51,7 +52,7 @@ class RecordedStudy {
     store_.append(commit);
   }
 
-  /// A trial of one presentation of each interval, answered "yes".
+  /// A trial with one presentation of each interval, which is answered "yes".
   struct Trial {
     std::string block = "group_d";
     std::string procedure = "constant_stimuli";
@@ -59,7 +60,7 @@ class RecordedStudy {
     double intensity = 2.0;
     std::optional<double> reference = 1.0;
     std::int64_t repetition = 1;
-    std::int64_t num_ticks = 5600;  ///< Of each presentation.
+    std::int64_t num_ticks = 5600;  ///< The length of each presentation.
   };
   void present(const Trial& trial, const Change& change = nullptr) {
     core::Commit drawn = event("trials_drawn");
@@ -110,7 +111,7 @@ class RecordedStudy {
     excluded.event.trial = trial;
     store_.append(excluded);
   }
-  /// Everything is in the file.
+  /// Writes everything to the file.
   void finish() {
     if (writer_) writer_->flush();
     writer_.reset();

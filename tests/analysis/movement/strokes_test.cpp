@@ -17,7 +17,7 @@ constexpr double kTickS = 0.001;
 struct Motion {
   double amplitude_m = 0.13;
   double rate_hz = 0.7;
-  double direction_rad = 0.0;  ///< Of the stroke, in the horizontal plane.
+  double direction_rad = 0.0;  ///< The direction of the stroke in the horizontal plane.
   double phase_rad = 0.0;
   double height_m = -0.2;
   double noise_m = 0.0;
@@ -96,9 +96,9 @@ TEST(StrokeMeter, AShortWayBackToTheUsualEndIsNoHalfOfAStroke) {
       meter.feed({from_m + (to_m - from_m) * tick / 100.0, 0, 0}, {1.0, 0, 0}, kTickS);
     }
   };
-  sweep(-0.2, -0.1);  // On its way to rest when the presentation began,
-  sweep(-0.1, -0.3);  // called back,
-  sweep(-0.3, 0.3);   // and only now in strokes.
+  sweep(-0.2, -0.1);  // The hand moves to its rest when the presentation begins.
+  sweep(-0.1, -0.3);  // It is called back.
+  sweep(-0.3, 0.3);   // It strokes only now.
   sweep(0.3, -0.28);
   EXPECT_EQ(meter.num_strokes(), 0);
   sweep(-0.28, -0.2);
@@ -116,12 +116,12 @@ TEST(StrokeMeter, PeakSpeedIsTheMeanOverStrokesNotTheHighestOfAll) {
                  kTickS);
     }
   };
-  sweep(0.0, 0.2, 9.0);  // To the first turning point: no part of any stroke.
+  sweep(0.0, 0.2, 9.0);  // The way to the first turning point is no part of any stroke.
   sweep(0.2, -0.2, 1.0);
   sweep(-0.2, 0.2, 2.0);
   sweep(0.2, -0.2, 5.0);
   sweep(-0.2, 0.2, 4.0);
-  sweep(0.2, 0.0, 7.0);  // Beyond the last whole stroke.
+  sweep(0.2, 0.0, 7.0);  // This is beyond the last whole stroke.
   const StrokeSummary found = meter.finish();
   ASSERT_EQ(found.num_strokes, 2);
   EXPECT_NEAR(*found.max_speed_m_per_s, 0.5 * (2.0 + 5.0), 1e-12);
@@ -133,8 +133,8 @@ TEST(StrokeMeter, SpeedRightAfterATurningPointCountsForTheHalfStrokeThatBeginsTh
     meter.feed({x_m, 0, 0}, {speed_m_per_s, 0, 0}, kTickS);
   };
   go(0.0, 1.0);
-  go(0.2, 1.0);   // First turning point,
-  go(0.19, 8.0);  // not yet known as one.
+  go(0.2, 1.0);   // This is the first turning point.
+  go(0.19, 8.0);  // It is not known as a turning point yet.
   go(0.1, 1.0);
   go(-0.2, 1.0);
   go(0.0, 1.0);

@@ -89,7 +89,7 @@ TEST(PowerRun, WhoSeparatesTheStimuliPerfectlyIsLeftOutOrGivenHalfAnAnswer) {
   const PlannedRun run = analyse_run(two_blocks(), everybody);
   EXPECT_EQ(run.sizes[1].num_degenerate, (std::vector<int>{1, 0}));
   EXPECT_EQ(run.sizes[1].num_with_answers, (std::vector<int>{6, 6}));
-  // Left out as a pair, from the first test alone.
+  // The first test leaves out the person, and with the person the pair.
   std::vector<PlannedPerson> without = everybody;
   without.erase(without.begin() + 1);
   PlannedAnalysis five = two_blocks();
@@ -111,7 +111,7 @@ TEST(PowerRun, FalsePositivesAreFivePercentWhereBothBlocksAreAlike) {
     num_significant += *outcome.sizes[0].tests[0].p_value < 0.05 ? 1 : 0;
     num_corrected += *outcome.sizes[0].tests[1].p_value < 0.05 ? 1 : 0;
   }
-  // 5 % of 1000 with three standard deviations, 20.7.
+  // With 1000 runs, 5 % with three standard deviations is 50 +- 20.7.
   EXPECT_NEAR(num_significant, 50, 20);
   EXPECT_NEAR(num_corrected, 50, 20);
 }
@@ -121,7 +121,8 @@ TEST(PowerRun, ExponentsAreMeansOfLinesThroughLogarithms) {
       .blocks = {{.name = "me", .quantity = PlannedQuantity::kEstimationExponent},
                  {.name = "mp", .quantity = PlannedQuantity::kProductionExponent}},
       .sizes = {2}};
-  // S = I^0.5 and I^0.7; production: I set for S as S^0.4 and S^0.6, at the mean S^0.5 = I.
+  // S = I^0.5 and I^0.7. In production, I is set for S as S^0.4 and S^0.6, so on average S^0.5
+  // = I.
   std::vector<PlannedPerson> everybody(2);
   for (std::size_t i = 0; i < 2; ++i) {
     everybody[i].resize(2);
@@ -133,7 +134,7 @@ TEST(PowerRun, ExponentsAreMeansOfLinesThroughLogarithms) {
   const PlannedRun run = analyse_run(planned, everybody);
   EXPECT_NEAR(*run.sizes[0].estimates[0].value, 0.6, 1e-12);
   EXPECT_NEAR(*run.sizes[0].estimates[1].value, 2.0, 1e-12);
-  // Student's t with one degree of freedom, 12.7062, of sd 0.1414 / sqrt 2 = 0.1.
+  // Student's t with one degree of freedom is 12.7062, and the error is 0.1414 / sqrt 2 = 0.1.
   EXPECT_NEAR(*run.sizes[0].estimates[0].ci95.high, 0.6 + 1.27062, 1e-5);
   EXPECT_NEAR(*run.sizes[0].estimates[1].ci95.low, 1.0 / (0.5 + 1.27062), 1e-5);
   EXPECT_FALSE(run.sizes[0].estimates[1].ci95.high) << "open: a slope of 0 is in the interval";

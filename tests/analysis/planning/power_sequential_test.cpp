@@ -13,7 +13,8 @@ PlannedSequential two_looks() {
 
 TEST(PowerSequential, EndsARunAtItsLookAndTellsTheFixedStudiesBeside) {
   std::vector<std::optional<PersonScore>> people;
-  // At four people t = 1 / 0.0577 with 3 degrees of freedom, p = 0.0004; the level is 0.0121.
+  // At four people t = 1 / 0.0577 with 3 degrees of freedom, so p = 0.0004. The level is
+  // 0.0121.
   for (const double score : {1.1, 0.9, 1.1, 0.9, -9.0, 9.0}) {
     people.push_back(PersonScore{0, score});
   }
@@ -37,11 +38,11 @@ TEST(PowerSequential, CountsByHand) {
   EXPECT_EQ(power.num_ended, (std::vector<std::int64_t>{1, 3}));
   EXPECT_EQ(power.num_significant, (std::vector<std::int64_t>{1, 1}));
   EXPECT_DOUBLE_EQ(power.power, 0.5);
-  // Wilson (1927) for 2 of 4.
+  // The interval is that of Wilson (1927) for 2 of 4.
   EXPECT_NEAR(power.power_low, 0.1500, 1e-4);
   EXPECT_NEAR(power.power_high, 0.8500, 1e-4);
   EXPECT_DOUBLE_EQ(power.mean_participants, 5.5);
-  // Variance 0.75 of four runs.
+  // The variance over four runs is 0.75.
   EXPECT_NEAR(power.standard_error, 0.433013, 1e-6);
   EXPECT_DOUBLE_EQ(power.fixed_power, 0.75);
   EXPECT_EQ(power.fixed_participants, 5) << "the first size with two of four";

@@ -35,7 +35,7 @@ TEST(PowerSummary, CountsByHand) {
   EXPECT_EQ(power.num_significant, 1);
   EXPECT_EQ(power.num_undefined, 1) << "an undefined test has found nothing";
   EXPECT_DOUBLE_EQ(power.power, 1.0 / 3.0);
-  // Wilson (1927) for 1 of 3.
+  // The interval is that of Wilson (1927) for 1 of 3.
   EXPECT_NEAR(power.power_low, 0.0615, 1e-4);
   EXPECT_NEAR(power.power_high, 0.7923, 1e-4);
   EXPECT_DOUBLE_EQ(*power.mean_difference, 0.5);
@@ -52,7 +52,8 @@ TEST(PowerSummary, CountsByHand) {
   EXPECT_THROW((void)summary_of_runs(small(), {}), core::Error);
 }
 
-/// Of a hundred runs, in how many the interval holds 0.3 and the first test finds something.
+/// Returns a hundred runs. In `num_holding` of them the interval holds 0.3, and in
+/// `num_significant` the first test is significant.
 std::vector<PlannedRun> hundred_runs(int num_holding, int num_significant) {
   std::vector<PlannedRun> runs;
   for (int run = 0; run < 100; ++run) {

@@ -5,7 +5,7 @@
 namespace jnd::analysis {
 namespace box_plot_test {
 
-// R 4.2: quantile(c(1,2,3,4,5,6,7,8,40), c(.25,.5,.75)) is 3, 5, 7; boxplot.stats gives the
+// R 4.2: quantile(c(1,2,3,4,5,6,7,8,40), c(.25,.5,.75)) is 3, 5, 7, and boxplot.stats gives the
 // whiskers 1 and 8.
 TEST(BoxPlot, WhiskersEndAtTheLastValueWithinReach) {
   const BoxPlot box = box_plot_of({40, 3, 2, 1, 5, 4, 8, 7, 6});

@@ -9,7 +9,8 @@ namespace chart_figures_test {
 
 using Look = ChartSeries::Look;
 
-/// A set of so many people, each with a curve of three rows and answers of two.
+/// Returns the charts of `num_people` people. Each person has a curve of three rows and answers
+/// of two rows.
 ChartSet set_of(int num_people) {
   ChartSet set{.section = "group_d",
                .panels = PanelFigures{.name = "people", .most_panels = 20},
@@ -65,7 +66,8 @@ TEST(ChartFigures, EachOfManyFiguresReadsItsOwnPeopleOnly) {
 
 TEST(ChartFigures, APanelOfManyFiguresReadsTheRowsOfItsPerson) {
   const std::vector<Figure> figures = chart_figures({set_of(45)});
-  // P42 is the second of the third figure: rows 3 to 5 of the curves, 2 and 3 of the answers.
+  // P42 is the second person of the third figure, with rows 3 to 5 of the curves, and 2 and 3
+  // of the answers.
   EXPECT_NE(figures[2].plot.find("'curves_page_3.csv' every ::3::5 using 'x':'y'"),
             std::string::npos)
       << figures[2].plot;

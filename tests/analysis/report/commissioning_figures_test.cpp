@@ -8,7 +8,7 @@
 namespace jnd::analysis {
 namespace commissioning_figures_test {
 
-/// A device of 2 N s/m and 0.5 N, whose force is 10 % too weak; up is its y.
+/// A device with 2 N s/m and 0.5 N, whose force is 10 % too weak. Its y axis points up.
 ForceFit force_by_hand() {
   ForceFit fit{.gain = {0.9, 0.89, 0.91},
                .offset_n = {0.0, -1.0, 0.0},
@@ -68,7 +68,8 @@ TEST(CommissioningFigures, ResistanceIsWhatTheDeviceOpposesWithoutMassAndLoad) {
 
 TEST(CommissioningFigures, AxesAreThoseOfTheWorkspaceWhereTheFrameIsKnown) {
   FrameFit frame;
-  frame.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // The device's x is the workspace's y.
+  // The device's x axis is the workspace's y axis.
+  frame.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   const std::vector<Figure> figures =
       commissioning_figures({.frame = frame, .force = force_by_hand()});
   const Figure* const resistance = find(figures, "device_resistance");

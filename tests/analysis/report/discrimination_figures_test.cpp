@@ -12,7 +12,8 @@
 namespace jnd::analysis {
 namespace discrimination_figures_test {
 
-/// Two people who compared with 8 Pa s at so many levels, chosen by this procedure.
+/// Returns the figures of two people who compared `num_levels` levels with 8 Pa s. This
+/// procedure chose the levels.
 std::vector<Figure> figures_of(const std::string& procedure, int num_levels) {
   HandMadeStudy study;
   for (const char* name : {"P01", "P02"}) {
@@ -40,7 +41,7 @@ std::vector<Figure> figures_of(const FigureSource& source) {
   return chart_figures(psychometric_charts(source));
 }
 
-/// Of this name; an empty one where there is none.
+/// Returns the table of this name, or an empty one if there is none.
 FigureTable table_of(const Figure& figure, const std::string& name) {
   const auto found = std::ranges::find(figure.tables, name, &FigureTable::name);
   return found == figure.tables.end() ? FigureTable{} : *found;
@@ -71,7 +72,7 @@ TEST(DiscriminationFigures, LevelsOfTheStudyFileHaveMeansHoweverManyTheyAre) {
   }
 }
 
-/// So many right answers of ten each.
+/// Makes a study of people with these numbers of right answers, each of ten.
 struct SomePeople {
   explicit SomePeople(const std::vector<int>& nums_right) {
     for (const int num_right : nums_right) {

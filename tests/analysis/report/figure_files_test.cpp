@@ -70,7 +70,7 @@ TEST(FigureFiles, WhatCannotBeWrittenIsAnErrorWithItsName) {
   EXPECT_THROW(write_text_file("/dev/full", "text"), core::Error);
 }
 
-/// What takes gnuplot itself.
+/// These tests need gnuplot itself.
 class DrawnFigureTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -85,7 +85,7 @@ TEST_F(DrawnFigureTest, TheSameFigureGivesTheSameBytesWheneverItIsDrawn) {
   const std::vector<Figure> figures = {small_figure("It's {a} `brace` \"and\" quote")};
   const auto a = write_figures(figures, first.path(), {.simulated = true, .gnuplot = gnuplot_});
   ASSERT_EQ(a[0].problem, "");
-  // Another second of the clock: as if a day had gone by.
+  // The pictures must not depend on the clock, and so not on the day on which they are drawn.
   std::string pdf = read_file(first.path() / "small.pdf");
   EXPECT_NE(pdf.find("/CreationDate (D:19700101000000"), std::string::npos);
   const auto b = write_figures(figures, second.path(),

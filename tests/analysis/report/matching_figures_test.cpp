@@ -19,7 +19,8 @@ std::vector<Figure> figures_of(const HandMadeStudy& study) {
   return chart_figures(matching_charts({.data = data, .results = results, .titles = titles}));
 }
 
-/// Geometric means 2 and 8 of the first, who matches, 8 and 32 of the second.
+/// Adds two people who match. The geometric means are 2 and 8 for the first, and 8 and 32 for
+/// the second.
 void add_two_people(HandMadeStudy& study) {
   study.add("P01");
   for (const double factor : {0.5, 2.0}) {
@@ -51,7 +52,7 @@ TEST(MatchingFigures, ShowEverybodysGeometricMeansThoseOfTheGroupAndTheFunction)
   EXPECT_NEAR(group[0][1].number.value(), 4.0, 1e-12);
   EXPECT_LT(group[0][2].number.value(), 4.0);
   EXPECT_GT(group[0][3].number.value(), 4.0);
-  // k = 2, a = 1: from 4 at the first standard to 16 at the last.
+  // k = 2 and a = 1, so the line goes from 4 at the first standard to 16 at the last.
   const auto& function = figure.tables[2].rows;
   EXPECT_NEAR(function.front()[1].number.value(), 4.0, 1e-9);
   EXPECT_NEAR(function.back()[0].number.value(), 8.0, 1e-9);

@@ -13,7 +13,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Every paragraph, then the references.
+/// Returns every paragraph, and then the references.
 std::string words_of(const HandMadeStudy& study) {
   const StudyData data = load_study(study.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 50, .seed = 7});

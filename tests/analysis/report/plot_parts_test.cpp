@@ -21,7 +21,7 @@ TEST(LogTics, OfManyDecadesAreNotTooMany) {
 }
 
 TEST(LogTics, OfANarrowRangeAreEqualSteps) {
-  // On a logarithmic axis gnuplot takes a single step for a factor, so each place is named.
+  // On a logarithmic axis, gnuplot takes a single step for a factor, so each place is named.
   EXPECT_EQ(log_tics("y", {8.1, 9.4}), "  set ytics (8.5, 9.0)\n");
   EXPECT_EQ(log_tics("y", {2.4, 6.0}), "  set ytics (3.0, 4.0, 5.0, 6.0)\n");
 }

@@ -25,7 +25,7 @@ StudyResults results_with(const Estimate& estimate) {
   return results;
 }
 
-/// 0.6 as commanded, 0.3 as delivered.
+/// The commanded value is 0.6, and the delivered one 0.3.
 DeliveredReport delivered_by_hand() {
   Estimate estimate = fraction(0.3, 0.2, 0.45);
   estimate.device_ci95 = {0.29, 0.31};
@@ -70,7 +70,7 @@ TEST(ReportDelivered, WhatTheDeviceHasNoPartInIsNotCompared) {
   write_delivered(html, results_with(fraction(0.6, 0.4, 0.9)), delivered, {});
   EXPECT_EQ(html.text(), "");
   EXPECT_TRUE(delivered_figures(results_with(fraction(0.6, 0.4, 0.9)), delivered, {}).empty());
-  // Nor what is none of the primary values, or is not among those commanded.
+  // Values that are not primary, or that the commanded results lack, are not written either.
   delivered = delivered_by_hand();
   delivered.results.sections[0].estimates[0].primary = false;
   write_delivered(html, results_with(fraction(0.6, 0.4, 0.9)), delivered, {});

@@ -62,7 +62,8 @@ TEST(ReportMovement, DoesNotWarnOfATenth) {
   EXPECT_FALSE(has(html, "Caution"));
 }
 
-/// Two people in free space and honey, in which one of them came to no whole stroke.
+/// Returns the movement of two people in free space and honey, where one of them made no whole
+/// stroke.
 MovementAnalysis explored() {
   MovementAnalysis movement;
   for (const char* name : {"P01", "P02"}) {

@@ -40,7 +40,7 @@ std::string without_breaks(std::string html) {
   return html;
 }
 
-/// Report and supplement.
+/// Returns the text of the report and of its supplement.
 std::string whole(const ReportOutcome& outcome) {
   return read_file(outcome.html) + read_file(outcome.supplement_html);
 }
@@ -49,8 +49,8 @@ std::string whole_report(const ReportSource& source, const std::vector<Figure>& 
   return report_html(source, figures, drawn) + supplement_html(source, figures, drawn);
 }
 
-/// Estimation, production and one comparison, of three people; the last one tells nothing
-/// apart.
+/// Makes a report of estimation, production and one comparison, with three people. The last one
+/// cannot tell anything apart.
 class ReportTest : public ::testing::Test {
  protected:
   ReportTest() {
@@ -96,7 +96,7 @@ class ReportTest : public ::testing::Test {
   [[nodiscard]] fs::path out(const std::string& name = "out") const {
     return temporary_.path() / name;
   }
-  /// Stands for a browser or gnuplot.
+  /// Writes a script that stands for a browser or for gnuplot.
   fs::path tool(const std::string& name, const std::string& text) {
     const fs::path file = temporary_.path() / name;
     std::ofstream(file) << "#!/bin/sh\n" << text;
@@ -114,7 +114,8 @@ TEST_F(ReportTest, ShowsEveryEstimateAndComparisonThatTheResultsHave) {
   const StudyResults results = results_of(data, {}, {.num_resamples = 100});
   for (const ResultsSection& section : results.sections) {
     for (const Estimate& estimate : section.estimates) {
-      if (section.name == "questionnaires") continue;  // A row an item, not an estimate.
+      // The section has a row for each item, and no estimates.
+      if (section.name == "questionnaires") continue;
       EXPECT_TRUE(has(html, "<code>" + estimate.name + "</code>")) << estimate.name;
     }
     for (const NamedComparison& named : section.comparisons) {
@@ -519,7 +520,7 @@ TEST_F(ReportTest, AFolderWithSomethingInItIsRefusedAndLeftAlone) {
 }
 
 TEST_F(ReportTest, NothingOfAReportStaysThatCouldNotBeFinished) {
-  // A gnuplot that leaves files without their end, as on a full disk.
+  // This gnuplot writes incomplete files, as it does on a full disk.
   const fs::path gnuplot =
       tool("gnuplot", "name=\"${1%.gp}\"\necho '<svg>' > $name.svg\necho %PDF > $name.pdf\n");
   try {

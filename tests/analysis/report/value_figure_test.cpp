@@ -21,7 +21,8 @@ const FigureTable& table_of(const Figure& figure, const std::string& name) {
   throw core::Error("no table " + name);
 }
 
-// By hand: 1, 2, 3 have the mean 2 and the standard deviation 1, so 2 -+ 4.3027 / sqrt(3).
+// By hand: 1, 2, 3 have the mean 2 and the standard deviation 1, so the interval is 2 -+ 4.3027
+// / sqrt(3).
 TEST(ValueFigure, DrawsMeansWithStudentsInterval) {
   const Figure figure = value_figure(
       {{.name = "", .conditions = {"a", "b"}, .values = {{1, 2, 3}, {4, 4}}}}, "x");
@@ -41,9 +42,9 @@ TEST(ValueFigure, JoinsTheValuesOfAPersonAndNobodyElses) {
                                        .are_paired = true}},
                                      "x");
   const FigureTable& pairs = table_of(figure, "pairs");
-  ASSERT_EQ(pairs.rows.size(), 4U);  // Two people, two steps each.
+  ASSERT_EQ(pairs.rows.size(), 4U);  // The rows are two people with two steps each.
   EXPECT_EQ(number(pairs, 3, "value"), 5.0);
-  EXPECT_EQ(number(pairs, 3, "next"), 4.0);  // From 5 to 9.
+  EXPECT_EQ(number(pairs, 3, "next"), 4.0);  // The step is from 5 to 9.
 }
 
 TEST(ValueFigure, PutsEqualValuesBesideOneAnother) {
@@ -59,7 +60,7 @@ TEST(ValueFigure, PutsEqualValuesBesideOneAnother) {
 TEST(ValueFigure, DrawsTheLineOfLeastSquares) {
   const std::vector<ComparedValues> groups = {
       {.name = "", .conditions = {"a", "b"}, .values = {{0, 1, 2}, {1, 2, 6}}}};
-  // By hand: slope 5 / 2, through the means 1 and 3.
+  // By hand: the slope is 5 / 2, through the means 1 and 3.
   const Figure figure = scatter_figure(groups, /*has_line=*/true);
   const FigureTable& lines = table_of(figure, "lines");
   EXPECT_DOUBLE_EQ(number(lines, 0, "second"), 0.5);
@@ -85,7 +86,7 @@ TEST(PowerLawFigure, DrawsTheLawWithItsThresholdAndOffset) {
   ASSERT_FALSE(laws.rows.empty());
   for (std::size_t row = 0; row < laws.rows.size(); ++row) {
     const double x = number(laws, row, "intensity");
-    ASSERT_GT(x, 1.0);  // Below its threshold a law says nothing.
+    ASSERT_GT(x, 1.0);  // The law says nothing below its threshold.
     EXPECT_DOUBLE_EQ(number(laws, row, "magnitude"), 0.5 + 2.0 * (x - 1.0) * (x - 1.0));
   }
 }

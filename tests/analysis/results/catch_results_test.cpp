@@ -10,7 +10,7 @@
 namespace jnd::analysis {
 namespace catch_results_test {
 
-/// Answers of one participant to trials of a block whose reference is 8 Pa s.
+/// Adds answers of one participant to trials of a block whose reference is 8 Pa s.
 void answer(HandMadeStudy& study, core::TrialRow row, int num_yes, int num_trials) {
   row.procedure = "constant_stimuli";
   row.quantity = "viscosity_pa_s";
@@ -71,7 +71,7 @@ TEST(CatchResults, FalseAlarmsOfAReminderAreCountedForEverybodyAndTheGroup) {
   EXPECT_EQ(results.find("honey.num_false_alarms")->value, 6.0);
   EXPECT_NEAR(*results.find("honey.false_alarm_rate")->value, 0.5 * (0.25 + 5.0 / 6.0), 1e-12);
   EXPECT_EQ(of->participants[2].name, "honey.false_alarm_rate");
-  // Wilson (1927) for 1 of 4.
+  // The interval is that of Wilson (1927) for 1 of 4.
   EXPECT_NEAR(*of->participants[2].ci95.low, 0.0456, 1e-4);
   EXPECT_NEAR(*of->participants[2].ci95.high, 0.6994, 1e-4);
 }
@@ -81,8 +81,9 @@ TEST(CatchResults, OfTwoIntervalsTheyTellABiasAndWhetherSomethingElseGivesTheTes
   study.add("P01");
   levels(study, "pairs", 1);
   levels(study, "pairs", 2);
-  catches(study, "pairs", 1, 4, 1);  // Test first: the second is chosen in 3 of 4.
-  catches(study, "pairs", 2, 4, 2);  // Test second: it is chosen in 2 of 4.
+  // The test came first, and the second interval is chosen in 3 of 4.
+  catches(study, "pairs", 1, 4, 1);
+  catches(study, "pairs", 2, 4, 2);  // The test came second, and it is chosen in 2 of 4.
   const StudyResults results = results_of(load_study(study.store()), {}, kQuick);
   const ResultsSection* const of = section(results, "pairs_catch_trials");
   ASSERT_NE(of, nullptr);

@@ -11,7 +11,7 @@
 namespace jnd::analysis {
 namespace contrast_reference_test {
 
-// data/reference/contrasts/contrasts_reference.R says how R has these numbers.
+// data/reference/contrasts/contrasts_reference.R says how R computed these numbers.
 
 std::string study_text(const std::string& factors, const std::string& of) {
   const auto block = [](const std::string& fluid) {
@@ -82,8 +82,8 @@ TEST(ContrastReference, OfOneGroupAreThoseOfLme4AndEmmeans) {
                true);
 }
 
-// Where groups differ in how much people vary, degrees of freedom are Welch's and not those of
-// one variance for all.
+// If people vary more in one group than in the other, the degrees of freedom are Welch's, and
+// not those of one variance for all.
 TEST(ContrastReference, OfTwoGroupsAreThoseOfLme4AndEmmeansWithWelchsDegreesOfFreedom) {
   const nlohmann::json reference =
       test_support::reference_data("contrasts/contrasts_reference.json");

@@ -15,7 +15,7 @@ core::TrialRow answered(std::int64_t session, std::int64_t trial, std::int64_t f
           .first_tick = first_tick};
 }
 
-/// Running numbers in the order of `trials`.
+/// Returns the running numbers of the answers, in the order of `trials`.
 std::vector<double> running_numbers(const std::vector<core::TrialRow>& trials) {
   StudyData data;
   data.participants.push_back({.participant = "P01", .trials = trials});
@@ -28,14 +28,15 @@ std::vector<double> running_numbers(const std::vector<core::TrialRow>& trials) {
 }
 
 TEST(DiscriminationAnswers, ATrialThatWasPutOffCountsWhereItWasRun) {
-  // The second was put off to the end: it was run as the fourth, the third as the second.
+  // The second trial was postponed to the end. It was run as the fourth, and the third as the
+  // second.
   EXPECT_EQ(running_numbers({answered(1, 1, 100), answered(1, 2, 900), answered(1, 3, 300),
                              answered(1, 4, 600)}),
             (std::vector<double>{1, 4, 2, 3}));
 }
 
 TEST(DiscriminationAnswers, NumbersOfASessionStayItsOwn) {
-  // Ticks begin anew with a session; numbers may have gaps where other blocks were between.
+  // Ticks begin anew with each session. Numbers may have gaps, where other blocks came between.
   EXPECT_EQ(running_numbers({answered(1, 11, 500), answered(1, 12, 400), answered(2, 21, 200),
                              answered(2, 25, 100)}),
             (std::vector<double>{12, 11, 25, 21}));
@@ -47,7 +48,7 @@ TEST(DiscriminationAnswers, WhatWasRunInOrderKeepsItsNumbers) {
 }
 
 TEST(DiscriminationAnswers, LeavingATrialOutMovesNoOtherInTime) {
-  // Run in the order 1, 3, 4, 2; the third is set aside.
+  // The trials were run in the order 1, 3, 4, 2, and the third is excluded.
   StudyData data;
   data.participants.push_back(
       {.participant = "P01",

@@ -25,7 +25,8 @@ const Estimate& estimate(const StudyResults& of, const std::string& name) {
   return *found;
 }
 
-/// Right answers of ten at 8 / 1.5 and at 8 * 1.5, for each participant.
+/// Adds a person for each number, which says how many of ten answers are right at 8 / 1.5 and
+/// at 8 * 1.5.
 void add_people(HandMadeStudy& study, const std::vector<int>& num_right) {
   int number = 0;
   for (const int right : num_right) {
@@ -54,7 +55,8 @@ TEST(DiscriminationGroup, EveryGroupValueNamesItsEstimand) {
 }
 
 TEST(DiscriminationGroup, LevelsTooHardToTellLapsesAreACautionBesideTheMedianPerson) {
-  // Both levels are right in 80 % there, in 92 % here; 84 % is the Weber fraction's own.
+  // In the first case 80 % are right at both levels, and in the second 92 %. The Weber fraction
+  // itself is at 84 %.
   for (const auto& [num_right, is_hard] :
        {std::pair{std::vector{7, 8, 8, 9, 8}, true}, {std::vector{9, 9, 10, 9, 9}, false}}) {
     HandMadeStudy study;
@@ -100,10 +102,10 @@ TEST(DiscriminationGroup, ATableWithoutTheDegenerateStandsBesideTheWhole) {
 TEST(DiscriminationGroup, ATableWithTheTrialsThatWereSetAsideStandsBesideTheRest) {
   HandMadeStudy study;
   add_people(study, {7, 8, 8, 9});
-  study.exclude(1);  // Of the last participant: a right "no".
+  study.exclude(1);  // This excludes a right "no" of the last participant.
   const StudyResults of = results(study);
   const double without = *estimate(of, "group_d.weber_fraction_ml").value;
-  // 32 of 40 right with it, which put 84 % at 1.5^(1 / 0.8416).
+  // With the excluded trial, 32 of 40 are right, which puts 84 % at 1.5^(1 / 0.8416).
   EXPECT_NEAR(*estimate(of, "group_d.weber_fraction.with_excluded_trials").value,
               std::expm1(std::log(1.5) / 0.8416212335729143), 1e-6);
   EXPECT_GT(without, *estimate(of, "group_d.weber_fraction.with_excluded_trials").value);
@@ -180,7 +182,8 @@ TEST(DiscriminationGroup, HalfAnAnswerIsAddedToTheDegenerateAlone) {
   ASSERT_NE(with, nullptr);
   EXPECT_NE(with->name.find("half a yes and half a no added to theirs alone"),
             std::string::npos);
-  // Two levels of ten: a quarter of a yes and of a no at each makes 10.25 of 10.5 right.
+  // There are two levels of ten. A quarter of a yes and of a no added at each makes 10.25 of
+  // 10.5 right.
   const double by_hand =
       (log_log_of_right(7, 10) + log_log_of_right(8, 10) + log_log_of_right(10.25, 10.5)) /
           3.0 -
@@ -210,8 +213,8 @@ TEST(DiscriminationGroup, WhoHasNoFractionWithAFreePseIsNamedWithTheReason) {
     study.compare_ten("group_d", name[2] == '3' ? 7 : 8);
     study.compare_ten("group_e", 9);
   }
-  // Three of three "thicker" at each level but the reference's lower side: with the pse at the
-  // reference there is a fraction, with a free one all answers are alike.
+  // All three answers are "thicker" at each level. With the pse at the reference there is a
+  // Weber fraction. With a free pse there is none, because all answers are alike.
   study.add("P04");
   for (const double intensity : {7.0, 12.0, 16.0}) {
     for (int i = 0; i < 3; ++i) study.compare("group_d", intensity, 8.0, true);

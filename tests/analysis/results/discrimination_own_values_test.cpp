@@ -14,7 +14,8 @@ constexpr double kReferencePaS = 1.853;
 constexpr std::array kLevelsPaS = {1.093, 1.237, 1.646, 1.7495, 2.203, 2.553, 3.185, 3.883};
 const ResultsOptions kQuick = {.num_resamples = 50, .seed = 1};
 
-/// Five answers a level, that many of them "more than the reference".
+/// Adds a person with five answers at each level, of which these numbers are "more than the
+/// reference".
 void add_person(HandMadeStudy& study, const std::string& name,
                 const std::array<int, kLevelsPaS.size()>& num_yes) {
   study.add(name);
@@ -42,7 +43,8 @@ const ParticipantEstimate& own(const StudyResults& of, const std::string& person
   return *found;
 }
 
-/// One whose bias no curve through the reference describes, one whom it describes well.
+/// Holds two people: one whose bias no curve through the reference describes, and one whom such
+/// a curve describes well.
 class DiscriminationOwnValues : public ::testing::Test {
  protected:
   DiscriminationOwnValues() {
@@ -56,8 +58,9 @@ class DiscriminationOwnValues : public ::testing::Test {
   HandMadeStudy study_;
 };
 
-// glm(cbind(k, 5 - k) ~ u, binomial(probit)) of R 4.2.2 with u = ln(x / 1.853), with and
-// without intercept; the p value over 4000 redraws there: 0.0002 and 0.947.
+// The values are from R 4.2.2: glm(cbind(k, 5 - k) ~ u, binomial(probit)) with u = ln(x /
+// 1.853), with and without intercept. The p values over 4000 redraws are 0.0002 and 0.947
+// there.
 TEST_F(DiscriminationOwnValues, HaveTheCurveWithItsPlaceFreeAndWhetherTheDataBearEach) {
   const StudyResults of = results();
   EXPECT_NEAR(*own(of, "BIASED", "group_d.weber_fraction").value, 1.84565093, 1e-6);

@@ -10,7 +10,7 @@
 namespace jnd::analysis {
 namespace exploratory_results_test {
 
-/// As results_of makes them: with the adjustment.
+/// Returns the section as results_of makes it, with the adjustment.
 ResultsSection adjusted(const StudyData& data, const std::vector<ResultsSection>& sections) {
   std::vector<ResultsSection> all = {exploratory_results(data, sections)};
   adjust_by_family(all);
@@ -43,13 +43,15 @@ const NamedComparison& comparison(const ResultsSection& section, const std::stri
   throw core::Error("no comparison " + name);
 }
 
-/// Sets twice the target, drawn towards each start by `weight`.
+/// Returns a person who sets twice the target. `weight` says how strongly each start draws the
+/// setting.
 ParticipantData anchored(const std::string& name, double weight) {
   ParticipantData person{.participant = name};
   std::int64_t trial = 0;
   for (const double target : {50.0, 100.0, 200.0}) {
     for (const double start : {4.0, 0.0, 2.0}) {
-      // High targets from high starts alone: what differs between targets is no anchor.
+      // High targets come from high starts alone. A difference between targets must not count
+      // as an anchor.
       if (target == 200.0 && start == 0.0) continue;
       const double matched = 0.02 * target;
       const double set = matched + weight * (start - matched);
@@ -78,7 +80,7 @@ TEST(ExploratoryResults, TheStartingValueSlopeIsTheWeightOfTheAnchor) {
 }
 
 TEST(ExploratoryResults, ADriftIsSeenWhateverTheOrderOfTheStimuli) {
-  // Answers that rise by 10 % of the first one with each trial.
+  // The answers rise with each trial by 10 % of the first one.
   ParticipantData person{.participant = "P01"};
   std::int64_t trial = 0;
   for (const double intensity : {1.0, 3.0, 2.0, 3.0, 2.0, 1.0, 0.0, 0.0}) {
@@ -90,8 +92,9 @@ TEST(ExploratoryResults, ADriftIsSeenWhateverTheOrderOfTheStimuli) {
   }
   const StudyData data{.participants = {person}, .blocks = {kEstimation}};
   const ResultsSection section = exploratory_results(data, {});
-  // Stimulus 1 at trials 1 and 6, 2 at 3 and 5, 3 at 2 and 4, with means of 1.25, 1.3 and 1.2:
-  // slopes of 0.1 over these, weighted by the squared distances within, 12.5, 2 and 2.
+  // Stimulus 1 comes at trials 1 and 6, 2 at 3 and 5, and 3 at 2 and 4, with means of 1.25, 1.3
+  // and 1.2. The slopes are 0.1 over these, weighted by the squared distances within, 12.5, 2
+  // and 2.
   const double by_hand = (12.5 * (0.1 / 1.25) + 2.0 * (0.1 / 1.3) + 2.0 * (0.1 / 1.2)) / 16.5;
   EXPECT_NEAR(own(section, "P01", "estimation.drift_per_ten_trials"), 10.0 * by_hand, 1e-12);
 }
@@ -100,7 +103,7 @@ TEST(ExploratoryResults, AnAnswerLeansOnTheStimulusBeforeItWithinABlockOnly) {
   ParticipantData person{.participant = "P01"};
   const std::vector<double> stimuli = {2.0, 1.0, 2.0, 4.0, 2.0, 1.0, 4.0, 1.0};
   for (std::size_t i = 0; i < stimuli.size(); ++i) {
-    // Trials 1 to 4 and, after another block, 15 to 18.
+    // The trials are 1 to 4 and, after another block, 15 to 18.
     const auto trial = static_cast<std::int64_t>(i < 4 ? i + 1 : i + 11);
     const double before = i % 4 == 0 ? 77.0 : stimuli[i - 1];
     person.trials.push_back({.trial = trial,
@@ -111,8 +114,8 @@ TEST(ExploratoryResults, AnAnswerLeansOnTheStimulusBeforeItWithinABlockOnly) {
   const StudyData data{.participants = {person}, .blocks = {kEstimation}};
   const double found =
       own(exploratory_results(data, {}), "P01", "estimation.previous_stimulus_slope");
-  // 1 after 2, 2, 4; 2 after 1; 4 after 2, 1. Relative to the means over all answers to each:
-  // of 1 over 110, 110, 120 and of 4 over 110, 105.
+  // 1 comes after 2, 2, 4; 2 after 1; 4 after 2, 1. The slopes are relative to the means over
+  // all answers to each stimulus: of 1 over 110, 110, 120, and of 4 over 110, 105.
   const double mean_of_1 = (110.0 + 110.0 + 120.0) / 3.0, mean_of_4 = (110.0 + 105.0) / 2.0;
   const double squares_1 = 8.0 / 3.0, squares_4 = 0.5;
   const double by_hand =
@@ -142,7 +145,7 @@ TEST(ExploratoryResults, ArmsOfACounterbalanceAreComparedByTheParticipantsOwnPar
   EXPECT_NEAR(comparison(section, "method_order: a,b - b,a: ln k of estimation, t")
                   .comparison.estimate.value(),
               0.7 - 0.65, 1e-12);
-  // Four t tests are the family; the four rank tests beside them are no second chance.
+  // Four t tests are the family. The four rank tests beside them do not belong to it.
   EXPECT_EQ(section.comparisons.size(), 8U);
   const NamedComparison& ranks =
       comparison(section, "priming: primed - unprimed: a of estimation, ranks, sensitivity");
@@ -152,7 +155,7 @@ TEST(ExploratoryResults, ArmsOfACounterbalanceAreComparedByTheParticipantsOwnPar
   EXPECT_LE(primed.p_value_holm.value(), 4.0 * primed.comparison.p_value.value() + 1e-12);
 }
 
-/// Everybody's exponent and k of one block, each person in cells of their own.
+/// Returns everybody's exponent and k of one block. Each person has cells of their own.
 ResultsSection of_cells(const BlockDesign& block, const std::vector<std::string>& cells) {
   StudyData data{.blocks = {block}};
   ResultsSection fits{.name = block.block};
@@ -227,7 +230,7 @@ TEST(ExploratoryResults, AStudyWithNothingOfThisHasNone) {
   EXPECT_TRUE(section.comparisons.empty());
 }
 
-/// Trials that were put off have numbers from before their time.
+/// Postponed trials have numbers that are too low for the time at which they were run.
 TEST(ExploratoryResults, DriftAndTheStimulusBeforeGoByWhenTrialsWereRun) {
   ParticipantData by_number{.participant = "P01"};
   const std::vector<double> stimuli = {1.0, 3.0, 2.0, 3.0, 2.0, 1.0};
@@ -240,7 +243,8 @@ TEST(ExploratoryResults, DriftAndTheStimulusBeforeGoByWhenTrialsWereRun) {
                                 .response = answers[i],
                                 .first_tick = 1000 * number});
   }
-  // The same trials in the same order, of which the one run fifth had been drawn as the second.
+  // These are the same trials in the same order, but the trial that was run fifth had been
+  // drawn as the second.
   ParticipantData put_off = by_number;
   const std::vector<std::int64_t> drawn_as = {1, 3, 4, 5, 2, 6};
   for (std::size_t i = 0; i < drawn_as.size(); ++i) put_off.trials[i].trial = drawn_as[i];

@@ -14,8 +14,8 @@ StudyResults results(const StudyData& data) {
   return results_of(data, {}, {.num_resamples = 100});
 }
 
-/// Five people with 8 or 9 of ten right in both blocks; P06 has the keys of the first the wrong
-/// way round.
+/// Adds five people with 8 or 9 of ten right in both blocks, and P06, who mixes up the keys in
+/// the first block.
 void add_six(HandMadeStudy& study, int num_right_of_last = 1) {
   for (int i = 1; i <= 6; ++i) {
     study.add("P0" + std::to_string(i));
@@ -36,7 +36,7 @@ TEST(InvertedAnswers, AreThoseThatFallSignificantlyAndNoOthers) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].participant, "P06");
   EXPECT_EQ(found[0].block, "group_d");
-  // Nine "more" of ten at the lower level, one at the upper: Fisher's exact test.
+  // Fisher's exact test: nine "more" of ten at the lower level, and one at the upper.
   EXPECT_NEAR(found[0].p_value, 0.000546666955335686, 1e-12);
 }
 
@@ -114,7 +114,7 @@ TEST(InvertedAnswers, WhoFeelsNothingWhereThereIsMoreIsNamed) {
   EXPECT_EQ(section_of(of, "felt").cautions[0].participant, "P02");
 }
 
-/// Three people of whom the last tells smaller numbers the more there is, or sets smaller
+/// Adds three people. The last one gives smaller numbers for stronger stimuli, or sets smaller
 /// intensities for larger targets.
 void add_three(HandMadeStudy& study, bool production_falls) {
   for (int i = 1; i <= 3; ++i) {
@@ -213,7 +213,8 @@ TEST(InvertedAnswers, AMeanOfOwnExponentsIsNotOfWhoHasNone) {
   add_three(study, false);
   study.add("P04");
   for (int intensity = 0; intensity < 12; ++intensity) {
-    // Nothing but at the weakest: the exponent falls without bound.
+    // Only the answers to the two weakest stimuli are above 0, so the exponent falls without
+    // bound.
     (void)study.answer({.block = "estimation",
                         .procedure = "magnitude_estimation",
                         .quantity = "scale",

@@ -13,7 +13,7 @@ namespace magnitude_reference_test {
 
 using nlohmann::json;
 
-/// An invented study and its analysis by SciPy, see the script beside it.
+/// An invented study, which SciPy analysed with the script beside it.
 const json& reference() { return test_support::reference_data("magnitudes/magnitudes.json"); }
 
 StudyData invented_study() {

@@ -45,7 +45,8 @@ bool says(const ResultsSection& section, const std::string& participant,
   });
 }
 
-/// Two people who count in units 4 apart: 1/2 sqrt(I) and 2 sqrt(I).
+/// Returns two people who answer 1/2 sqrt(I) and 2 sqrt(I), so their units differ by a factor
+/// of 4.
 StudyData two_units() {
   StudyData data;
   for (const auto& [name, k] : {std::pair{"P01", 0.5}, {"P02", 2.0}}) {
@@ -68,7 +69,7 @@ TEST(LogAnswers, AZeroCountsAsHalfTheSmallestAnswerOfThePersonOrNotAtAll) {
   const LogAnswers out = log_answers(answers, ZeroRule::kLeaveOut);
   EXPECT_EQ(out.num_zeros, 1);
   EXPECT_EQ(out.logs.at(1.0).size(), 1U);
-  // Nothing above 0 at all: no logarithm, and no invented number.
+  // If no answer is above 0, there is no logarithm, and no number is invented.
   const LogAnswers none = log_answers({{1.0, {0.0}}, {2.0, {0.0}}}, ZeroRule::kHalfSmallest);
   EXPECT_TRUE(none.logs.empty());
   EXPECT_EQ(none.num_zeros, 2);
@@ -84,7 +85,8 @@ TEST(MagnitudeResults, GeometricMeansAndEqualisedModuliForgetWhoCountsInLargeNum
   EXPECT_NEAR(value_of(section, "estimation.geometric.a"), 0.5, 1e-9);
   EXPECT_NEAR(value_of(section, "estimation.equalised.k"), 1.0, 1e-6);
   EXPECT_NEAR(value_of(section, "estimation.equalised.a"), 0.5, 1e-6);
-  // ln 4 apart: the standard deviation of two values is their difference over sqrt 2.
+  // The values are ln 4 apart. The standard deviation of two values is their difference over
+  // sqrt 2.
   EXPECT_NEAR(value_of(section, "estimation.modulus_sd_ln"), std::log(4.0) / std::sqrt(2.0),
               1e-12);
   EXPECT_EQ(value_of(section, "estimation.num_zeros"), 0.0);
@@ -96,7 +98,8 @@ TEST(MagnitudeResults, ZerosAreCountedAndBothRulesShown) {
   data.participants[0].trials.push_back(estimated(4.0, 0.0, 2));
   const ResultsSection section = estimation_results(data, kEstimation, kQuick);
   EXPECT_EQ(value_of(section, "estimation.num_zeros"), 1.0);
-  // 1 and, for the 0, half of the smallest answer, 0.25: geometric mean 1/2; the other's 4.
+  // The answers are 1 and, for the 0, half of the smallest answer, 0.25. So the geometric mean
+  // is 1/2, and that of the other person 4.
   EXPECT_NEAR(value_of(section, "estimation.geometric_mean_at_4"), std::sqrt(0.5 * 4.0), 1e-12);
   EXPECT_NE(find_estimate(section, "estimation.geometric.k")
                 ->meaning.find("half the person's smallest"),
@@ -110,7 +113,7 @@ TEST(MagnitudeResults, APersonWithoutALevelStillCountsInTheOthers) {
   const ResultsSection section = estimation_results(data, kEstimation, kQuick);
   EXPECT_EQ(find_estimate(section, "estimation.mean_at_9")->n, 1);
   EXPECT_EQ(find_estimate(section, "estimation.mean_at_4")->n, 2);
-  // Moduli over the levels that both have, so nothing changes.
+  // The moduli are computed over the levels that both people have, so nothing changes.
   EXPECT_NEAR(value_of(section, "estimation.equalised.k"), 1.0, 1e-6);
 }
 
@@ -240,7 +243,8 @@ TEST(MagnitudeResults, TheRegressionOfIOnSTurnsTheOtherWayRound) {
     EXPECT_NEAR(value_of(exact, std::string(law) + ".a"), 0.5, 1e-6) << law;
     EXPECT_NEAR(value_of(exact, std::string(law) + ".k"), std::sqrt(0.5), 1e-6) << law;
   }
-  // With spread S on I is the flatter one, I on S the steeper, apart by r squared.
+  // With spread, S on I is the flatter and I on S the steeper regression. They differ by r
+  // squared.
   data.participants[0].trials[1].response = 5.0;
   const ResultsSection section = production_results(data, kProduction, kQuick);
   EXPECT_GT(value_of(section, "production.intensity_on_magnitude.a"),
@@ -277,7 +281,8 @@ TEST(MagnitudeResults, ProductionRatiosAreThereForEachParticipantOrTheReason) {
   EXPECT_EQ(find_estimate(section, "production_ratio_100_50")->n, 1);
 }
 
-/// sqrt(I), and 0.25 I^2 for targets at 1 and 4.
+/// Returns people with sqrt(I) in estimation, and with 0.25 I^2 in production, for targets at 1
+/// and 4.
 StudyData both_parts() {
   StudyData data;
   for (const char* name : {"P01", "P02"}) {
@@ -305,7 +310,7 @@ TEST(CombinedResults, SayWhereACurveIsExtrapolated) {
   EXPECT_NEAR(value_of(section, "combined.shared_range_low"), 2.0, 1e-12);
   EXPECT_NEAR(value_of(section, "combined.shared_range_high"), 4.0, 1e-12);
   EXPECT_EQ(value_of(section, "combined.num_extrapolated"), 2.0) << "1 and 9, not free space";
-  // 4 alone lies within: no law through one intensity, and it is said.
+  // Only 4 lies within the range. No law goes through one intensity, and the results say so.
   EXPECT_FALSE(find_estimate(section, "combined.within_shared_range.k")->value);
   EXPECT_TRUE(says(section, "everyone", "combined.within_shared_range: no power law"));
   EXPECT_TRUE(find_estimate(section, "combined.k")->value);
@@ -354,7 +359,7 @@ TEST(CombinedResults, AProductionWithoutALawIsNamedAsTheReason) {
 
 TEST(CombinedResults, ExponentsAreComparedWithTheProductionAsIOnS) {
   StudyData data = both_parts();
-  // Sets of 1 and 4 at 50 % and 100 %, and of 2 at 200 %: S on I is flatter than I on S.
+  // The settings scatter, so S on I is flatter than I on S.
   for (std::size_t i = 0; i < 2; ++i) {
     std::vector<core::TrialRow>& trials = data.participants[i].trials;
     const double more = 1.0 + static_cast<double>(i);

@@ -21,7 +21,8 @@ StudyResults results(const HandMadeStudy& study) {
   return results_of(load_study(study.store()), {}, {.num_resamples = 100});
 }
 
-/// One who halves and doubles about the match with the starting value, and one who is sure.
+/// Adds a person whose matches are halved and doubled by the starting value, and one who is
+/// certain.
 void add_two_people(HandMadeStudy& study) {
   study.add("P01");
   study.match(1.0, 1.0, 2.0);
@@ -39,22 +40,24 @@ TEST(MatchingResults, AreThoseWorkedByHand) {
   HandMadeStudy study(kToWater);
   add_two_people(study);
   const StudyResults all = results(study);
-  // Geometric means of 4 and 1, of 8 and 2.
+  // These are the geometric means of 4 and 1, and of 8 and 2.
   EXPECT_NEAR(value_of(all, "match.match_at_1"), 2.0, 1e-12);
   EXPECT_NEAR(value_of(all, "match.match_at_4"), 4.0, 1e-12);
   EXPECT_EQ(all.find("match.match_at_4")->unit, "Pa s");
   EXPECT_NE(all.find("match.match_at_4")->meaning.find("4 of water"), std::string::npos);
-  // Of 4 and 8, of 1 and 2: sqrt(32) and sqrt(2).
+  // The people's matches are the geometric means of 4 and 8, and of 1 and 2: sqrt(32) and
+  // sqrt(2).
   EXPECT_NEAR(value_of(all, "match.match"), std::sqrt(8.0), 1e-12);
   EXPECT_EQ(all.find("match.match")->unit, "Pa s");
   EXPECT_EQ(all.find("match.match")->n, 2);
   EXPECT_LT(all.find("match.match")->ci95.low.value(), std::sqrt(8.0));
-  // From 2 at 1 to 4 at 4.
+  // The law goes from 2 at 1 to 4 at 4.
   EXPECT_NEAR(value_of(all, "match.k"), 2.0, 1e-9);
   EXPECT_NEAR(value_of(all, "match.a"), 0.5, 1e-9);
-  // Four deviations of ln 2 with 4 - 2 degrees of freedom, and none.
+  // The first person has four deviations of ln 2 with 4 - 2 degrees of freedom, and the second
+  // has none.
   EXPECT_NEAR(value_of(all, "match.match_sd_ln"), 0.5 * std::sqrt(2.0) * std::log(2.0), 1e-12);
-  // The first goes with the start wholly, the second not at all.
+  // The first person follows the starting value entirely, and the second not at all.
   EXPECT_NEAR(value_of(all, "match.starting_value_slope"), 0.5, 1e-12);
   EXPECT_EQ(value_of(all, "match.num_zeros"), 0.0);
 }

@@ -15,7 +15,8 @@ StudyResults results(const HandMadeStudy& study, const Published& published = {}
   return results_of(load_study(study.store()), published, {.num_resamples = 1000});
 }
 
-/// People who compare at two thirds and at one and a half of 8; of ten, so many right.
+/// Adds people who compare at two thirds and at one and a half of 8. Each number says how many
+/// of ten are right.
 void add_people(HandMadeStudy& study, const std::vector<int>& num_right) {
   for (std::size_t i = 0; i < num_right.size(); ++i) {
     study.add((i < 9 ? "P0" : "P") + std::to_string(i + 1));
@@ -39,7 +40,8 @@ TEST(OwnFractions, AQuantileLiesBetweenWhatIsAtLeastAndWhatIsAtMostSo) {
       fractions_between({{0.1, 0.1}, {0.3, 0.3}, {0.2, 0.2}, {1.0, INFINITY}});
   const std::vector<std::size_t> all = {0, 1, 2, 3};
   EXPECT_DOUBLE_EQ(own_fraction_quantile(fractions, all, 0.5).value().value(), 0.25);
-  // Three quarters of the way from the third to the one beyond, of whom only "> 1" is known.
+  // The quantile lies three quarters of the way from the third person to the next one, of whom
+  // only "> 1" is known.
   const CensoredValue upper = own_fraction_quantile(fractions, all, 0.75);
   EXPECT_FALSE(upper.value().has_value());
   EXPECT_DOUBLE_EQ(upper.at_least, 0.3 + 0.25 * (1.0 - 0.3));
@@ -58,7 +60,8 @@ TEST(OwnFractions, TheSpreadOfPeopleBeyondTheStimuliMayBeAnything) {
 
 TEST(OwnFractions, TheIntervalOfAMedianIsOpenWhereResampledOnesLieBeyondTheStimuli) {
   HandMadeStudy study;
-  // Seven of 13 can be told, 0.37 (9 of 10 right); six are flat.
+  // Seven of 13 people have a fraction, which is 0.37 (9 of 10 right). The six others have flat
+  // answers.
   add_people(study, {9, 5, 9, 5, 9, 5, 9, 5, 9, 5, 9, 5, 9});
   const StudyResults of = results(study);
   EXPECT_EQ(of.find("group_d.individual_weber_fraction_beyond_stimuli")->value, 6.0);
@@ -104,7 +107,8 @@ TEST(OwnFractions, AMedianOfSeparatedAnswersIsNotNought) {
   EXPECT_GT(median.ci95.high.value(), 0.0);
 }
 
-/// Answers that a pse above the reference explains: 3 in 10 at the reference of 8.
+/// Adds answers that a pse above the reference explains: 3 of 10 are "more" at the reference of
+/// 8.
 void compare_above(HandMadeStudy& study, int num_more) {
   for (int answered = 0; answered < 10; ++answered) {
     study.compare("group_d", 8.0, 8.0 + 1e-6, answered < 3);
@@ -178,7 +182,7 @@ TEST(OwnFractions, ByLeastSquaresAtTheReferenceAreThoseThatAreMadeByHand) {
       own_fractions(answers, {.method = PsychometricMethod::kLeastSquares});
   ASSERT_EQ(fractions.people.size(), 2U);
   EXPECT_EQ(fractions.people[1].participant, "P02");
-  // 80 and 90 % at 1.5: least squares go through both proportions, which are symmetrical.
+  // With 80 and 90 % at 1.5, least squares go through both proportions, which are symmetrical.
   EXPECT_NEAR(*fractions.people[0].weber_fraction,
               std::expm1(std::log(1.5) / 0.8416212335729143), 1e-6);
   EXPECT_NEAR(*fractions.people[1].weber_fraction,

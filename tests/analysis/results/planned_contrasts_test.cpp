@@ -23,7 +23,7 @@ using experiments::fluid_contrast;
 
 constexpr char kFluids[] = R"({"fluid": {"thin": 1, "thick": -1}})";
 
-/// A person with answers of that many right ones of ten in each block, each after `times_s`.
+/// Adds a person with so many right answers of ten in each block, each given after `times_s`.
 void add_person(HandMadeStudy& study, const std::string& name, const std::string& priming,
                 int thin_right, int thick_right, double thin_s, double thick_s) {
   study.add(name, false, "", "priming=" + priming);
@@ -45,7 +45,8 @@ void add_person(HandMadeStudy& study, const std::string& name, const std::string
   };
   block("thin_a", 4.0, thin_right, 0.5 * thin_s);
   block("thick_b", 16.0, thick_right, thick_s);
-  block("thin_c", 4.0, thin_right, 2.0 * thin_s);  // Mean of the logarithms: thin_s.
+  // The geometric mean of both thin blocks is thin_s.
+  block("thin_c", 4.0, thin_right, 2.0 * thin_s);
 }
 
 std::vector<ContrastResult> of_six(const std::string& contrasts) {
@@ -67,7 +68,7 @@ std::string time_contrast(const std::string& of, const std::string& more = "",
 TEST(PlannedContrasts, AreStudentsTOfPeoplesLogarithms) {
   const ContrastResult one =
       of_six(time_contrast(R"({"block": {"thin_a": 1, "thick_b": -1}})")).at(0);
-  // Groups count by themselves; the mean of three logarithms each.
+  // Each group counts by itself, with the mean of three logarithms.
   const double primed =
       (std::log(1.0 / 1.0) + std::log(1.25 / 1.1) + std::log(1.1 / 0.9)) / 3.0;
   const double control =
@@ -78,7 +79,7 @@ TEST(PlannedContrasts, AreStudentsTOfPeoplesLogarithms) {
 }
 
 TEST(PlannedContrasts, OfBlocksWithoutGroupsAreThePairedTest) {
-  // A study without the factor of people: all are one group.
+  // Without a factor of people, all belong to one group.
   std::string text = designed_study(time_contrast(kFluids));
   const std::string factor = R"(,
               {"name": "priming", "levels": ["primed", "control"]})";
@@ -166,14 +167,14 @@ TEST(PlannedContrasts, OfWeberFractionsAreThoseOfTheMedianPerson) {
       of_six(fluid_contrast() + ", " + fluid_contrast("", "biases", kFluids, "pse"));
   const ContrastTest& fractions = all[0].test;
   ASSERT_TRUE(fractions.effect) << fractions.reason;
-  // Fewer right answers of the thin fluid: a larger fraction.
+  // The thin fluid has fewer right answers, and so a larger fraction.
   EXPECT_GT(*fractions.effect, 1.3);
   EXPECT_LT(*fractions.effect, 5.0);
   EXPECT_LT(*fractions.p_value, 0.05);
   EXPECT_LT(fractions.ci95.low.value(), *fractions.effect);
   EXPECT_GT(fractions.ci95.high.value(), *fractions.effect);
   EXPECT_NE(fractions.method.find("median person, "), std::string::npos);
-  // Answers are as right below the reference as above it: there is no bias.
+  // The answers are as right below the reference as above it, so there is no bias.
   ASSERT_TRUE(all[1].test.effect || !all[1].test.reason.empty());
   if (all[1].test.effect) {
     EXPECT_NEAR(*all[1].test.effect, 1.0, 1e-3);
@@ -182,7 +183,8 @@ TEST(PlannedContrasts, OfWeberFractionsAreThoseOfTheMedianPerson) {
   EXPECT_NE(all[0].otherwise[0].method.find("ln ln(1 + w)"), std::string::npos);
 }
 
-// Of the three primed people, whose thin fluid comes in two blocks; the fit by hand.
+// The contrast is about the three primed people, whose thin fluid comes in two blocks. The test
+// repeats the fit by hand.
 TEST(PlannedContrasts, TakeTheAnswersOfBothBlocksOfAConditionTogether) {
   const ContrastTest found =
       of_six(fluid_contrast("", "primed",
@@ -242,7 +244,7 @@ TEST(HierarchicalContrast, HasTheErrorOfTheSlopesByTheDeltaMethod) {
   EXPECT_NEAR(contrast->degrees_of_freedom, 3.0, 1e-9);
 }
 
-// Two blocks that rate, loud and quiet, with a question after each trial.
+// Returns a study with two blocks of ratings, loud and quiet, and questions after each trial.
 std::string rated_study(const std::string& contrasts) {
   const auto block = [](const std::string& name) {
     return R"({"kind": "block", "name": ")" + name + R"(", "levels": {"noise": ")" + name +
@@ -267,7 +269,8 @@ std::string noise_contrast(const std::string& name, const std::string& measure,
          measure + R"(, "of": {"noise": {"loud": 1, "quiet": -1}})" + more + "}";
 }
 
-/// Steps of the thin and of the thick fluid, how sure, and whether anything was heard.
+/// Adds ratings of the thin and of the thick fluid, how certain the person was, and whether
+/// they heard anything.
 void add_ratings(HandMadeStudy& study, const std::string& block,
                  const std::vector<std::pair<double, double>>& rated, const std::string& sure,
                  const std::string& heard) {
@@ -290,7 +293,7 @@ TEST(PlannedContrasts, OfRatingsAreDifferencesOfMeanSteps) {
       noise_contrast("how_sure", R"("measure": "question", "question": "sure")") + ", " +
       noise_contrast("what_was_heard", R"("measure": "question", "question": "heard")")));
   study.add("P01");
-  // The thin one was rated twice: the mean is that of the means, 0.5 * (2 + 6).
+  // The thin fluid was rated twice, so the mean is that of the means, 0.5 * (2 + 6).
   add_ratings(study, "loud", {{1.0, 1.0}, {1.0, 3.0}, {4.0, 6.0}}, "2", "yes");
   add_ratings(study, "quiet", {{1.0, 2.0}, {4.0, 4.0}}, "4", "no");
   study.add("P02");
@@ -318,7 +321,8 @@ TEST(PlannedContrasts, OfRatingsAreDifferencesOfMeanSteps) {
       all[1].sentence.starts_with("The answer to the question sure was 1.67 lower in "
                                   "loud than in quiet, "))
       << all[1].sentence;
-  // Yes counts 1 and no 0; who left a question out everywhere has no number there.
+  // Yes counts 1 and no 0. A person who never answered the question in a block has no number
+  // there.
   EXPECT_EQ(all[2].test.num_participants, 2);
   EXPECT_FALSE(all[2].test.p_value) << "both differ by the same";
   ASSERT_EQ(all[2].excluded.size(), 1U);

@@ -13,7 +13,7 @@ namespace predictive_comparison_test {
 using Kind = PublishedStatistic::Kind;
 using Summary = PublishedStatistic::Summary;
 
-/// Standard normal numbers "x" and "y", which have most of their variance in common.
+/// Returns people with standard normal numbers "x" and "y", which share most of their variance.
 PredictivePeople people(int num_groups = 10, int size = 104) {
   PredictivePeople all{.seed = 1};
   core::RandomStream random(7, "people");
@@ -45,7 +45,8 @@ TEST(PredictiveStudies, TheTailOfAMeanIsThatOfTheNormalDistribution) {
   const auto above = studies.tail_of(mean_of("x", 1.6448536 * kStandardError));
   ASSERT_TRUE(above);
   EXPECT_FALSE(above->is_below);
-  // One in twenty; a thousand people know the mean to a tenth of a study's standard error.
+  // One study in twenty lies above. A thousand people determine the mean to a tenth of a
+  // study's standard error.
   EXPECT_NEAR(above->tail, 0.05, 4.0 * above->standard_error + 0.01);
   EXPECT_GT(above->standard_error, 0.002);
   EXPECT_LT(above->standard_error, 0.03);
@@ -82,7 +83,7 @@ TEST(PredictiveStudies, NobodyIsTwiceInAStudy) {
   const PredictivePeople all = people(2, 13);
   const auto mean = PredictiveStudies(all, 13, 50).tail_of(mean_of("x", 0.0));
   ASSERT_TRUE(mean);
-  // All of a group in every study: two means there are, whatever the order.
+  // Every study takes all people of a group, so there are only two means, whatever the order.
   EXPECT_NEAR(mean->values[0], mean->values[24], 1e-12);
   EXPECT_NEAR(mean->values[25], mean->values[49], 1e-12);
 }
@@ -92,7 +93,7 @@ TEST(PredictiveStudies, ValuesAreAsCoarseAsThePublishedOne) {
   const PredictiveStudies studies(all, 13, 1000);
   PublishedValue value = mean_of("x", 0.6);
   const double exact = studies.tail_of(value)->tail;
-  value.num_decimals = 1;  // 0.55 is 0.6 as well.
+  value.num_decimals = 1;  // A value of 0.55 is printed as 0.6, too.
   EXPECT_GT(studies.tail_of(value)->tail, exact);
   EXPECT_NEAR(studies.tail_of(value)->tail, studies.tail_of(mean_of("x", 0.55))->tail, 1e-12);
 }
@@ -113,8 +114,8 @@ TEST(PredictiveStudies, TogetherIsFarOutWhatIsNotSoOneByOne) {
   EXPECT_LT(contradicting->p_value, 0.005);
 }
 
-/// The published study is one more of the simulated ones: then its p value is as likely below
-/// any share as that share says.
+/// The published study is drawn like the simulated ones. Then its p value lies below any share
+/// with a probability of that share.
 TEST(PredictiveStudies, TheJointTailOfAStudyLikeTheSimulatedOnesIsEvenlySpread) {
   const PredictivePeople all = people();
   const PredictiveStudies studies(all, 13, 400);

@@ -11,7 +11,8 @@ namespace published_statistics_test {
 using Kind = PublishedStatistic::Kind;
 using Summary = PublishedStatistic::Summary;
 
-/// Ten answers each at 8 / 1.5 and 8 * 1.5, that many of them right.
+/// Returns a person with ten answers each at 8 / 1.5 and 8 * 1.5, of which `num_right` are
+/// right.
 PersonOutcome person(int num_right, const std::string& block = "thin") {
   PersonOutcome one;
   one.numbers[block + ".reference"] = 8.0;
@@ -21,8 +22,8 @@ PersonOutcome person(int num_right, const std::string& block = "thin") {
   return one;
 }
 
-/// F(ln 1.5 / ln(1 + w)) = share: the distance of a share from 1/2 in standard deviations is
-/// that of a table of the normal distribution.
+/// Solves F(ln 1.5 / ln(1 + w)) = share for w. The distance of the share from 1/2, in standard
+/// deviations, is from a table of the normal distribution.
 double fraction_at(double standard_deviations) {
   return std::exp(std::log(1.5) / standard_deviations) - 1.0;
 }
@@ -45,7 +46,7 @@ TEST_F(PublishedStatisticsTest, OwnWeberFractionsAreLeastSquaresWithThePseAtTheR
   EXPECT_NEAR(*value(own), 0.5 * (eight + nine), 1e-8);
   own.summary = Summary::kStandardDeviation;
   EXPECT_NEAR(*value(own), (eight - nine) / std::sqrt(2.0), 1e-8);
-  // Pooled, 17 of 20 are right.
+  // In the pooled answers, 17 of 20 are right.
   constexpr double kAtSeventeen = 1.0364333894937898;
   EXPECT_NEAR(*value({.kind = Kind::kPooledWeberFraction, .block = "thin"}),
               fraction_at(kAtSeventeen), 1e-8);
@@ -104,8 +105,8 @@ TEST_F(PublishedStatisticsTest, NumbersAreSummedUpOverPeopleAndNames) {
   EXPECT_FALSE(value({.kind = Kind::kDifferenceOfMeans, .names = {"a", "none"}}));
 }
 
-/// The law between two curves that Schmidt (2018), eq. D.5, has of those in D.3 and D.4: 0.5145
-/// and 0.9021.
+/// From the curves in eq. D.3 and D.4, Schmidt (2018) derives the law in eq. D.5: 0.5145 and
+/// 0.9021.
 TEST_F(PublishedStatisticsTest, TheLawBetweenEstimationAndProductionIsThatOfThePublication) {
   PersonOutcome& one = people_.emplace_back();
   const core::PowerFunction estimation{0.6663, 0.6386}, production{0.3761, 1.206};

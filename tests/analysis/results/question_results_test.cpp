@@ -58,10 +58,10 @@ class QuestionResultsTest : public ::testing::Test {
 
 TEST_F(QuestionResultsTest, ConfidenceIsToldAgainstRightAndWrongAndTheStimulus) {
   study_.add("P01");
-  pair(16, 1, "6", "honey");           // right
-  pair(16, 0, "2", "oil", "a click");  // wrong
-  pair(4, 0, "5", "oil");              // right
-  pair(4, 1, "5", "oil");              // wrong
+  pair(16, 1, "6", "honey");           // This answer is right.
+  pair(16, 0, "2", "oil", "a click");  // This answer is wrong.
+  pair(4, 0, "5", "oil");              // This answer is right.
+  pair(4, 1, "5", "oil");              // This answer is wrong.
   study_.add("P02");
   pair(16, 1, "4", "honey");
   pair(4, 0, "4", "honey");
@@ -75,7 +75,8 @@ TEST_F(QuestionResultsTest, ConfidenceIsToldAgainstRightAndWrongAndTheStimulus) 
   EXPECT_DOUBLE_EQ(value(found, "pair.question.confidence.when_wrong"), 0.5 * (3.5 + 1.0));
   EXPECT_DOUBLE_EQ(value(found, "pair.question.confidence.right_minus_wrong"),
                    0.5 * (2.0 + 3.0));
-  // P01: (6, 2), (6, 5), (5, 2) ordered, (5, 5) a tie: 3.5 of 4. P02: 2 of 2.
+  // P01: (6, 2), (6, 5) and (5, 2) are ordered and (5, 5) is a tie, which gives 3.5 of 4. P02:
+  // 2 of 2.
   EXPECT_DOUBLE_EQ(value(found, "pair.question.confidence.type_2_auroc"), 0.5 * (0.875 + 1.0));
   EXPECT_DOUBLE_EQ(value(found, "pair.question.feel.honey"), 0.5 * (0.25 + 1.0));
   EXPECT_DOUBLE_EQ(value(found, "pair.question.feel.oil"), 0.5 * (0.75 + 0.0));
@@ -113,7 +114,7 @@ TEST_F(QuestionResultsTest, ARatingHasItsMeansItsTrendAndItsRankCorrelation) {
 }
 
 TEST(RankCorrelation, IsThatOfPublishedTables) {
-  // Ties share their rank: r of (1, 2.5, 2.5, 4) and (1, 2, 3, 4) is 4.5 / sqrt(4.5 * 5).
+  // Ties share their rank, so r of (1, 2.5, 2.5, 4) and (1, 2, 3, 4) is 4.5 / sqrt(4.5 * 5).
   EXPECT_NEAR(rank_correlation({1, 2, 2, 3}, {1, 2, 3, 4}).value(), 0.948683, 1e-6);
   EXPECT_NEAR(rank_correlation({1, 2, 3}, {3, 2, 1}).value(), -1.0, 1e-12);
   EXPECT_FALSE(rank_correlation({1, 2}, {1, 2}));

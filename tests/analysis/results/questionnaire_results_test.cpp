@@ -34,7 +34,7 @@ experiments::Study asked_study() {
   return experiments::study_as_written(kProtocol, "asked.json");
 }
 
-/// Answers of people to the items of the protocol above.
+/// Collects people's answers to the items of the protocol above.
 class Answers {
  public:
   Answers() { data_.items = questionnaire_items(asked_study()); }
@@ -91,7 +91,7 @@ TEST(QuestionnaireResults, ScalesAreTurnedSoThatOneIsTheWorst) {
                                      .say("safety", "6")
                                      .say("freedom", "1")
                                      .results();
-  // 10, 9, 5 of ten steps, of which 1 was "very safe".
+  // The steps are 10, 9 and 5 of ten, because step 1 was "very safe".
   EXPECT_DOUBLE_EQ(value_of(section, "questionnaire.safety"), 8.0);
   EXPECT_DOUBLE_EQ(value_of(section, "questionnaire.safety.sd"), std::sqrt(7.0));
   EXPECT_DOUBLE_EQ(value_of(section, "questionnaire.safety.median"), 9.0);
@@ -127,7 +127,8 @@ TEST(QuestionnaireResults, AScaleWithoutABetterEndIsToldAsItWasAsked) {
 }
 
 TEST(QuestionnaireResults, TheTableOfTheThesisComesOutAsPrinted) {
-  // Schmidt (2018), table D.3: thirteen participants, 1 the worst and 10 the best rating.
+  // Schmidt (2018), table D.3, has thirteen participants, whose ratings go from 1 (worst) to 10
+  // (best).
   const std::vector<std::pair<std::string, std::vector<int>>> kColumns = {
       {"safety", {10, 10, 10, 10, 10, 9, 10, 9, 10, 10, 9, 10, 9}},
       {"freedom", {7, 7, 5, 5, 5, 9, 7, 7, 10, 7, 7, 9, 6}},

@@ -16,7 +16,8 @@ namespace sequential_results_test {
 using experiments::designed_study;
 using experiments::fluid_contrast;
 
-/// Times in the two fluids are compared, after four and after six people of one group.
+/// Returns a study that compares times in two fluids, after four and after six people of one
+/// group.
 std::string study_text(const std::string& more = "", const std::string& others = "") {
   std::string text =
       designed_study(fluid_contrast(R"(, "family": "decides")" + more, "fluids",
@@ -30,7 +31,7 @@ std::string study_text(const std::string& more = "", const std::string& others =
                       R"("sequential": {"contrast": "fluids", "looks": [4, 6]}, "factors":)");
 }
 
-/// People whose times in thin fluids are that many times those in thick ones.
+/// Makes people whose times in thin fluids are `ratios` times those in thick ones.
 class Timed {
  public:
   explicit Timed(const std::vector<double>& ratios, const std::string& text = study_text())
@@ -67,7 +68,7 @@ class Timed {
 
 const std::vector<double> kRatios = {1.4, 1.1, 1.3, 0.9, 1.5, 1.6};
 
-/// Of the logarithms of the first so many.
+/// Computes the effect by hand, from the logarithms of the first `num` ratios.
 EffectEstimate by_hand(std::size_t num) {
   double sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < num; ++i) sum += std::log(kRatios[i]);

@@ -33,7 +33,7 @@ bool is_named(const std::vector<ExcludedParticipant>& excluded, const std::strin
   });
 }
 
-/// 2 sqrt(I) and 4 sqrt(I), in percent: the group's mean is 3 sqrt(I).
+/// Adds people who answer 2 sqrt(I) and 4 sqrt(I), in percent. The group's mean is 3 sqrt(I).
 void add_two_estimators(HandMadeStudy& study) {
   for (const auto& [name, k] : {std::pair{"P01", 2.0}, {"P02", 4.0}}) {
     study.add(name);
@@ -55,7 +55,7 @@ TEST(StudyResults, EstimationIsThePowerLawThroughTheGroupMeans) {
   const Estimate& k = *of.find("estimation.k");
   EXPECT_EQ(k.n, 2);
   EXPECT_FALSE(k.ci95.low.has_value()) << "two participants say nothing of others";
-  // Each one's own: 2 sqrt(I) and 4 sqrt(I).
+  // The individual laws are 2 sqrt(I) and 4 sqrt(I).
   const std::vector<ParticipantEstimate>& own = section_of(of, "estimation").participants;
   ASSERT_GE(own.size(), 4U);
   EXPECT_EQ(own[0].participant, "P01");
@@ -85,7 +85,7 @@ TEST(StudyResults, GroupIntervalsLieAmongWhatParticipantsCanGive) {
 TEST(StudyResults, RepetitionsAreAveragedWithinAParticipantFirst) {
   HandMadeStudy study;
   study.add("P01");
-  // Means 1 and 2; P02 answers once, and weighs as much.
+  // The means of P01 are 1 and 2. P02 answers once and has the same weight.
   for (const double answer : {50.0, 100.0, 150.0}) study.estimate(1.0, answer);
   for (const double answer : {100.0, 200.0, 300.0}) study.estimate(2.0, answer);
   study.add("P02");
@@ -99,7 +99,7 @@ TEST(StudyResults, ProductionIsThePowerLawFromSetValuesToTargets) {
   HandMadeStudy study;
   for (const char* name : {"P01", "P02"}) {
     study.add(name);
-    // 0.25 I^2: 100 % at 2, 400 % at 4.
+    // The law is 0.25 I^2, with 100 % at 2 and 400 % at 4.
     study.produce(100.0, 2.0);
     study.produce(400.0, 4.0);
   }
@@ -144,7 +144,7 @@ TEST(StudyResults, DiscriminationIsTheWeberFractionOfThePooledCurve) {
   study.compare_ten("group_d", 7);
   study.add("P02");
   study.compare_ten("group_d", 9);
-  // 16 of 20 right: Phi(ln 1.5 / ln(1 + w)) = 0.8, so ln(1 + w) = ln 1.5 / 0.8416212.
+  // 16 of 20 are right: Phi(ln 1.5 / ln(1 + w)) = 0.8, so ln(1 + w) = ln 1.5 / 0.8416212.
   const double expected = std::expm1(std::log(1.5) / 0.8416212335729143);
   const StudyResults of = results(study);
   EXPECT_NEAR(value_of(of, "group_d.weber_fraction"), expected, 1e-6);
@@ -164,7 +164,7 @@ TEST(StudyResults, TwoConditionsAreComparedPairedInLnLnAndUnpairedInW) {
   const StudyResults of = results(study);
   const ResultsSection& against = section_of(of, "group_d_against_group_e");
   const Comparison& paired = comparison(against, "ln ln(1 + w), paired");
-  // ln ln(1 + w) is ln ln 1.5 - ln z: differences ln(z_e / z_d).
+  // ln ln(1 + w) is ln ln 1.5 - ln z, so the differences are ln(z_e / z_d).
   const double z70 = 0.5244005127080407;
   const double z80 = 0.8416212335729143;
   const double z90 = 1.2815515655446004;
@@ -193,7 +193,7 @@ TEST(StudyResults, AParticipantWithoutAWeberFractionIsNamedAndComparedWithAndWit
   const ResultsSection& against = section_of(of, "group_d_against_group_e");
   EXPECT_EQ(comparison(against, "paired, without degenerate").num_a, 2);
   EXPECT_EQ(comparison(against, "paired, with degenerate").num_a, 3);
-  // The pooled curve has everyone: 25 of 30.
+  // The pooled curve contains everybody's answers: 25 of 30.
   EXPECT_EQ(of.find("group_d.weber_fraction")->n, 3);
 }
 
@@ -244,7 +244,7 @@ TEST(StudyResults, WhoLacksABlockIsNamedThere) {
   EXPECT_EQ(of.find("group_e.weber_fraction")->n, 1);
 }
 
-/// Every kind of block and a form in an arm of their own.
+/// A study in which each kind of block, and a form, is in an arm of its own.
 constexpr char kArms[] = R"({"name": "by_hand", "participant_fields": [
    {"name": "sex", "options": [{"value": "female"}, {"value": "male"}]}], "stages": [
   {"kind": "counterbalance", "name": "oil", "method": "one_of", "arms": [
@@ -263,7 +263,7 @@ void move_widely(HandMadeStudy& study) {
               .measures = {.num_strokes = 3, .stroke_width_m = 0.3, .max_speed_m_per_s = 0.4}});
 }
 
-/// P01 and P02 in the one arm, P03 in the other; P04 and P05 left either before it began.
+/// Adds P01 and P02 to one arm and P03 to the other. P04 and P05 left before either arm began.
 void add_both_arms(HandMadeStudy& study) {
   for (const char* name : {"P01", "P02"}) {
     study.add(name, false, "", "sex=female;oil=thin");
@@ -331,7 +331,8 @@ TEST(StudyResults, ArmsThatNobodySharesHaveNoPairs) {
 TEST(StudyResults, AnOwnFractionIsBeyondTheStimuliOfTheBlockNotOfOnesOwnAnswers) {
   HandMadeStudy study;
   study.add("P01");
-  // Halving and doubling: w of their own about 0.8, felt between 6 and 10.
+  // The own stimuli of P01 lie between 6 and 10. The Weber fraction is beyond these, but within
+  // the stimuli of the block.
   for (int answered = 0; answered < 10; ++answered) {
     study.compare("group_d", 6.0, 8.0, answered < 3);
     study.compare("group_d", 10.0, 8.0, answered < 7);

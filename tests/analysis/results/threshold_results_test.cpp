@@ -20,7 +20,7 @@ const char* const kProtocol = R"json({"name": "by_hand", "stages": [
   {"kind": "counterbalance", "name": "order", "arms": [{"name": "a", "stages": [
     {"kind": "block", "name": "pairs", "procedure": "constant_stimuli", "task": "same_different"}]}]}]})json";
 
-/// So many answers at one level, of which so many were "yes".
+/// The answers at one level, and how many of them were "yes".
 struct Level {
   double intensity;
   int num_yes, num_trials;
@@ -47,7 +47,8 @@ void pairs(HandMadeStudy& study, const std::vector<Level>& levels) {
   add(study, {.block = "pairs", .reference_intensity = 8.0}, levels);
 }
 
-/// Symmetric about a threshold in ln: 2, 5 and 8 of 10 at a half, at it, at its double.
+/// Returns answers that are symmetric about a threshold in ln: 2, 5 and 8 of 10 at half of it,
+/// at it, and at twice of it.
 std::vector<Level> about(double threshold) {
   return {{0.5 * threshold, 2, 10}, {threshold, 5, 10}, {2.0 * threshold, 8, 10}};
 }
@@ -63,7 +64,7 @@ TEST(DetectionResults, AThresholdIsWhereHalfOfTheStimuliAreFelt) {
   EXPECT_NEAR(*own_of(of, "P01", "felt.threshold").value, 0.2, 1e-9);
   EXPECT_NEAR(*own_of(of, "P02", "felt.threshold").value, 0.8, 1e-9);
   EXPECT_LT(*own_of(of, "P01", "felt.threshold").ci95.low, 0.2);
-  // Phi(ln 2 / s) = 0.8: s = 0.8236.
+  // Phi(ln 2 / s) = 0.8, so s = 0.8236.
   EXPECT_NEAR(*own_of(of, "P01", "felt.spread_ln").value, std::log(2.0) / 0.8416212, 1e-6);
   EXPECT_NEAR(value_of(results, "felt.threshold"), 0.4, 1e-9) << "geometric mean";
   EXPECT_NEAR(value_of(results, "felt.threshold_sd_ln"), std::log(4.0) / std::sqrt(2.0), 1e-9);
@@ -84,7 +85,7 @@ TEST(DetectionResults, AMeanRateStaysBetween0And1) {
   const Estimate* rate = results.find("felt.false_alarm_rate");
   ASSERT_NE(rate, nullptr);
   EXPECT_NEAR(*rate->value, 0.15, 1e-12);
-  // Student's would reach 12.7 times 0.15 to either side.
+  // Student's interval would reach 12.7 times 0.15 to either side.
   EXPECT_EQ(rate->ci95.low, 0.0);
   EXPECT_EQ(rate->ci95.high, 1.0);
 }
@@ -100,7 +101,7 @@ TEST(DetectionResults, FalseAlarmsAreToldAndCorrectedFor) {
       << "without regard to catch trials";
   EXPECT_GT(*own_of(of, "P01", "felt.threshold_corrected").value, 0.21);
   EXPECT_NEAR(*own_of(of, "P01", "felt.false_alarm_rate").value, 0.15, 1e-12);
-  // 15 of 30 hits, 3 of 20 false alarms: z(15.5 / 31) = 0, z(3.5 / 21) = -0.96742.
+  // 15 of 30 hits and 3 of 20 false alarms give z(15.5 / 31) = 0 and z(3.5 / 21) = -0.96742.
   EXPECT_NEAR(*own_of(of, "P01", "felt.d_prime").value, 0.9674216, 1e-6);
   EXPECT_NEAR(*own_of(of, "P01", "felt.criterion").value, 0.5 * 0.9674216, 1e-6);
 }
@@ -276,7 +277,7 @@ TEST(AdaptiveResults, APosteriorAtTheEndOfItsGridSaysSoBesideEveryNumberOfIt) {
 TEST(IntervalResults, AnOrderEffectMovesThePseAndNotTheSlope) {
   HandMadeStudy study;
   study.add("P01");
-  // The test is chosen as often one step later when it comes second.
+  // If the test comes second, it is chosen equally often one step later.
   for (const auto& [interval, levels] :
        {std::pair{1, std::vector<Level>{{4.0, 2, 10}, {8.0, 5, 10}, {16.0, 8, 10}}},
         {2, std::vector<Level>{{8.0, 2, 10}, {16.0, 5, 10}, {32.0, 8, 10}}}}) {

@@ -21,7 +21,8 @@ core::TrialRow trial_at(double intensity, bool yes, const std::string& block = "
           .response = yes ? 1.0 : 0.0};
 }
 
-/// Of the trial answered last: the reference with a stroke, the test with or without.
+/// Adds the presentations of the last answered trial: the reference with a stroke, and the test
+/// with `num_strokes`.
 void felt(HandMadeStudy& study, std::int64_t num_strokes, std::int64_t limited_ticks = 0) {
   study.move({.presentation = 1,
               .interval = "reference",
@@ -32,7 +33,7 @@ void felt(HandMadeStudy& study, std::int64_t num_strokes, std::int64_t limited_t
               .measures = {.num_strokes = num_strokes, .limited_ticks = limited_ticks}});
 }
 
-/// Ten answers at each of four levels, all as they were meant to be.
+/// Adds ten answers at each of four levels, all without any loss.
 void add_sound_answers(HandMadeStudy& study, const std::string& block = "honey") {
   for (const auto& [level, num_yes] : {std::pair{4.0, 1}, {6.0, 3}, {11.0, 7}, {16.0, 9}}) {
     for (int i = 0; i < 10; ++i) {
@@ -51,7 +52,7 @@ TEST(TrialLosses, AreCountedByLevel) {
   HandMadeStudy study;
   study.add("P01");
   add_sound_answers(study);
-  // The test was felt once more, without a stroke: it had one before.
+  // The test was felt once more without a stroke, but it had one before.
   study.move({.presentation = 3, .interval = "test", .measures = {.num_strokes = 0}});
   (void)study.answer(trial_at(16.0, true));
   felt(study, 0);
@@ -64,7 +65,7 @@ TEST(TrialLosses, AreCountedByLevel) {
   study.happen("trial_started", faulted);
   study.happen("fault_raised");
   study.happen("attempt_discarded", faulted);
-  study.happen("fault_raised");  // Between trials.
+  study.happen("fault_raised");  // This fault falls between trials.
   study.exclude(study.answer(trial_at(4.0, true)));
   (void)study.draw(trial_at(4.0, true));
   const std::vector<LevelLoss> losses = level_losses(load_study(study.store()));
@@ -102,7 +103,8 @@ TEST(TrialLosses, CatchTrialsAreALevelOfTheirOwnAndManyLevelsAreOne) {
   EXPECT_EQ(losses[1].num_unanswered(), 1);
 }
 
-/// Twelve people; of each so many more answers at 16 Pa s, "no" without a whole stroke.
+/// Returns the results of twelve people. Each gives `num_strokeless` more answers of "no" at 16
+/// Pa s, without a whole stroke.
 StudyResults results_with(int num_strokeless) {
   HandMadeStudy study;
   for (int person = 11; person <= 22; ++person) {
@@ -175,7 +177,7 @@ TEST(TrialLosses, WhatARuleMadeOfThemHasNothingToSayWithoutThem) {
         {.presentation = 1, .interval = "test", .measures = {.num_strokes = i == 0 ? 0 : 1}});
   }
   StudyData data = load_study(study.store());
-  data.runs.clear();  // By hand instead.
+  data.runs.clear();  // The test makes the runs itself.
   data.runs.push_back({.participant = "P01",
                        .block = "felt",
                        .procedure = "staircase",

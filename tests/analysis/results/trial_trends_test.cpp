@@ -16,7 +16,7 @@ namespace trial_trends_test {
 
 using nlohmann::json;
 
-/// One answer a trial, in the order of the levels.
+/// Returns answers with one answer for each trial, in the order of the levels.
 DiscriminationAnswers answered(const std::string& name, double reference,
                                const std::vector<double>& levels,
                                const std::vector<int>& answers) {
@@ -58,7 +58,7 @@ TEST(TrialTrends, SumsOfSquaresAndTheirPValuesAgreeWithAnotherBootstrap) {
       EXPECT_EQ(one.num_people, expected.at("num_people")) << where;
       const double sum = expected.at("sum_squares");
       EXPECT_NEAR(one.sum_squares, sum, 1e-9 * std::max(1.0, sum)) << where;
-      // Four standard errors of so many redraws.
+      // The tolerance is four standard errors of this number of redraws.
       const double p = expected.at("p_value");
       EXPECT_NEAR(one.p_value, p, 4.0 * std::sqrt(p * (1.0 - p) / kRedraws) + 1e-3) << where;
     }

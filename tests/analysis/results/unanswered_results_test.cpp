@@ -36,7 +36,8 @@ core::TrialRow row(double intensity, std::optional<double> response) {
           .measures = {.response_time_s = 2.0}};
 }
 
-/// Ten answers at each level, `num_yes` of them yes, and as many more that nobody could tell.
+/// Adds ten answers at each level, of which `num_yes` are yes, and `num_open` more with "cannot
+/// tell".
 void answer(HandMadeStudy& study, const std::vector<int>& num_yes, int num_open) {
   const std::vector<double> levels = {4, 6, 10, 16};
   for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -89,7 +90,7 @@ TEST(UnansweredResults, WhatCouldNotBeToldIsInNoCurve) {
   for (const Estimate& estimate : section_of(b, "d").estimates) {
     const Estimate* same = find_estimate(of_open, estimate.name);
     ASSERT_NE(same, nullptr) << estimate.name;
-    // A drift is by the number of the trial, and those are trials.
+    // A drift depends on the number of the trial, and open trials count there.
     if (estimate.name.find("drift") != std::string::npos) continue;
     EXPECT_EQ(same->value, estimate.value) << estimate.name;
   }
@@ -100,9 +101,9 @@ TEST(UnansweredResults, WhatCouldNotBeToldIsInNoCurve) {
 TEST(UnansweredResults, ATenthIsNotOften) {
   HandMadeStudy study(protocol(R"(, "cannot_tell": true)"));
   study.add("P01");
-  answer(study, {1, 3, 7, 9}, 4);  // Of 44.
+  answer(study, {1, 3, 7, 9}, 4);  // These are 4 of 44.
   study.add("P02");
-  answer(study, {1, 3, 7, 9}, 5);  // Of 45: more than a tenth.
+  answer(study, {1, 3, 7, 9}, 5);  // These are 5 of 45, which is more than a tenth.
   const StudyResults found = results(study);
   EXPECT_FALSE(has_caution(section_of(found, "d"), "P01", "cannot tell"));
   EXPECT_TRUE(has_caution(section_of(found, "d"), "P02", "cannot tell"));

@@ -12,7 +12,7 @@ namespace comparison_test {
 
 using testing::HasSubstr;
 
-/// What a degenerate comparison must look like.
+/// Expects a degenerate comparison for this reason, without any number.
 void expect_degenerate(const Comparison& result, const char* why) {
   EXPECT_EQ(result.status, FitStatus::kDegenerate);
   EXPECT_THAT(result.reason, HasSubstr(why));
@@ -29,8 +29,8 @@ Comparison welch(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 TEST(Comparison, PairedTIsWorkedByHand) {
-  // Differences 1, 2, 3: mean 2, sd 1, t = 2 sqrt 3, and with two degrees of freedom
-  // p = 1 - t / sqrt(t^2 + 2) = 1 - sqrt(12/14).
+  // The differences are 1, 2, 3: mean 2, sd 1, t = 2 sqrt 3, and with two degrees of freedom p
+  // = 1 - t / sqrt(t^2 + 2) = 1 - sqrt(12/14).
   const Comparison result = paired_t_test({2, 4, 6}, {1, 2, 3});
   EXPECT_EQ(result.status, FitStatus::kOk);
   EXPECT_DOUBLE_EQ(*result.estimate, 2.0);
@@ -47,7 +47,7 @@ TEST(Comparison, PublishedTestsOfTheThesisComeOutAsPrinted) {
   EXPECT_NEAR(*speed.statistic, 2.83, 0.005);
   EXPECT_EQ(*speed.degrees_of_freedom, 20.0);
   EXPECT_NEAR(*speed.p_value, 0.010, 0.0005);
-  // Weber fractions, from thresholds over references: t(24) = 3.81, p = 0.0008.
+  // The Weber fractions are thresholds over references: t(24) = 3.81, p = 0.0008.
   const Comparison weber =
       pooled_t_test({1.33 / 1.853, 0.37 / 1.853, 13}, {5.53 / 16.06, 4.68 / 16.06, 13});
   EXPECT_NEAR(*weber.statistic, 3.81, 0.005);
@@ -96,11 +96,11 @@ TEST(Comparison, WelchAndPooledAgreeForGroupsOfOneSizeAndSpread) {
 }
 
 TEST(Comparison, CorrelationIsWorkedByHand) {
-  // r of (1,2,3,4) with (1,3,2,4): 4/5; t = 0.8 sqrt(2) / 0.6.
+  // r of (1,2,3,4) with (1,3,2,4) is 4/5, so t = 0.8 sqrt(2) / 0.6.
   const Comparison result = pearson_correlation({1, 2, 3, 4}, {1, 3, 2, 4});
   EXPECT_NEAR(*result.estimate, 0.8, 1e-14);
   EXPECT_NEAR(*result.statistic, 0.8 * std::sqrt(2.0) / 0.6, 1e-13);
-  EXPECT_NEAR(*result.p_value, 0.2, 1e-13);  // Two degrees of freedom: 1 - |r|.
+  EXPECT_NEAR(*result.p_value, 0.2, 1e-13);  // With two degrees of freedom, p = 1 - |r|.
   EXPECT_NEAR(*result.ci95.high, std::tanh(std::atanh(0.8) + 1.959963984540054), 1e-13);
 }
 

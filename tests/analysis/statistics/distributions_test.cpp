@@ -11,17 +11,18 @@ namespace distributions_test {
 
 using namespace jnd::analysis;
 
-// Where a closed form exists, worked by hand; else from printed tables (Abramowitz and Stegun
-// 1964, tables 26.1, 26.8 and 26.9).
+// The values are worked by hand where a closed form exists, and otherwise from printed tables
+// (Abramowitz and Stegun 1964, tables 26.1, 26.8 and 26.9).
 TEST(Distributions, NormalQuantilesAreThoseOfTheTable) {
   EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-14);
   EXPECT_NEAR(normal_quantile_above(0.025), 1.959963984540054, 1e-14);
-  // So small that 1 less it is 1.
+  // The probability is so small that 1 minus it is 1.
   EXPECT_NEAR(normal_quantile_above(1e-20), 9.262340089798408, 1e-12);
 }
 
 TEST(Distributions, StudentsTWithOneAndTwoDegreesOfFreedomHasAClosedForm) {
-  // One: Cauchy. Two: 1/2 - t / (2 sqrt(2 + t^2)).
+  // With one degree of freedom it is Cauchy's distribution, and with two 1/2 - t / (2 sqrt(2 +
+  // t^2)).
   EXPECT_NEAR(student_t_above(2.0, 1.0), 0.5 - std::atan(2.0) / std::numbers::pi, 1e-15);
   EXPECT_NEAR(student_t_above(1.5, 2.0), 0.5 - 1.5 / (2.0 * std::sqrt(4.25)), 1e-15);
   EXPECT_NEAR(student_t_quantile(0.975, 1.0), std::tan(0.475 * std::numbers::pi), 1e-11);
@@ -30,7 +31,7 @@ TEST(Distributions, StudentsTWithOneAndTwoDegreesOfFreedomHasAClosedForm) {
 
 TEST(Distributions, TheNoncentralTIsTheCentralOneWithoutNoncentrality) {
   EXPECT_NEAR(noncentral_t_above(1.5, 2.0, 0.0), student_t_above(1.5, 2.0), 1e-14);
-  // At t = 0 it is the normal's tail: P(Z + delta <= 0).
+  // At t = 0 it is the normal distribution's tail, P(Z + delta <= 0).
   EXPECT_NEAR(noncentral_t_below(0.0, 7.0, 1.3), 0.5 * std::erfc(1.3 / std::sqrt(2.0)), 1e-14);
   EXPECT_NEAR(noncentral_t_below(1.0, 7.0, 1.3) + noncentral_t_above(1.0, 7.0, 1.3), 1.0,
               1e-12);

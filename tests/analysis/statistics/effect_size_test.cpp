@@ -9,9 +9,9 @@ namespace jnd::analysis {
 namespace effect_size_test {
 
 TEST(EffectSize, HedgesFactorIsTheExactOneAndTendsToOne) {
-  // gamma(1) / (sqrt(1) gamma(1/2)) at two degrees of freedom.
+  // At two degrees of freedom the factor is gamma(1) / (sqrt(1) gamma(1/2)).
   EXPECT_NEAR(hedges_factor(2.0), 1.0 / std::sqrt(std::numbers::pi), 1e-14);
-  // Close to 1 - 3 / (4 m - 1).
+  // The factor is close to 1 - 3 / (4 m - 1).
   EXPECT_NEAR(hedges_factor(24.0), 1.0 - 3.0 / 95.0, 1e-4);
   EXPECT_NEAR(hedges_factor(1e6), 1.0, 1e-6);
 }
@@ -30,7 +30,7 @@ TEST(EffectSize, TheIntervalOfTheNoncentralityHoldsTAndTurnsWithItsSign) {
 }
 
 TEST(EffectSize, WithoutEffectTheIntervalIsTheNormalOne) {
-  // T is 0 exactly where the numerator is, whatever the degrees of freedom.
+  // T is 0 exactly where the numerator is 0, whatever the degrees of freedom.
   const Interval interval = noncentrality_ci95(0.0, 7.0);
   EXPECT_NEAR(*interval.low, -1.959963984540054, 1e-9);
   EXPECT_NEAR(*interval.high, 1.959963984540054, 1e-9);
@@ -56,8 +56,8 @@ TEST(EffectSize, OfGroupsDoesNotChangeWithTheUnit) {
   EXPECT_GT(*small.hedges_g_ci95.high, *small.hedges_g);
 }
 
-/// Variances 9 and 1, and errors 9 / 2 and 1 / 3 of them, by hand: g over the root of 5, its
-/// degrees of freedom (1)(2) 10^2 / (2 9^2 + 1 1^2).
+/// The variances are 9 and 1, with the errors 9 / 2 and 1 / 3. By hand, g is the difference
+/// over the root of 5, with the degrees of freedom (1)(2) 10^2 / (2 9^2 + 1 1^2).
 TEST(EffectSize, OfGroupsTakesTheirSpreadsAsTheyAre) {
   Comparison comparison;
   add_effect_of_groups(comparison, {.mean = 4.0, .standard_deviation = 3.0, .num_values = 2},
@@ -70,7 +70,7 @@ TEST(EffectSize, OfGroupsTakesTheirSpreadsAsTheyAre) {
   EXPECT_NEAR(*comparison.hedges_g_ci95.high, factor * *t.high * std::sqrt(error / 5.0), 1e-9);
 }
 
-/// Eight values that vary and 24 that do not: by the pooled standard deviation the interval was
+/// Eight values vary and 24 hardly do. With the pooled standard deviation, the interval was
 /// 0.07 to 1.69 beside a p of .20.
 TEST(EffectSize, OfGroupsAgreesWithWelchsTest) {
   const Comparison found =

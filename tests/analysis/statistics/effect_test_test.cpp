@@ -10,7 +10,7 @@
 namespace jnd::analysis {
 namespace effect_test_test {
 
-// Differences of ten pairs (Student 1908, extra hours of sleep), as in R's `sleep`:
+// The differences of ten pairs (Student 1908, extra hours of sleep), as in R's `sleep`:
 // t.test(extra ~ group, paired = TRUE) has t = -4.0621, df = 9, p = 0.002833, mean -1.58,
 // interval -2.4598858 to -0.7001142.
 const std::vector<double> kSleep = {-1.2, -2.4, -1.3, -1.3, 0.0, -1.0, -1.8, -0.8, -4.6, -1.4};
@@ -49,12 +49,12 @@ TEST(EffectTest, WithoutSpreadOrPeopleThereIsNone) {
   EXPECT_FALSE(contrast_estimate({}));
 }
 
-// By hand: t = 0.3 / 0.1 and 0.2 / 0.1 with 12 degrees of freedom; of the larger p, 1 - F(1).
+// By hand: t = 0.3 / 0.1 and 0.1 / 0.1 with 12 degrees of freedom. The larger p is 1 - F(1).
 TEST(EffectTest, EquivalenceIsTheLargerOfBothOneSidedTests) {
   const EffectEstimate estimate{0.1, 0.1, 12.0};
   EXPECT_NEAR(equivalence_p_value(estimate, 0.2), 0.1685, 1e-3);
   EXPECT_NEAR(equivalence_p_value({-0.1, 0.1, 12.0}, 0.2), 0.1685, 1e-3) << "either side";
-  // An effect at the margin itself is as likely on either side of it.
+  // An effect at the margin itself is equally likely on either side of it.
   EXPECT_NEAR(equivalence_p_value(estimate, 0.1), 0.5, 1e-12);
   EXPECT_THROW((void)equivalence_p_value(estimate, 0.0), core::Error);
 }

@@ -12,9 +12,9 @@ namespace equivalence_test_test {
 
 using Scale = EquivalenceMargin::Scale;
 
-// Differences 1, 2, 3: mean 2, standard error 1 / sqrt(3), two degrees of freedom. Student's t
-// with two has the distribution function 1/2 + t / (2 sqrt(2 + t^2)) and the 95 %
-// quantile 2.91999.
+// The differences are 1, 2, 3: mean 2, standard error 1 / sqrt(3), two degrees of freedom.
+// Student's t with two degrees of freedom has the distribution function 1/2 + t / (2 sqrt(2 +
+// t^2)) and the 95 % quantile 2.91999.
 TEST(EquivalenceTest, OfPairsIsTheLargerOfTwoOneSidedTests) {
   const std::vector<double> a = {3.0, 5.0, 7.0}, b = {2.0, 3.0, 4.0};
   const EquivalenceTest test = equivalence_test(a, b, true, {Scale::kDifference, 5.0});
@@ -26,13 +26,13 @@ TEST(EquivalenceTest, OfPairsIsTheLargerOfTwoOneSidedTests) {
   EXPECT_NEAR(*test.ci90.low, 2.0 - 2.9199856 / std::sqrt(3.0), 1e-6);
   EXPECT_NEAR(*test.ci90.high, 2.0 + 2.9199856 / std::sqrt(3.0), 1e-6);
   EXPECT_TRUE(test.is_equivalent());
-  // The interval reaches to 3.69: a margin of 3.6 is not shown.
+  // The interval reaches to 3.69, so equivalence within 3.6 is not shown.
   EXPECT_FALSE(equivalence_test(a, b, true, {Scale::kDifference, 3.6}).is_equivalent());
   EXPECT_TRUE(equivalence_test(a, b, true, {Scale::kDifference, 3.7}).is_equivalent());
 }
 
-// Welch (1947) by hand: variances 1 and 4, three values each, so that the error is sqrt(5 / 3)
-// and the degrees of freedom (5 / 3)^2 / ((1 / 9 + 16 / 9) / 2) = 50 / 17.
+// Welch (1947) by hand: with variances 1 and 4 and three values each, the error is sqrt(5 / 3),
+// and the degrees of freedom are (5 / 3)^2 / ((1 / 9 + 16 / 9) / 2) = 50 / 17.
 TEST(EquivalenceTest, OfGroupsIsByWelch) {
   const EquivalenceTest test =
       equivalence_test({1.0, 2.0, 3.0}, {0.0, 2.0, 4.0}, false, {Scale::kDifference, 1.0});

@@ -12,14 +12,16 @@ namespace jnd::analysis {
 namespace falling_ranks_test {
 
 TEST(FallingRanks, ThePValueIsTheShareOfPairingsThatFallAsMuch) {
-  // Of the 24 orders of four values one falls throughout, and three more change a neighbour.
+  // Of the 24 orders of four values, one falls throughout, and three more exchange two
+  // neighbours.
   EXPECT_NEAR(falling_ranks_p_value({1, 2, 3, 4}, {9, 7, 5, 2}).value(), 1.0 / 24.0, 1e-12);
   EXPECT_NEAR(falling_ranks_p_value({1, 2, 3, 4}, {7, 9, 5, 2}).value(), 4.0 / 24.0, 1e-12);
   EXPECT_NEAR(falling_ranks_p_value({1, 2, 3, 4}, {2, 5, 7, 9}).value(), 1.0, 1e-12);
 }
 
 TEST(FallingRanks, TiesAreCounted) {
-  // Two at each end: 1 of the 6 ways to place the two high answers puts both at the low end.
+  // There are two values at each end, and 1 of the 6 ways to place the two high answers puts
+  // both at the low end.
   EXPECT_NEAR(falling_ranks_p_value({1, 1, 2, 2}, {5, 5, 3, 3}).value(), 1.0 / 6.0, 1e-12);
 }
 
@@ -30,7 +32,8 @@ TEST(FallingRanks, NothingFallsWhereAllAreAlike) {
 }
 
 TEST(FallingRanks, AmongAnswersAtRandomOneInAHundredIsFound) {
-  // 27 trials, three at each of nine levels, as of an estimation: beyond what is exact.
+  // 27 trials, three at each of nine levels, as in an estimation, are too many for the exact
+  // test.
   core::RandomStream random(5, "falling ranks");
   int num_found = 0;
   constexpr int kNumPeople = 20000;

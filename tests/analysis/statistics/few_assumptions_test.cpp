@@ -11,7 +11,8 @@ using namespace jnd::analysis;
 using Values = std::vector<double>;
 
 TEST(KendallCorrelation, WithoutTiesIsExact) {
-  // 15 pairs, 12 of them concordant. R 4.2.2: cor.test(method = "kendall").
+  // There are 15 pairs, 12 of them concordant. The p value is from R 4.2.2: cor.test(method =
+  // "kendall").
   const Comparison found = kendall_correlation({1, 2, 3, 4, 5, 6}, {2, 1, 4, 3, 6, 5});
   EXPECT_NEAR(*found.estimate, 0.6, 1e-12);
   EXPECT_EQ(found.statistic, 12.0);
@@ -21,7 +22,7 @@ TEST(KendallCorrelation, WithoutTiesIsExact) {
 }
 
 TEST(KendallCorrelation, WithTiesIsNormalWithTheirVariance) {
-  // R 4.2.2: cor.test(method = "kendall", exact = FALSE).
+  // The values are from R 4.2.2: cor.test(method = "kendall", exact = FALSE).
   const Comparison found = kendall_correlation({1, 2, 2, 4, 5, 6}, {2, 1, 4, 4, 6, 5});
   EXPECT_NEAR(*found.estimate, 0.6428571429, 1e-9);
   EXPECT_NEAR(*found.statistic, 1.7516226, 1e-6);
@@ -34,7 +35,7 @@ TEST(KendallCorrelation, AColumnOfOneValueHasNone) {
 }
 
 TEST(SignTest, CountsSignsAndLeavesEqualPairsOut) {
-  // Differences 1, 2, 1, 4, 0: four above 0 of four, so p = 2 / 16.
+  // The differences are 1, 2, 1, 4, 0. Four of four are above 0, so p = 2 / 16.
   const Comparison found = sign_test({1, 3, 4, 8, 5}, {0, 1, 3, 4, 5});
   EXPECT_EQ(found.statistic, 4.0);
   EXPECT_EQ(found.num_zeros, 1);
@@ -44,7 +45,8 @@ TEST(SignTest, CountsSignsAndLeavesEqualPairsOut) {
 }
 
 TEST(SignTest, TheIntervalOfTheMedianIsByOrder) {
-  // Of ten, the second and the ninth: P(fewer than 2 of 10) = 11 / 1024 on either side.
+  // The ends are the second and the ninth of ten values: P(fewer than 2 of 10) = 11 / 1024 on
+  // either side.
   Values a;
   for (int i = 1; i <= 10; ++i) a.push_back(i);
   const Comparison found = sign_test(a, Values(10, 0.0));

@@ -14,7 +14,7 @@ namespace group_reference_test {
 
 using nlohmann::json;
 
-/// Computed by SciPy, and in part by R: see the script beside it.
+/// The reference was computed by SciPy, and in part by R, with the script beside it.
 const json& reference() { return test_support::reference_data("group_tests/group_tests.json"); }
 
 Comparison compared(const json& c) {

@@ -20,7 +20,8 @@ void expect_near(const std::vector<double>& found, const std::vector<double>& ex
   }
 }
 
-/// The share of studies that cross these boundaries, on either side, at equal steps.
+/// Returns the share of studies that cross these boundaries on either side, at equally spaced
+/// looks.
 double crossing(const std::vector<double>& boundaries, double drift) {
   std::vector<double> information;
   for (std::size_t look = 1; look <= boundaries.size(); ++look) {
@@ -36,7 +37,7 @@ double crossing(const std::vector<double>& boundaries, double drift) {
 }
 
 TEST(GroupSequential, SpendsWhatItsFormulasSay) {
-  // 2 (1 - Phi(2.2414 / sqrt 0.2)) and 0.05 ln(1 + (e - 1) / 2), worked by hand.
+  // Worked by hand: 2 (1 - Phi(2.2414 / sqrt 0.2)) and 0.05 ln(1 + (e - 1) / 2).
   EXPECT_NEAR(spent_alpha(SpendingFunction::kObrienFleming, 0.025, 0.2), 5.39e-7, 0.01e-7);
   EXPECT_NEAR(spent_alpha(SpendingFunction::kPocock, 0.05, 0.5), 0.031006, 1e-6);
   for (const auto spending : {SpendingFunction::kObrienFleming, SpendingFunction::kPocock}) {
@@ -46,15 +47,16 @@ TEST(GroupSequential, SpendsWhatItsFormulasSay) {
   EXPECT_THROW((void)spent_alpha(SpendingFunction::kPocock, 0.0, 0.5), core::Error);
 }
 
-// Boundaries of five equal looks at two-sided 0.05, as the programs of Reboussin, DeMets, Kim
-// and Lan (2000, Controlled Clinical Trials 21, 190) give them.
+// The boundaries are those of five equal looks at two-sided 0.05, as the programs of Reboussin,
+// DeMets, Kim and Lan (2000, Controlled Clinical Trials 21, 190) give them.
 TEST(GroupSequential, HasTheBoundariesOfLanAndDeMets) {
   const std::vector<int> looks = {10, 20, 30, 40, 50};
   expect_near(spending_boundaries(looks, SpendingFunction::kObrienFleming, 0.05, true),
               {4.8769, 3.3569, 2.6803, 2.2898, 2.0310}, 2e-4);
   expect_near(spending_boundaries(looks, SpendingFunction::kPocock, 0.05, true),
               {2.4380, 2.4268, 2.4101, 2.3966, 2.3859}, 2e-4);
-  // One side of 0.025, of which the other takes next to nothing away.
+  // One side of 0.025 has the same boundaries, because the other side contributes next to
+  // nothing.
   expect_near(spending_boundaries(looks, SpendingFunction::kObrienFleming, 0.025, false),
               {4.8769, 3.3569, 2.6803, 2.2898, 2.0310}, 2e-4);
 }
@@ -66,8 +68,8 @@ TEST(GroupSequential, OneLookIsAnOrdinaryTest) {
               {1.644854}, 1e-6);
 }
 
-// Constants of tests with boundaries C and C sqrt(K / k), two-sided 0.05: Jennison and Turnbull
-// (2000), tables 2.1 and 2.3.
+// The constants are those of tests with boundaries C and C sqrt(K / k), two-sided 0.05:
+// Jennison and Turnbull (2000), tables 2.1 and 2.3.
 TEST(GroupSequential, CrossesPublishedBoundariesInFivePercentOfStudies) {
   const std::vector<std::pair<int, double>> pocock = {
       {2, 2.178}, {3, 2.289}, {4, 2.361}, {5, 2.413}, {10, 2.555}};
@@ -87,7 +89,8 @@ TEST(GroupSequential, CrossesPublishedBoundariesInFivePercentOfStudies) {
   }
 }
 
-// The same tables' largest information for a power of 0.9 over that of a study without looks.
+// The same tables give the largest information for a power of 0.9, relative to a study without
+// looks.
 TEST(GroupSequential, HasThePublishedPowerUnderAnEffect) {
   const double fixed = 1.959964 + 1.281552;
   EXPECT_NEAR(crossing(std::vector<double>(5, 2.413), fixed * std::sqrt(1.207)), 0.9, 1e-3);

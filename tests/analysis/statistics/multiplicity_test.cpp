@@ -10,7 +10,7 @@ namespace jnd::analysis {
 namespace multiplicity_test {
 
 TEST(HolmAdjusted, IsWorkedByHandAndKeepsTheOrderGiven) {
-  // Ascending 0.01, 0.02, 0.04 times 3, 2, 1, never falling: 0.03, 0.04, 0.04.
+  // In ascending order, 0.01, 0.02, 0.04 times 3, 2, 1, never falling, are 0.03, 0.04, 0.04.
   const auto adjusted = holm_adjusted({0.04, 0.01, 0.02});
   EXPECT_DOUBLE_EQ(adjusted[0].value(), 0.04);
   EXPECT_DOUBLE_EQ(adjusted[1].value(), 0.03);

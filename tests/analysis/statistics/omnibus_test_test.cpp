@@ -24,20 +24,22 @@ const RepeatedMeasures kFive = measured(
     {{4.1, 5.2, 6.9}, {3.0, 3.8, 6.1}, {5.5, 5.0, 7.7}, {4.4, 6.1, 6.0}, {2.9, 4.0, 5.8}});
 
 TEST(RepeatedMeasuresAnova, OfTwoConditionsIsThePairedTestSquared) {
-  // Differences 1, 2, 1, 4: t = 2 sqrt 2 with 3 degrees of freedom, so F = 8 with 1 and 3.
+  // The differences 1, 2, 1, 4 give t = 2 sqrt 2 with 3 degrees of freedom, so F = 8 with 1 and
+  // 3.
   const OmnibusTest test = repeated_measures_anova(measured({{1, 0}, {3, 1}, {4, 3}, {8, 4}}));
   EXPECT_NEAR(*test.statistic, 8.0, 1e-12);
   EXPECT_EQ(test.degrees_of_freedom, 1.0);
   EXPECT_EQ(test.error_degrees_of_freedom, 3.0);
   EXPECT_NEAR(test.greenhouse_geisser->epsilon, 1.0, 1e-12);
   EXPECT_NEAR(test.greenhouse_geisser->p_value, *test.p_value, 1e-12);
-  // Sums of squares: conditions 8, errors 3, people 2 * (1/4 + ...) of means .5, 2, 3.5, 6.
+  // The sums of squares are 8 for conditions, 3 for errors, and 2 * (1/4 + ...) for people with
+  // the means .5, 2, 3.5, 6.
   EXPECT_NEAR(*test.partial_eta_squared, 8.0 / 11.0, 1e-12);
   EXPECT_NEAR(*test.generalized_eta_squared, 8.0 / (11.0 + 33.0), 1e-12);
 }
 
 TEST(RepeatedMeasuresAnova, OfThreeConditionsIsWhatRSays) {
-  // R 4.2.2: anova(lm(d ~ 1), X = ~1, test = "Spherical").
+  // The values are from R 4.2.2: anova(lm(d ~ 1), X = ~1, test = "Spherical").
   const OmnibusTest test = repeated_measures_anova(kFive);
   EXPECT_NEAR(*test.statistic, 22.48157, 1e-5);
   EXPECT_NEAR(*test.p_value, 0.0005205534455, 1e-12);

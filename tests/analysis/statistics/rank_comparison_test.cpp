@@ -12,14 +12,14 @@ namespace rank_comparison_test {
 using testing::HasSubstr;
 
 TEST(RankSum, IsExactAndWorkedByHand) {
-  // Ranks of a: 3, 5, 6 of 1 to 6, sum 14, U = 14 - 6 = 8 of 9. Of 20 arrangements U = 9 comes
-  // once and U = 8 once: p = 2 * 2 / 20.
+  // The ranks of a are 3, 5, 6 of 1 to 6, so the sum is 14, and U = 14 - 6 = 8 of 9. Of 20
+  // arrangements, U = 9 comes once and U = 8 once: p = 2 * 2 / 20.
   const Comparison result = rank_sum_test({3, 5, 6}, {1, 2, 4});
   EXPECT_EQ(result.status, FitStatus::kOk);
   EXPECT_EQ(*result.statistic, 8.0);
   EXPECT_DOUBLE_EQ(*result.p_value, 0.2);
   EXPECT_NEAR(*result.rank_biserial, 2.0 * 8.0 / 9.0 - 1.0, 1e-15);
-  // Differences -1, 1, 1, 2, 2, 3, 4, 4, 5.
+  // The differences are -1, 1, 1, 2, 2, 3, 4, 4, 5.
   EXPECT_EQ(*result.hodges_lehmann, 2.0);
   EXPECT_FALSE(result.hodges_lehmann_ci95.low) << "three and three can reject nothing";
   EXPECT_THAT(result.method, HasSubstr("exact"));
@@ -55,7 +55,7 @@ TEST(RankSum, SaysWhyThereIsNone) {
 }
 
 TEST(Spearman, IsPearsonsCorrelationOfTheRanks) {
-  // Ranks 1, 2.5, 2.5, 4 against 2, 1, 3, 4.
+  // The ranks are 1, 2.5, 2.5, 4 and 2, 1, 3, 4.
   const Comparison ranks = spearman_correlation({10, 20, 20, 70}, {5, 1, 6, 9});
   const Comparison by_hand = pearson_correlation({1, 2.5, 2.5, 4}, {2, 1, 3, 4});
   EXPECT_DOUBLE_EQ(*ranks.estimate, *by_hand.estimate);
@@ -77,7 +77,7 @@ TEST(Spearman, FullAgreementHasAPValueAndNoInterval) {
   EXPECT_EQ(*full.statistic, 0.0);
   EXPECT_EQ(full.reason, "");
   EXPECT_FALSE(full.ci95.low || full.ci95.high);
-  // Of 15 with a tie of three: 2 * 3! of 15! pairings.
+  // With a tie of three among 15 values, 2 * 3! of 15! pairings are as extreme.
   std::vector<double> many = {1, 1, 1};
   for (int i = 2; many.size() < 15; ++i) many.push_back(i);
   const Comparison of_many = spearman_correlation(many, many);
@@ -113,14 +113,14 @@ TEST(RankSum, TiesAreExactUpToFiftyValues) {
   std::vector<double> a(25, 1.0), b(25, 1.0);
   b.back() = 2.0;
   EXPECT_THAT(rank_sum_test(a, b).method, HasSubstr("exact"));
-  // One of all is larger, and it is in b: either group might have it.
+  // The one larger value is in b, and it could as well be in the other group.
   EXPECT_NEAR(*rank_sum_test(a, b).p_value, 1.0, 1e-12);
   b.push_back(2.0);
   EXPECT_THAT(rank_sum_test(a, b).method, HasSubstr("corrected for ties and continuity"));
 }
 
 TEST(Wilcoxon, NamesItsStatisticsAndWhatWasLeftOut) {
-  // R's `sleep`: V = 0 of nine differences, one of which is 0.
+  // In R's `sleep`, V = 0 for nine differences, after one difference of 0 is left out.
   const Comparison sleep = wilcoxon_test({0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0},
                                          {1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4});
   EXPECT_DOUBLE_EQ(*sleep.p_value, 2.0 / 512.0);
@@ -138,7 +138,7 @@ TEST(Wilcoxon, DifferencesThatOnlyRoundingTellsApartAreTied) {
   EXPECT_EQ(wilcoxon_test({0.3, 1.0}, {0.1 + 0.2, 0.0}).num_zeros, 1);
 }
 
-/// One pair of large values makes no differences of small ones 0.
+/// One pair of large values must not turn small differences into 0.
 TEST(Wilcoxon, EveryDifferenceIsAsExactAsItsOwnPair) {
   std::vector<double> a = {1e12}, b = {1e12 - 5.0};
   for (int i = 1; i <= 8; ++i) {

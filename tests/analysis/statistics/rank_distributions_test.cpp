@@ -24,7 +24,7 @@ TEST(Ranks, TiesShareTheMeanOfTheirsDoubled) {
 }
 
 TEST(RankDistributions, SignsOfTiedRanksAreCountedByHand) {
-  // Doubled ranks 3, 3, 6 of |1|, |1|, |2|: sums 0, 3, 3, 6, 6, 9, 9, 12.
+  // The doubled ranks of |1|, |1|, |2| are 3, 3, 6, with the sums 0, 3, 3, 6, 6, 9, 9, 12.
   const RankDistribution signs = signed_rank_distribution({3, 3, 6});
   EXPECT_DOUBLE_EQ(signs.up_to(0.0), 1.0 / 8.0);
   EXPECT_DOUBLE_EQ(signs.up_to(3.0), 3.0 / 8.0);
@@ -34,7 +34,8 @@ TEST(RankDistributions, SignsOfTiedRanksAreCountedByHand) {
 }
 
 TEST(RankDistributions, SharesOfTiedRanksAreCountedByHandAndHaveUnlikeTails) {
-  // Two of the doubled ranks 2, 5, 5, 8: sums 7, 7, 10, 10, 13, 13. One of 2, 6, 6, 6: 2, 6.
+  // Two of the doubled ranks 2, 5, 5, 8 have the sums 7, 7, 10, 10, 13, 13. One of 2, 6, 6, 6
+  // is 2 or 6.
   const RankDistribution two = rank_sum_distribution({2, 5, 5, 8}, 2);
   EXPECT_NEAR(two.up_to(7.0), 2.0 / 6.0, 1e-15);
   EXPECT_NEAR(two.from(10.0), 4.0 / 6.0, 1e-15);
@@ -44,7 +45,7 @@ TEST(RankDistributions, SharesOfTiedRanksAreCountedByHandAndHaveUnlikeTails) {
 }
 
 TEST(RankDistributions, PairingsOfThreeAreCountedByHand) {
-  // Sums of products of 1, 2, 3 with their six orders: 14, 13, 13, 11, 11, 10.
+  // The sums of products of 1, 2, 3 with their six orders are 14, 13, 13, 11, 11, 10.
   const RankDistribution pairs = rank_product_distribution({1, 2, 3}, {1, 2, 3});
   EXPECT_NEAR(pairs.from(14.0), 1.0 / 6.0, 1e-15);
   EXPECT_NEAR(pairs.from(13.0), 3.0 / 6.0, 1e-15);
@@ -71,7 +72,7 @@ TEST(RankDistributions, EveryPairingIsCountedWhateverTheTies) {
 }
 
 TEST(RankDistributions, CriticalValuesOfSpearmanAreThePublishedOnes) {
-  // Zar (1972), JASA 67, table 1: the smallest r with p <= 5 and 1 %, two-sided.
+  // Zar (1972), JASA 67, table 1, gives the smallest r with p <= 5 and 1 %, two-sided.
   const struct {
     std::size_t n;
     double at_5, at_1;
@@ -85,7 +86,7 @@ TEST(RankDistributions, CriticalValuesOfSpearmanAreThePublishedOnes) {
     for (const auto& [level, expected] : {std::pair{0.05, at_5}, {0.01, at_1}}) {
       std::int64_t sum = most;
       while (pairs.two_sided(static_cast<double>(sum - 1)) <= level) --sum;
-      // Sums of squares differ by twice the sum of products.
+      // The sums of squares differ by twice the sum of products.
       const double r = 1.0 - 12.0 * static_cast<double>(most - sum) / cubes;
       EXPECT_NEAR(r, expected, 6e-4) << n << ' ' << level;
     }

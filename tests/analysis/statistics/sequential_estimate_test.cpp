@@ -31,7 +31,8 @@ TEST(SequentialEstimate, AtTheFirstLookIsThatOfStudentsTest) {
   EXPECT_NEAR(found.p_value(), p_value_of(strong, Tail::kTwoSided), 1e-12);
 }
 
-// The same integrals by R 4.2.2: `integrate` over the first look, `pt` with a noncentrality.
+// R 4.2.2 computes the same integrals: `integrate` over the first look, and `pt` with a
+// noncentrality.
 TEST(SequentialEstimate, AtTheSecondLookIsWhatRIntegrates) {
   const SequentialEstimate found = estimate_of(two_looks(), {kFirst, kSecond});
   EXPECT_NEAR(found.probability_above(0.0), 0.01078709, 2e-7);
@@ -43,7 +44,7 @@ TEST(SequentialEstimate, AtTheSecondLookIsWhatRIntegrates) {
 
 TEST(SequentialEstimate, IsBelowAlphaJustWhereABoundaryWasCrossed) {
   const SequentialBoundaries boundaries = two_looks();
-  // Nominal level 0.0490 of t with 23 degrees of freedom: 2.079.
+  // The nominal level is 0.0490, at which t with 23 degrees of freedom is 2.079.
   for (const double t : {2.0, 2.07, 2.09, 2.2}) {
     const SequentialOutcome outcome =
         sequential_outcome(boundaries, {kFirst, EffectEstimate{t * 0.1, 0.1, 23.0}});
@@ -88,8 +89,8 @@ TEST(SequentialEstimate, GrowsWithTheEffectFarOut) {
   EXPECT_NEAR(last, 1.0, 1e-9);
 }
 
-// `./dev coverage 1000 sequential` has the table; here the smallest study that could tell 95
-// from 85 %: 300 of them, standard error 1.3 %.
+// `./dev coverage 1000 sequential` makes the table. This test takes 300 studies with a standard
+// error of 1.3 %, the fewest that can tell 95 from 85 %.
 TEST(SequentialEstimate, HoldsTheTruthOfStudiesThatStopEarly) {
   if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
   const SequentialBoundaries boundaries =

@@ -11,7 +11,7 @@ SequentialBoundaries two_looks(Tail tail = Tail::kTwoSided) {
   return boundaries_of({.looks = {12, 24}, .tail = tail});
 }
 
-/// With 11 degrees of freedom.
+/// Returns an effect with this t and 11 degrees of freedom.
 EffectEstimate with_t(double t) { return {t * 0.1, 0.1, 11.0}; }
 
 TEST(SequentialTest, HasNominalLevelsOfItsBoundaries) {
@@ -24,7 +24,7 @@ TEST(SequentialTest, HasNominalLevelsOfItsBoundaries) {
 }
 
 TEST(SequentialTest, ComparesThePValueOfTWithTheNominalLevel) {
-  // t with 11 degrees of freedom has p = 0.00305 at 3.76, far beyond z = 2.96.
+  // t with 11 degrees of freedom has p = 0.00305 at 3.76, which is far beyond z = 2.96.
   EXPECT_FALSE(crosses(two_looks(), 0, with_t(3.70)));
   EXPECT_TRUE(crosses(two_looks(), 0, with_t(3.82)));
   EXPECT_TRUE(crosses(two_looks(), 0, with_t(-3.82)));
@@ -57,8 +57,8 @@ TEST(SequentialTest, TakesTheFirstPeopleByGroup) {
   EXPECT_FALSE(estimate_of_first(people, 4, 2)) << "one person in a group tells no spread";
 }
 
-// The significance level approach holds the level of few people, too: in 10,000 studies without
-// an effect the standard error of 5 % is 0.22 %.
+// The significance level approach holds its level with few people, too. In 10,000 studies
+// without an effect, the standard error of 5 % is 0.22 %.
 TEST(SequentialTest, FindsWhatIsNotThereInAtMostFivePercent) {
   for (const auto spending : {SpendingFunction::kObrienFleming, SpendingFunction::kPocock}) {
     const SequentialBoundaries boundaries =

@@ -9,7 +9,7 @@ namespace jnd::analysis {
 namespace signed_rank_test {
 
 TEST(SignedRank, DistributionOfThreeIsCountedByHand) {
-  // Sums of subsets of {1, 2, 3}: 0, 1, 2, 3, 3, 4, 5, 6.
+  // The sums of subsets of {1, 2, 3} are 0, 1, 2, 3, 3, 4, 5, 6.
   EXPECT_DOUBLE_EQ(signed_rank_cdf(3, 0.0), 1.0 / 8.0);
   EXPECT_DOUBLE_EQ(signed_rank_cdf(3, 2.9), 3.0 / 8.0);
   EXPECT_DOUBLE_EQ(signed_rank_cdf(3, 3.0), 5.0 / 8.0);
@@ -36,14 +36,15 @@ TEST(SignedRank, TiesShareTheirRankAndZerosAreDropped) {
   EXPECT_DOUBLE_EQ(ranks.negative_sum, 2.5);
   EXPECT_TRUE(ranks.exact);
   EXPECT_TRUE(ranks.has_ties);
-  // Ranks 1, 2.5, 2.5, 4: of 16 sums of the negative ones 0, 1, 2.5, 2.5 are 2.5 or less.
+  // The ranks are 1, 2.5, 2.5, 4. Of 16 sums of the negative ranks, 0, 1, 2.5, 2.5 are 2.5 or
+  // less.
   EXPECT_DOUBLE_EQ(ranks.p_value, 2.0 * 4.0 / 16.0);
 }
 
 TEST(SignedRank, EqualDifferencesHaveTheSmallestPValueThereIs) {
   EXPECT_DOUBLE_EQ(signed_ranks({1, 1, 1, 1, 1}).p_value, 0.0625);
   EXPECT_DOUBLE_EQ(signed_ranks({-1, -1, -1, -1, -1, -1}).p_value, 2.0 / 64.0);
-  // By as much as rounding leaves of them.
+  // Values that differ only by rounding are ties.
   const double tenth = 1.3 - 1.2, other = 0.4 - 0.3;
   ASSERT_NE(tenth, other);
   const SignedRanks ranks =
@@ -57,7 +58,7 @@ TEST(SignedRank, BeyondFiftyTheNormalOneIsCorrectedForTiesAndContinuity) {
   std::fill(differences.begin(), differences.begin() + 20, -1.0);
   const SignedRanks ranks = signed_ranks(differences);
   EXPECT_FALSE(ranks.exact);
-  // All ranks 26: V = 31 * 26, mean 51 * 26 / 2, variance 51 * 26^2 / 4.
+  // All ranks are 26: V = 31 * 26, mean 51 * 26 / 2, variance 51 * 26^2 / 4.
   const double z = (31.0 * 26.0 - 51.0 * 13.0 - 0.5) / std::sqrt(51.0 * 676.0 / 4.0);
   EXPECT_NEAR(ranks.p_value, std::erfc(z / std::sqrt(2.0)), 1e-13);
 }

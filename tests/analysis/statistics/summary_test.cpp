@@ -77,8 +77,8 @@ TEST(ResampleParticipants, GivesNoIntervalForFewerThanFive) {
   EXPECT_TRUE(resample_participants(5, 100, 1, first).ci95.low.has_value());
 }
 
-/// Of the geometric mean: the logarithms 0, ..., 7 have mean 3.5 and standard deviation
-/// sqrt(6), and t is 2.3646 with 7 degrees of freedom.
+/// For the geometric mean, the logarithms 0, ..., 7 have the mean 3.5 and the standard
+/// deviation sqrt(6), and t is 2.3646 with 7 degrees of freedom.
 TEST(ResampleFactor, GivesTheTIntervalOfAGeometricMean) {
   const auto geometric_mean = [](const std::vector<std::size_t>& drawn) {
     double sum = 0.0;
@@ -92,7 +92,7 @@ TEST(ResampleFactor, GivesTheTIntervalOfAGeometricMean) {
   EXPECT_FALSE(resample_factor(4, 100, 1, 1.0, geometric_mean).ci95.low);
 }
 
-/// As long as hardly any resample is without bound, those are no reason for an open end.
+/// A few resamples without bound are no reason for an open end.
 TEST(ResampleFactor, ManyInfiniteResamplesOpenTheEnd) {
   const auto beyond = [](std::size_t many) {
     return [many](const std::vector<std::size_t>& drawn) -> std::optional<double> {
@@ -103,8 +103,8 @@ TEST(ResampleFactor, ManyInfiniteResamplesOpenTheEnd) {
       return 1.0 + 0.1 * static_cast<double>(num_first);
     };
   };
-  // Of 10 drawn from 10, one of them appears twice or more in 26 %, five times or more in 0.2
-  // %.
+  // If 10 are drawn from 10, a given one appears twice or more in 26 %, and five times or more
+  // in 0.2 %.
   EXPECT_FALSE(resample_factor(10, 2000, 1, 1.1, beyond(2)).ci95.high);
   EXPECT_TRUE(resample_factor(10, 2000, 1, 1.1, beyond(5)).ci95.high);
   EXPECT_THROW((void)resample_factor(10, 10, 1, 0.0, beyond(5)), core::Error);

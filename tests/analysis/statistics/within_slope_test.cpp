@@ -6,7 +6,7 @@ namespace jnd::analysis {
 namespace within_slope_test {
 
 TEST(WithinSlope, IsBlindToWhatDiffersBetweenGroups) {
-  // 2 x in each group, one of them 100 higher and further right.
+  // Each group has 2 x, and one of them lies 100 lower and further right.
   const auto slope = within_slope({{{1, 1.0}, 0.0, 0.0},
                                    {{1, 1.0}, 1.0, 2.0},
                                    {{1, 2.0}, 10.0, -100.0},
@@ -16,7 +16,8 @@ TEST(WithinSlope, IsBlindToWhatDiffersBetweenGroups) {
 }
 
 TEST(WithinSlope, WeighsGroupsByTheSpreadOfX) {
-  // Slope 1 over a spread of 1 (sum of squares 0.5), slope 0 over a spread of 2 (2).
+  // One group has the slope 1 over a spread of 1 (sum of squares 0.5), and the other the slope
+  // 0 over a spread of 2 (2).
   const auto slope = within_slope(
       {{{1, 1.0}, 0.0, 0.0}, {{1, 1.0}, 1.0, 1.0}, {{2, 1.0}, 0.0, 5.0}, {{2, 1.0}, 2.0, 5.0}});
   EXPECT_NEAR(slope.value(), 0.5 / 2.5, 1e-12);
