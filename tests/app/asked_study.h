@@ -4,7 +4,7 @@
 
 namespace jnd::app {
 
-/// A rating and a comparison, both with questions after every trial.
+/// A study with a rating block and a comparison block. Both ask questions after every trial.
 inline const std::string kAskedStudy = R"json({
   "format": 1,
   "name": "asked",

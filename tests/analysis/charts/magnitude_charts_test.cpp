@@ -81,7 +81,7 @@ TEST_F(MagnitudeChartsTest, AParticipantsMeansHaveTheSpreadOfTheirOwnAnswers) {
   const ChartSet& estimation = sets()[0];
   ASSERT_EQ(estimation.participants.size(), 2U);
   const ChartSeries& means = series_of(estimation.participants[0], Look::kAnswers);
-  // P01 said 1 and 3 at intensity 1: mean 2, sd sqrt 2.
+  // P01 said 1 and 3 at intensity 1, so the mean is 2 and the sd sqrt 2.
   EXPECT_NEAR(column_of(estimation, means, "magnitude")[0], 2.0, 1e-12);
   EXPECT_NEAR(column_of(estimation, means, "low")[0], 2.0 - std::sqrt(2.0), 1e-12);
   // Each production has one answer.

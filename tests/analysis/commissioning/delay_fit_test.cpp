@@ -75,7 +75,8 @@ TEST(DelayFit, DampingIsNoDelay) {
   const DelayFit known = fit_delay(windows, kPeriod_s, kPushTicks, 5.0);
   EXPECT_NEAR(known.delay_s.value, device.delay_s, 5e-6);
   EXPECT_NEAR(known.mass_per_gain_kg.value, 0.3, 0.0005);
-  // damping / (w^2 mass) = 5 / (209.44^2 0.3) = 0.38 ms.
+  // The neglected damping changes the delay by damping / (w^2 mass) = 5 / (209.44^2 0.3) = 0.38
+  // ms.
   const DelayFit unknown = fit_delay(windows, kPeriod_s, kPushTicks, 0.0);
   EXPECT_NEAR(unknown.delay_s.value, device.delay_s - 0.00038, 2e-5);
 }

@@ -62,7 +62,7 @@ std::vector<GuidedWay> ways_of(const Truth& truth, const Eigen::Vector3d& up, do
 TEST(ForceFit, FindsEverythingWhereNothingIsNoisy) {
   const Truth truth;
   core::RandomStream random(1, "force");
-  // The device's y points up.
+  // The device's y axis points up.
   const Eigen::Vector3d up = Eigen::Vector3d::UnitY();
   const ForceFit fit = fit_force(ways_of(truth, up, 0.0, random), up, kMassPerGain_kg, 0.0);
   EXPECT_NEAR(fit.gain.value, truth.gain, 1e-9);
@@ -87,7 +87,7 @@ TEST(ForceFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
     damping += fit.damping_n_s_per_m.holds(truth.damping_n_s_per_m) ? 1 : 0;
     friction += fit.friction_n.holds(truth.friction_n) ? 1 : 0;
   }
-  // Three standard errors of a proportion of 0.95.
+  // The tolerance is three standard errors of a proportion of 0.95.
   for (const int held : {gain, weight, damping, friction}) {
     EXPECT_NEAR(held / static_cast<double>(kStudies), 0.95, 0.015);
   }

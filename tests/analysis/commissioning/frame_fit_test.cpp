@@ -30,7 +30,7 @@ std::vector<TouchedMark> touched(const Eigen::Matrix3d& rotation,
 }
 
 TEST(FrameFit, FindsAQuarterTurnExactly) {
-  // The device's x is the workspace's y.
+  // The device's x axis is the workspace's y axis.
   Eigen::Matrix3d rotation;
   rotation << 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
   const Eigen::Vector3d offset_m(0.3, -0.2, 0.05);

@@ -45,7 +45,7 @@ TEST(SingleMass, SwingsGrowAboveItsLimitAndDecayBelow) {
     const double limit_n_per_m = stiffness_limit_n_per_m(device);
     EXPECT_GT(growth_by_steps(device, 1.1 * limit_n_per_m), 1.0) << limit_n_per_m;
     EXPECT_LT(growth_by_steps(device, 0.9 * limit_n_per_m), 1.0) << limit_n_per_m;
-    // The rule of thumb (Gil et al. 2004).
+    // The rule of thumb is from Gil et al. (2004).
     const double thumb_n_per_m =
         device.damping_n_s_per_m / (device.delay_s + 0.5 * device.period_s);
     EXPECT_NEAR(limit_n_per_m, thumb_n_per_m, 0.1 * thumb_n_per_m);

@@ -488,7 +488,7 @@ TEST_P(RecordingsExportTest, HaveARowASampleAndTheirColumnsInTheCodebook) {
   EXPECT_EQ(told, std::set<std::string>(samples.columns().begin(), samples.columns().end()));
 }
 
-/// A study of blocks with factors.
+/// Exports a study of blocks with factors.
 class TidyExportTest : public ::testing::Test {
  protected:
   TidyExportTest() {

@@ -125,7 +125,7 @@ class Hdf5ExportTest : public ::testing::Test {
     return letters;
   }
 
-  static constexpr std::int64_t kNumTicks = 40000;  // More than two chunks.
+  static constexpr std::int64_t kNumTicks = 40000;  // So many ticks fill more than two chunks.
   HandMadeStudy study_;
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };

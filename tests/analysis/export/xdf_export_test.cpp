@@ -161,7 +161,8 @@ TEST_F(XdfExportTest, ADamagedStreamIsToldAndTheRestIsThere) {
     std::fstream damaged(core::stream_files(recording()).front(),
                          std::ios::in | std::ios::out | std::ios::binary);
     std::string bytes{std::istreambuf_iterator<char>(damaged), {}};
-    const std::size_t at = bytes.find("\x28\xB5\x2F\xFD");  // Where a block of zstd begins.
+    // A block of zstd begins with these bytes.
+    const std::size_t at = bytes.find("\x28\xB5\x2F\xFD");
     ASSERT_NE(at, std::string::npos);
     damaged.clear();
     damaged.seekp(static_cast<std::streamoff>(at + 12));

@@ -168,7 +168,8 @@ TEST(Existence, APowerFitIsOkJustWhereAFineScanHasAnInteriorOptimum) {
     }
     // For each exponent, the best k > 0 has a closed form.
     double interior = kInfinity, edge = 0.0;
-    for (const Magnitude& row : data) edge += row.magnitude * row.magnitude;  // k = 0
+    // This is the misfit at k = 0.
+    for (const Magnitude& row : data) edge += row.magnitude * row.magnitude;
     for (double a = -200.0; a <= 200.0; a += 0.02) {
       const double top = a > 0.0 ? 4.0 : 1.0;
       double products = 0.0, squares = 0.0, sum = 0.0;

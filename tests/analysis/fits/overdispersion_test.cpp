@@ -96,7 +96,7 @@ TEST(Overdispersion, IntervalsHoldTheTruthThatBinomialOnesMiss) {
       const PsychometricFit fit =
           fit_psychometric(rows, {.reference = 1.0, .free_pse = true, .overdispersion = how});
       ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
-      // The noise flattens the curve by a known factor: z / sqrt(1 + noise^2).
+      // The noise flattens the curve by a known factor, z / sqrt(1 + noise^2).
       const double truth = std::expm1(std::log1p(0.4) * std::sqrt(1.0 + 0.4 * 0.4));
       const Interval& ends = fit.weber_fraction_ci95;
       num[place++] += ends.low.value_or(0.0) <= truth && truth <= ends.high.value_or(1e9);

@@ -9,7 +9,7 @@
 namespace jnd::analysis {
 namespace design_test {
 
-/// Six rows: u = 1..6, condition B A C B A C, day 2 10 2 10 2 10.
+/// Returns six rows: u = 1..6, condition B A C B A C, day 2 10 2 10 2 10.
 TrialTable six_rows() {
   return parse_trial_table(
       "u,condition,day,y\n1,B,2,1\n2,A,10,0\n3,C,2,1\n4,B,10,1\n5,A,2,0\n6,C,10,1\n", "six.csv",

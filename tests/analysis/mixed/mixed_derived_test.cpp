@@ -8,7 +8,7 @@
 namespace jnd::analysis {
 namespace mixed_derived_test {
 
-constexpr double kQ75 = 0.6744897501960817;  ///< Phi^-1(0.75)
+constexpr double kQ75 = 0.6744897501960817;  ///< This is Phi^-1(0.75).
 
 TrialTable rows() {
   return parse_trial_table("u,c,w,y\n1,A,3,0\n2,A,5,1\n4,B,3,0\n8,B,5,1\n", "t.csv",

@@ -133,7 +133,7 @@ TEST(MixedFits, RedrawnAnswersDependOnTheSeedAlone) {
   EXPECT_NE(one, refit.redrawn(4, 5));
 }
 
-/// Redrawn slopes scatter about the fitted one as its standard error says.
+/// The slopes of redrawn answers scatter about the fitted slope as its standard error says.
 TEST(MixedFits, RedrawnAnswersScatterAsTheStandardErrorSays) {
   const MixedRefit refit(data_of(three_people(), "u + c", "1 | p"), {});
   double sum = 0.0, squares = 0.0;

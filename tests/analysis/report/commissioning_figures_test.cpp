@@ -68,7 +68,8 @@ TEST(CommissioningFigures, ResistanceIsWhatTheDeviceOpposesWithoutMassAndLoad) {
 
 TEST(CommissioningFigures, AxesAreThoseOfTheWorkspaceWhereTheFrameIsKnown) {
   FrameFit frame;
-  frame.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // The device's x is the workspace's y.
+  // The device's x axis is the workspace's y axis.
+  frame.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   const std::vector<Figure> figures =
       commissioning_figures({.frame = frame, .force = force_by_hand()});
   const Figure* const resistance = find(figures, "device_resistance");

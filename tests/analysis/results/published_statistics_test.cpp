@@ -45,7 +45,7 @@ TEST_F(PublishedStatisticsTest, OwnWeberFractionsAreLeastSquaresWithThePseAtTheR
   EXPECT_NEAR(*value(own), 0.5 * (eight + nine), 1e-8);
   own.summary = Summary::kStandardDeviation;
   EXPECT_NEAR(*value(own), (eight - nine) / std::sqrt(2.0), 1e-8);
-  // Pooled, 17 of 20 are right.
+  // In the pooled answers, 17 of 20 are right.
   constexpr double kAtSeventeen = 1.0364333894937898;
   EXPECT_NEAR(*value({.kind = Kind::kPooledWeberFraction, .block = "thin"}),
               fraction_at(kAtSeventeen), 1e-8);

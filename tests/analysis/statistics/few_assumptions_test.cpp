@@ -21,7 +21,7 @@ TEST(KendallCorrelation, WithoutTiesIsExact) {
 }
 
 TEST(KendallCorrelation, WithTiesIsNormalWithTheirVariance) {
-  // R 4.2.2: cor.test(method = "kendall", exact = FALSE).
+  // The values are from R 4.2.2: cor.test(method = "kendall", exact = FALSE).
   const Comparison found = kendall_correlation({1, 2, 2, 4, 5, 6}, {2, 1, 4, 4, 6, 5});
   EXPECT_NEAR(*found.estimate, 0.6428571429, 1e-9);
   EXPECT_NEAR(*found.statistic, 1.7516226, 1e-6);

@@ -39,7 +39,7 @@ TEST(RepeatedMeasuresAnova, OfTwoConditionsIsThePairedTestSquared) {
 }
 
 TEST(RepeatedMeasuresAnova, OfThreeConditionsIsWhatRSays) {
-  // R 4.2.2: anova(lm(d ~ 1), X = ~1, test = "Spherical").
+  // The values are from R 4.2.2: anova(lm(d ~ 1), X = ~1, test = "Spherical").
   const OmnibusTest test = repeated_measures_anova(kFive);
   EXPECT_NEAR(*test.statistic, 22.48157, 1e-5);
   EXPECT_NEAR(*test.p_value, 0.0005205534455, 1e-12);

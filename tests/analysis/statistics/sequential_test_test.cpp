@@ -24,7 +24,7 @@ TEST(SequentialTest, HasNominalLevelsOfItsBoundaries) {
 }
 
 TEST(SequentialTest, ComparesThePValueOfTWithTheNominalLevel) {
-  // t with 11 degrees of freedom has p = 0.00305 at 3.76, far beyond z = 2.96.
+  // t with 11 degrees of freedom has p = 0.00305 at 3.76, which is far beyond z = 2.96.
   EXPECT_FALSE(crosses(two_looks(), 0, with_t(3.70)));
   EXPECT_TRUE(crosses(two_looks(), 0, with_t(3.82)));
   EXPECT_TRUE(crosses(two_looks(), 0, with_t(-3.82)));

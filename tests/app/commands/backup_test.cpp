@@ -98,7 +98,7 @@ TEST_F(BackupCommandTest, WithdrawDeletesHereAndInTheBackup) {
     EXPECT_EQ(jnd({"verify", study}).exit_code, 0);
   }
   EXPECT_EQ(jnd({"results", "a.study"}).exit_code, 0);
-  // The pseudonym is not given again.
+  // The program does not give the pseudonym to another person.
   const ProgramOutcome again = jnd({"run", "tiny.json", "--study", "a.study", "--participant",
                                     "P01", "--headless", "--seed", "7"});
   EXPECT_EQ(again.exit_code, 1);

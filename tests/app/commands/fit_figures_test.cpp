@@ -38,7 +38,7 @@ TEST(FitFigures, DrawTheWeberCurveBetweenItsEnds) {
   EXPECT_DOUBLE_EQ(both.probability(2.0), 0.5);
   EXPECT_NEAR(both.probability(3.0), 0.1 + 0.8 * 0.84134474606854293, 1e-12);
   EXPECT_DOUBLE_EQ(both.probability(0.0), 0.1);
-  EXPECT_TRUE(both.thresholds.empty());  // The pse was given.
+  EXPECT_TRUE(both.thresholds.empty());  // The caller gave the pse, so no threshold is drawn.
   fit.guess_rate = 0.5;
   fit.symmetric_lapse = false;
   fit.pse_ci95 = analysis::Interval{1.5, 2.5};

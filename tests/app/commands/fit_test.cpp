@@ -137,7 +137,7 @@ TEST_F(FitCommandTest, GroupsAreFittedOnTheirOwn) {
 }
 
 TEST_F(FitCommandTest, BetweenThePublishedCurvesIsThePublishedCurve) {
-  // Schmidt (2018), eq. D.3 to D.5: 0.5145 I^0.9021.
+  // Schmidt (2018), eq. D.3 to D.5, gives 0.5145 I^0.9021.
   const ProgramOutcome outcome =
       fit({"between", "--k1", "0.6663", "--a1", "0.6386", "--k2", "0.3761", "--a2", "1.206",
            "--intensities", "0,0.5,1,1.5,2,2.5,3,3.5,4"});

@@ -36,7 +36,7 @@ TEST_F(FittingCommandTest, IsKeptOnceWithWhereTheHandRests) {
   EXPECT_EQ(kept[0]["held"],
             nlohmann::json({"palm_inner", "palm_outer", "thumb", "index", "middle"}));
   ASSERT_EQ(kept[0]["neutral_pose_m"].size(), 5U);
-  // The simulated hand rests somewhere below the surface.
+  // The simulated hand rests below the surface.
   double mean_m = 0.0;
   for (const auto& position_m : kept[0]["neutral_pose_m"]) {
     mean_m += position_m.at(2).get<double>() / 5.0;

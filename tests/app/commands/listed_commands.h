@@ -11,9 +11,9 @@ namespace jnd::app {
 
 /// A command as `--help` prints it.
 struct ListedCommand {
-  std::vector<std::string> words;      ///< {"fit", "weber"}
-  std::vector<std::string> options;    ///< "--csv", "-h"
-  std::vector<std::string> arguments;  ///< "DIR"
+  std::vector<std::string> words;      ///< For example {"fit", "weber"}.
+  std::vector<std::string> options;    ///< For example "--csv" and "-h".
+  std::vector<std::string> arguments;  ///< For example "DIR".
 };
 
 inline void add_listed(const std::vector<std::string>& words, std::vector<ListedCommand>& all) {

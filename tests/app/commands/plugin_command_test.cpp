@@ -287,7 +287,7 @@ class ServedPluginTest : public PluginCommandTest {
 TEST_F(ServedPluginTest, KeepsTheRulesOfADeviceAcrossTheNetwork) {
   const std::string at = serve("simulated");
   ProgramOutcome told = jnd({"device-check", at + ",simulated"});
-  // A busy machine may hold either side up.
+  // A busy machine may delay either side, so the check is repeated.
   for (int i = 0; i < 2 && told.exit_code != 0; ++i) {
     told = jnd({"device-check", at + ",simulated"});
   }

@@ -71,7 +71,7 @@ TEST_F(RatingContrastsTest, OfRatingsRecoverAnEffectAndReportNoneWhereNoneIs) {
   EXPECT_EQ(with["effect_is"], "difference");
   EXPECT_EQ(with["measure"], "rating");
   EXPECT_GT(with["ci95"][0], 0.5) << with["sentence"];
-  // At the last step nobody can rate higher.
+  // The simulated effect is 1, but nobody can rate above the last step.
   EXPECT_NEAR(with["effect"], 0.9, 0.3);
   EXPECT_LT(with["p_value"], 0.01);
   EXPECT_EQ(with["equivalence"]["is_shown"], false);

@@ -72,7 +72,7 @@ TEST_F(ResultsMovementTest, SaysWhoHasNoRecording) {
 }
 
 TEST_F(ResultsMovementTest, FitsOnWhatWasDeliveredTakeTheLimiterOutOfTheWeberFraction) {
-  // Group E feels 16 Pa s, far above 5 N.
+  // The limit is 5 N. Group E feels 16 Pa s, which takes far more.
   nlohmann::json laboratory = nlohmann::json::parse(
       read_file(test_support::source_folder() / "data" / "laboratories" / "thesis.json"));
   laboratory["device"]["max_total_force_n"] = 5.0;

@@ -368,7 +368,7 @@ TEST_F(StudyFileCommandsTest, StimuliThatTheDeviceCannotRenderAreAProblemOfThePl
   }
   EXPECT_EQ(num_too_strong, 1);
   EXPECT_EQ(json["participants"].size(), 13U);
-  // The same stimulus fits a slower hand.
+  // The same stimulus is weak enough for a slower hand.
   EXPECT_EQ(jnd({"plan", "strong.json", "--speed-m-per-s", "0.01"}).exit_code, 0);
 }
 

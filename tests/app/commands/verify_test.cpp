@@ -27,7 +27,7 @@ class VerifyCommandTest : public CommandTest {
     EXPECT_EQ(outcome.exit_code, exit_code) << outcome.out;
     return document(outcome.out);
   }
-  /// Overwrites one byte in the middle, and every `stride` bytes from there.
+  /// Damages one byte in the middle of the file, and every 512th byte from there on.
   static void damage(const fs::path& file) {
     std::string bytes = read_file(file);
     for (std::size_t at = bytes.size() / 2; at < bytes.size(); at += 512) bytes[at] ^= '\x55';

@@ -42,7 +42,7 @@ class TimedTwin final : public device::HapticDevice {
   device::TwinDevice twin_{{.friction_n = 0.5, .position_sd_m = 1e-5}};
 };
 
-/// Somebody who takes longer for everything than a window may be silent.
+/// Imitates a person who takes longer for every request than a window may be silent.
 class SlowBench final : public device::Bench {
  public:
   explicit SlowBench(device::Bench& bench) : bench_(bench) {}

@@ -15,8 +15,8 @@
 
 namespace jnd::app::gui {
 
-/// Frames without a display: everything of the window but its pixels. What is pressed, typed
-/// and clicked waits in the queue until `frame` draws as many frames as it takes.
+/// Makes frames of the window without a display and without pixels. Presses, letters and clicks
+/// wait in a queue until `frame` draws as many frames as they take.
 class HeadlessUi {
  public:
   explicit HeadlessUi(float width = 1600, float height = 1000, float scale = 1.0f,

@@ -42,7 +42,7 @@ double contrast(const Rgb& a, const Rgb& b) {
   return (brighter + 0.05) / (darker + 0.05);
 }
 
-constexpr double kReadable = 4.5;  // WCAG 2.1, level AA
+constexpr double kReadable = 4.5;  // The minimum contrast of text in WCAG 2.1, level AA.
 constexpr Colour kMeanings[] = {Colour::kBlue, Colour::kGreen, Colour::kAmber, Colour::kRed,
                                 Colour::kPilot};
 

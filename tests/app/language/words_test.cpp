@@ -50,7 +50,7 @@ msgstr[1] "{} STROKES"
 msgstr[2] "{} OF STROKES"
 )po";
 
-/// A folder with that language as the program reads it.
+/// Makes a folder with that language, as the program reads it.
 class WordsTest : public testing::Test {
  protected:
   void SetUp() override {
@@ -119,7 +119,7 @@ TEST_F(WordsTest, ComeOutTranslated) {
            trn("{} stroke", "{} strokes", 5);
   };
   const std::string translated = "GO ÖN; OF 40 TRIAL 3; 1 STROKE; 3 STROKES; 5 OF STROKES";
-  // Its locale is on no machine, and most machines have no locale at all.
+  // No machine has a locale of this language, and most machines have no locale at all.
   EXPECT_EQ(said({{"LANG", "xx_XX.UTF-8"}}, say), translated);
   EXPECT_EQ(said({{"LC_ALL", "xx"}, {"LANG", "C.UTF-8"}}, say), translated);
   EXPECT_EQ(said({{"LANG", "C.UTF-8"}, {"LANGUAGE", "xx"}}, say), translated);

@@ -22,7 +22,7 @@ void put(const fs::path& file) {
   test_support::write_file(file, "x");
 }
 
-/// A prefix in which the program is installed, and a source tree.
+/// Makes a prefix in which the program is installed, and a source tree.
 class ManualPlaceTest : public ::testing::Test {
  protected:
   fs::path shipped() const { return temporary_.path() / "share" / "jnd"; }

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using test_support::comes_about;
 using ::testing::HasSubstr;
 
-/// A window with one pedal, which is a pipe.
+/// Imitates a window with one pedal, which is a pipe.
 class AnswerControlsTest : public ::testing::Test {
  protected:
   ~AnswerControlsTest() override { controls_.reset(); }

@@ -36,7 +36,7 @@ TEST(ColumnRoles, TheCellThatIsAYesIsGuessedWhereTheAnswersAreOthers) {
   request.yes = "x";
   request = with_role(request, some_preview(), "key", ColumnRole::kYes);
   EXPECT_EQ(request.yes_value, "right");
-  // Counts have none.
+  // A column of counts has no value that means yes.
   request = with_role(request, some_preview(), "n", ColumnRole::kTrials);
   EXPECT_EQ(request.yes_value, "");
   // A value that somebody chose stays.

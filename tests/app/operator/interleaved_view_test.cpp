@@ -5,7 +5,7 @@
 #include "app/operator/study_folder.h"
 #include "app/operator/study_outline.h"
 
-// What the operator is told, sees and can do while trials of several blocks are mixed.
+// Tests what the operator reads, sees and can do while trials of several blocks are mixed.
 
 namespace jnd::app {
 namespace interleaved_view_test {

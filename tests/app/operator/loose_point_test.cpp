@@ -6,7 +6,7 @@
 namespace jnd::app {
 namespace loose_point_test {
 
-/// A session whose device loses the hold of the index finger for a while.
+/// Tests a session whose device loses hold of the index finger for a while.
 class LoosePointTest : public OperatedSessionTest {
  protected:
   /// Continues until the session's next step, 0.11 s after the device was opened. The finger is

@@ -16,7 +16,7 @@
 namespace jnd::app {
 namespace network_session_test {
 
-/// The lumped hand as a device that can hurt somebody.
+/// The lumped hand, which here claims to be a device that can hurt somebody.
 class HurtfulHand final : public device::HapticDevice {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "hurtful"; }
@@ -84,7 +84,7 @@ class ServedHand {
   std::thread thread_;
 };
 
-/// An operator whose device is at the other end of a network.
+/// Tests an operator whose device is at the other end of a network.
 class NetworkSessionTest : public RealtimeSessionTest {
  protected:
   ~NetworkSessionTest() override { session_.reset(); }
@@ -204,7 +204,8 @@ TEST_F(NetworkSessionTest, ResumesInANewProgramAfterTheDeviceDiedInAPause) {
   expect_both_trials_stored_once();
 }
 
-/// SAFETY.md: a real device that nobody measured is not even opened for a study with force.
+/// As SAFETY.md says, the program does not even open an unmeasured real device for a study with
+/// force.
 TEST_F(NetworkSessionTest, ARealDeviceWithoutAProfileIsNotOpenedForAStudyWithForce) {
   hand_.emplace(1, 0, std::make_unique<HurtfulHand>());
   device_ = "network:" + hand_->place();

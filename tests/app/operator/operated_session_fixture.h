@@ -86,7 +86,7 @@ class OperatedSessionTest : public ::testing::Test {
 
   SessionView view() const { return session_->view(); }
 
-  /// Begins and answers everything up to the first trial of this block.
+  /// Begins the session and answers everything before the first trial of this block.
   SessionView run_to_block(const std::string& block) {
     if (view().step == Step::kBegin) act(operate::Begin{});
     for (int guard = 0; guard < 1000; ++guard) {

@@ -19,7 +19,7 @@ class RealtimeSessionTest : public OperatedSessionTest {
     if (window_.joinable()) window_.join();
   }
 
-  /// Sessions opened from now on run in real time.
+  /// Makes sessions that are opened from now on run in real time.
   void open_window() {
     realtime_ = true;
     window_ = std::thread([this] {
@@ -42,7 +42,7 @@ class RealtimeSessionTest : public OperatedSessionTest {
     return view();
   }
 
-  /// The hand strokes through what is presented, and feels it.
+  /// Presents the interval and waits until the hand strokes and feels it.
   SessionView present(std::int64_t trial, const std::string& interval) {
     session_->request(operate::Present{trial, interval});
     return until([&](const SessionView& now) {

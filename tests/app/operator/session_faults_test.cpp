@@ -113,7 +113,7 @@ TEST_F(SessionFaultsTest, NothingGoesOnByItselfWithALooseFinger) {
 }
 
 TEST_F(SessionFaultsTest, AFaultThatFollowsOnArmingIsToldAndKeptLikeTheFirst) {
-  // The hand leaves the workspace while there is no force anyway, and comes back later.
+  // The hand leaves the workspace while there is no force, and comes back later.
   go_on_with(device::Injection::kPositionJump, 0.5, 2.0);
   stop();
   EXPECT_EQ(num_flight_records(), 1U);

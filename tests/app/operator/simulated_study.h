@@ -20,7 +20,7 @@ namespace jnd::app {
 inline const std::string kDoubleBlindStudy =
     replaced(kTinyStudy, R"("languages")", R"("blinding": "double", "languages")");
 
-/// Estimation and production in either order.
+/// A study with estimation and production in either order.
 inline const std::string kCounterbalancedStudy = replaced(
     replaced(replaced(kTinyStudy, R"({"kind": "block", "name": "estimation")",
                       R"({"kind": "counterbalance", "name": "method", "method": "order",

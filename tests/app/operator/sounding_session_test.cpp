@@ -26,7 +26,7 @@ std::string with_sound(const std::string& sound) {
   return replaced(kTinyStudy, "\"stages\": [", sound + ", \"stages\": [");
 }
 
-/// A session whose sound goes to a fake output that the test plays.
+/// Runs a session whose sound goes to a fake output, which the test plays.
 class SoundingSessionTest : public OperatedSessionTest {
  protected:
   SoundingSessionTest() {

@@ -255,7 +255,7 @@ class DayInWords : public ::testing::Test {
     parts.tm_isdst = -1;
     return std::int64_t{std::mktime(&parts)} * 1'000'000'000;
   }
-  // Summer time ends on 27 October 2024.
+  // In this time zone, summer time ends on 27 October 2024.
   EnvironmentVariable zone_{"TZ", "CET-1CEST,M3.5.0,M10.5.0/3"};
 };
 

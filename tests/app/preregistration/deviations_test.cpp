@@ -22,7 +22,7 @@ constexpr std::int64_t kRegistered_ns = 1'000'000'000'000;
 
 /// How the study is run; by default everything is as registered.
 struct Conducted {
-  std::string text;  ///< Study file of the sessions.
+  std::string text;  ///< The study file of the sessions.
   int num_participants = 4;
   std::int64_t started_ns = kRegistered_ns + 1;
   std::string device = "lumped";
@@ -168,7 +168,7 @@ TEST(Deviations, NoneIsInvented) {
 
 /// One change to a run as planned, and what has to be reported about it.
 struct Seeded {
-  std::string topic;  ///< Beginning of the one deviation.
+  std::string topic;  ///< The beginning of the one deviation.
   std::function<void(Conducted&)> change;
 };
 

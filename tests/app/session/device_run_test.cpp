@@ -61,7 +61,7 @@ class StuckDevice final : public device::HapticDevice {
   std::unique_ptr<device::HapticDevice> hand_ = device::make_device("lumped", 1000.0);
 };
 
-/// Waits for up to ten seconds.
+/// Waits for up to ten seconds. Returns whether the condition holds.
 bool comes(const std::function<bool()>& holds) {
   for (int i = 0; i < 1000 && !holds(); ++i) std::this_thread::sleep_for(10ms);
   return holds();

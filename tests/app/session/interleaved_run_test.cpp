@@ -24,7 +24,7 @@
 #include "support/sanitizer.h"
 #include "support/temporary_folder.h"
 
-// Simulated people in blocks whose trials are mixed, with the device in the loop.
+// Simulates people in blocks whose trials are mixed, with the device in the loop.
 
 namespace jnd::app {
 namespace interleaved_run_test {

@@ -14,7 +14,7 @@
 namespace jnd::app {
 namespace loose_point_run_test {
 
-/// Simulated participants whose index finger comes off.
+/// Simulates participants whose index finger comes off.
 class LoosePointRunTest : public ::testing::Test {
  protected:
   LoosePointRunTest() {

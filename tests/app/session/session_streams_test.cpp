@@ -137,7 +137,7 @@ TEST_F(SessionStreamsTest, RecordsEveryStreamOfAKindWithItsClock) {
     streams.follow(session_);
     return events("stream_opened").size() == 2;
   }));
-  // A wave of comparisons takes half a second.
+  // One round of comparing the clocks takes half a second.
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   streams.close(session_);
   const auto opened = events("stream_opened"), closed = events("stream_closed");

@@ -21,7 +21,7 @@
 namespace jnd::app {
 namespace task_run_test {
 
-/// A simulated session of every task, with the device in the loop.
+/// Simulates a session with every task, with the device in the loop.
 class TaskRunTest : public ::testing::Test {
  protected:
   void simulate() {

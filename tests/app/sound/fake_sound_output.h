@@ -22,7 +22,7 @@ struct FakeSound {
   std::vector<float> heard;
   std::vector<std::string> opened;  ///< Opened names, in order.
   std::int64_t first_ns = 0;
-  std::function<void()> on_open;  ///< May be empty.
+  std::function<void()> on_open;  ///< It may be empty.
 
   /// Plays this many samples, in periods of 64, as fast as it can.
   void play(std::size_t num_samples) {

@@ -72,7 +72,7 @@ TEST_F(InterruptionWindowTest, ClosingTheWindowAsksAndLeavesTheSessionToBeResume
   window_->press("F2");
   window_->wait_until("the card alone", [](const Screen& now) {
     return now.offers("answer_yes") && !now.shows("Leave the session");
-  });  // They stayed, and nothing happened.
+  });  // The person stayed, and nothing happened.
   window_->press_close_button();
   window_->wait_for_text("Leave the session");
   window_->type("lunch");

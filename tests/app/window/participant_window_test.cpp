@@ -6,7 +6,7 @@
 #include "app/environment.h"
 #include "app/window/window_fixture.h"
 
-// The participant's window on a display of two monitors.
+// Tests the participant's window on a display of two monitors.
 
 namespace jnd::app {
 namespace participant_window_test {

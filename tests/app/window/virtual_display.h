@@ -30,13 +30,13 @@ void go_first();
 /// test. A held key repeats after 0.25 s, 25 times a second.
 class VirtualDisplay {
  public:
-  /// Throws `std::runtime_error` if it does not start.
+  /// Throws `std::runtime_error` if the display does not start.
   VirtualDisplay(int width_px, int height_px);
   ~VirtualDisplay();
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
 
-  /// ":12"
+  /// Returns the name of the display, for example ":12".
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   /// Ends the display, as if its cable were cut.
   void lose();

@@ -222,7 +222,8 @@ void WindowDriver::xdotool(std::vector<std::string> words) const {
 }
 
 void WindowDriver::press_at_once(std::initializer_list<std::string> keys) const {
-  // GLFW takes a key that goes down twice in one millisecond for an echo of the input method.
+  // GLFW ignores a key that goes down twice in one millisecond, because it takes it for an echo
+  // of the input method.
   std::vector<std::string> words = {"key", "--delay", "4"};
   words.insert(words.end(), keys.begin(), keys.end());
   xdotool(words);

@@ -62,7 +62,7 @@ constexpr const char* kTelltales[] = {
     "0.0119",  "milky", "Milky", "0.614", "lumpy", "Lumpy",  "clotted", "viscous",  "Pa s",
     "scale",   "water", "Fill",  "group", "Block", "Trial",  "trial",   "reference"};
 
-/// Three monitors, each with the letters that the window makes for it.
+/// Holds three monitors, each with letters of the size that the window chooses for it.
 class ThreeMonitors {
  public:
   ThreeMonitors() {

@@ -73,7 +73,7 @@ TEST_F(RunDialogs, APauseWithoutAReasonStandsAndIsNotAskedAboutAgain) {
 }
 
 TEST_F(RunDialogs, APauseThatNobodyAskedForHereIsNotAskedAbout) {
-  draw(paused());  // As in a session that is resumed.
+  draw(paused());  // This is so in a session that is resumed.
   EXPECT_EQ(ui_.drawn().find("dialog_cancel"), nullptr);
 }
 
@@ -122,7 +122,7 @@ TEST_F(RunDialogs, UndoTakesAReasonOfOnesOwn) {
   EXPECT_EQ(state_.dialog, RunViewState::Dialog::kNone);
 }
 
-/// Somebody clicked at this answer of the list.
+/// Opens the dialog that appears when somebody clicks at an answer of the list.
 class CorrectDialogTest : public RunViewTest {
  protected:
   void choose(AnswerLine line) {

@@ -42,7 +42,7 @@ TEST_F(RunView, WhatSpeaksAgainstABlockIsToldWhenItIsOver) {
   EXPECT_TRUE(ui_.drawn().shows(sentence));
 }
 
-/// The second interval of a trial in drawn order is being felt.
+/// Returns a view of a trial in drawn order, whose second interval is being felt.
 SessionView two_intervals() {
   SessionView view = comparison();
   view.trial->answer = AnswerKind::kInterval;
