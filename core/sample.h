@@ -22,8 +22,8 @@ struct Sample {
   /// CLOCK_MONOTONIC when the tick began, to 1 us in recordings. 0 in simulated time, in which
   /// the ticks tell the time.
   std::int64_t monotonic_ns = 0;
-  std::int64_t device_time_ns =
-      0;  ///< Time of the measurement by the device's own clock; 0 in simulated time.
+  /// Time of the measurement by the device's own clock; 0 in simulated time.
+  std::int64_t device_time_ns = 0;
   std::uint32_t command_sequence = 0;
   std::uint8_t attached_bits = 0;  ///< Bit i: contact point i is attached to the hand.
   std::uint8_t immersed_bits = 0;  ///< Bit i: contact point i is in the medium.

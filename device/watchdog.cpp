@@ -38,7 +38,7 @@ void Watchdog::look(std::int64_t now_ns) noexcept {
   }
   if (now_ns - silent_since_ns_ < timeout_ns_) return;
   silent_since_ns_ = now_ns;
-  // The state is set first, so that a loop that wakes up in between does not overwrite the
+  // First the state is set, so that a loop that wakes up in between does not overwrite the
   // halt.
   state_.bite();
   device_.halt();

@@ -42,7 +42,7 @@ class NoiseFilter {
   /// Returns a ratio of amplitudes. Not real time.
   [[nodiscard]] double gain_at(double frequency_hz) const noexcept;
   /// Returns the root mean square of the output for white noise of root mean square 1: the root
-  /// of the sum of squares of the impulse response.
+  /// of the sum of squares of the impulse response. Not real time.
   [[nodiscard]] double noise_gain() const noexcept { return noise_gain_; }
 
  private:

@@ -104,8 +104,7 @@ JointVector TorqueControl::torque_n_m(const ExoskeletonKinematics& kinematics,
   return clamped(torque_n_m, max_torque_n_m_);
 }
 
-/// Holds the robot's weight, because a falling robot pulls at the hand more than any requested
-/// force.
+/// A robot that falls pulls at the hand more than any requested force, so its weight is held.
 JointVector TorqueControl::faulted(const JointVector& gravity_n_m) const noexcept {
   if (!std::isfinite(gravity_n_m.sum())) return JointVector::Zero();
   return clamped(gravity_n_m, max_torque_n_m_);

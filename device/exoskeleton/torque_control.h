@@ -38,8 +38,8 @@ class TorqueControl {
     /// is left to the hand. >= 0.
     double platform_stiffness_n_m_per_rad = 15.0;
     double platform_damping_n_m_s_per_rad = 1.0;
-    double max_platform_moment_n_m =
-        3.0;  ///< Limit of both together, because the hand feels them, >= 0.
+    /// Limit of both together, because the hand feels them, >= 0.
+    double max_platform_moment_n_m = 3.0;
     /// Scales spring and damper before a finger's stops; 1 is the default, >= 0.
     double limit_protection_ratio = 1.0;
   };

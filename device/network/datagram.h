@@ -49,7 +49,7 @@ struct Header {
 struct Hello {
   std::uint64_t token = 0;  ///< Drawn by the program; the answer repeats it.
   bool only_asks = false;
-  /// That of the last welcome, so that no old hello opens a stream.
+  /// The challenge of the last welcome, so that no old hello opens a stream.
   std::uint64_t challenge = 0;
   double rate_hz = 1000.0;  ///< Rate of the coming commands, > 0.
 };
@@ -83,8 +83,8 @@ struct Refusal {
 struct State {
   core::HapticState measured;
   core::ContactSums contact_sums;  ///< From a simulation; otherwise zeros.
-  std::int64_t strokes_finished =
-      0;  ///< Of the simulated hand, since its last order to stroke.
+  /// Strokes that the simulated hand has finished since its last order to stroke.
+  std::int64_t strokes_finished = 0;
   /// Number of the last arming that was granted; 0 for none yet.
   std::uint32_t armed_number = 0;
   std::uint32_t order_number = 0;  ///< Number of the last order that was taken; 0 for none yet.

@@ -91,8 +91,8 @@ class LinkQuality {
 
   std::uint32_t window_ = 512;  ///< Number of datagrams that are judged.
   std::uint32_t fewest_ = 50;   ///< Smallest number for a judgement.
-  std::uint32_t most_in_a_row_ =
-      20;  ///< This many losses in a row break the connection, as with libfranka.
+  /// This many losses in a row break the connection, as with libfranka.
+  std::uint32_t most_in_a_row_ = 20;
   /// Datagrams in a row that are at least good before the connection is settled.
   int good_for_ = 100;
   LinkCounts counts_;

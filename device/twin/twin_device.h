@@ -40,8 +40,8 @@ class TwinDevice final : public HapticDevice {
     double gain = 1.0;               ///< Given force over requested force, > 0.
     double cogging_n = 0.0;          ///< Amplitude along each axis, >= 0.
     double delay_s = 0.0;            ///< Time from a write until its force acts, [0, 0.02].
-    Eigen::Matrix3d rotation =
-        Eigen::Matrix3d::Identity();  ///< From its frame to the workspace.
+    /// Rotation from the device's frame to the workspace.
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();
     double position_sd_m = 0.0;          ///< >= 0.
     double position_resolution_m = 0.0;  ///< 0 for none.

@@ -27,7 +27,7 @@ struct Surroundings {
 /// Longest durations of a part of the study, in seconds.
 struct Duration {
   double for_everyone_s = 0.0;
-  /// Of arms of `one_of` counterbalances.
+  /// The durations of the arms of `one_of` counterbalances.
   std::map<std::pair<std::string, std::string>, double> of_arm_s{};
 
   void add(const Duration& other) {

@@ -165,7 +165,7 @@ struct Precision {
   double root_mean_square = 0.0, mean = 0.0;
 };
 
-/// By estimator and number of trials.
+/// Precisions by estimator and number of trials.
 using Table = std::vector<std::vector<Precision>>;
 
 Table precision_of(const Study& study, const Laboratory& laboratory, int num_people) {

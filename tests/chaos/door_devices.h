@@ -59,9 +59,10 @@ class DoorDevice {
   [[nodiscard]] std::vector<ForceLog> logs() const;
   /// Returns the limits, and how long a force may persist that nobody renews.
   [[nodiscard]] Happenings promised() const;
-  /// Counted from the last command of a program.
+  /// The time within which the force ends, counted from the last command of a program.
   [[nodiscard]] int force_ends_within_ms() const;
-  /// Counted from the last command to a driver, whoever gives it.
+  /// The time within which the force ends, counted from the last command to a driver, whoever
+  /// gives it.
   [[nodiscard]] int driver_force_ends_within_ms() const;
   /// The party that has the device across the network, or otherwise the driver's process, may
   /// stand still for this long without an end of the force.

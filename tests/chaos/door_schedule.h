@@ -21,7 +21,7 @@ inline constexpr int kNumDoors = 5;
 enum class DoorTrouble : std::uint8_t {
   kProgramKilled,
   kProgramStopped,  ///< SIGSTOP, and continued after a while.
-  kServerKilled,    ///< And started again at the same port.
+  kServerKilled,    ///< The server is killed, and started again at the same port.
   kServerStopped,
   kHostKilled,  ///< The process in which a driver runs.
   kHostStopped,
@@ -31,7 +31,8 @@ enum class DoorTrouble : std::uint8_t {
 
 struct DoorEvent {
   DoorTrouble what = DoorTrouble::kProgramKilled;
-  /// At once after the trouble before; otherwise `after_ms` after the next force was seen.
+  /// True: it comes at once after the trouble before. False: it comes `after_ms` after the next
+  /// force was seen.
   bool is_at_once = false;
   int after_ms = 0;
   int lasts_ms = 0;

@@ -114,7 +114,7 @@ class Judge {
   }
 
   /// A halt may come while a force is on its way to a driver, because nobody who halts waits.
-  /// That one force arrives after the halt and is taken back at once. Then the step is taken
+  /// This one force arrives after the halt and is taken back at once. Then the step is taken
   /// from the force before it.
   [[nodiscard]] const core::PointVectors& force_before(std::size_t i) const {
     static const core::PointVectors kNone_n = core::zero_vectors();

@@ -31,7 +31,7 @@ namespace profiled_device_test {
 
 using Eigen::Vector3d;
 
-/// A quarter turn about z: the robot's x is the workspace's y, its y is -x.
+/// A quarter turn about z: the robot's x is the workspace's y, and its y is the workspace's -x.
 Eigen::Matrix3d quarter_turn() {
   Eigen::Matrix3d rotation;
   rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
@@ -41,7 +41,7 @@ Eigen::Matrix3d quarter_turn() {
 const ProfiledDevice::Parameters kTurned = {.rotation = quarter_turn(),
                                             .offset_m = Vector3d(0.1, 0.2, -0.7)};
 
-/// Everything that a device can measure, each number another one.
+/// A state with everything that a device can measure, each number another one.
 core::HapticState full_state() {
   core::HapticState state;
   for (std::size_t i = 0; i < state.tip_position_m.size(); ++i) {
@@ -66,7 +66,8 @@ TEST(ProfiledDevice, WhatIsMeasuredComesInTheWorkspaceFrame) {
   ProfiledDevice device(robot, kTurned);
   core::HapticState seen;
   ASSERT_TRUE(device.read(seen));
-  // x is -y of the robot, y its x; positions are moved by the offset besides. By hand.
+  // The workspace's x is the robot's -y and its y the robot's x; positions are moved by the
+  // offset besides. The numbers were computed by hand.
   EXPECT_TRUE(seen.tip_position_m[0].isApprox(Vector3d(-1.9, 1.2, 2.3), 1e-15));
   EXPECT_TRUE(seen.tip_position_m[4].isApprox(Vector3d(-1.9, 5.2, 2.3), 1e-15));
   EXPECT_EQ(seen.tip_velocity_m_per_s[1], Vector3d(-1.2, 0.1, 0.3));
@@ -91,7 +92,8 @@ TEST(ProfiledDevice, AnOrientationIsTurnedAndOneThatIsNotThereStaysAway) {
   const Eigen::Quaterniond turn(
       seen.channels.orientation_wxyz[0], seen.channels.orientation_wxyz[1],
       seen.channels.orientation_wxyz[2], seen.channels.orientation_wxyz[3]);
-  // Its own x axis: along the robot's x, the workspace's y. Its y axis: along z of both.
+  // Its own x axis lies along the robot's x, the workspace's y. Its y axis lies along z of
+  // both.
   EXPECT_TRUE((turn * Vector3d::UnitX()).isApprox(Vector3d::UnitY(), 1e-12));
   EXPECT_TRUE((turn * Vector3d::UnitY()).isApprox(Vector3d::UnitZ(), 1e-12));
 
@@ -107,7 +109,7 @@ TEST(ProfiledDevice, AForceGoesToTheRobotInItsOwnFrame) {
   core::PointVectors force_n = core::zero_vectors();
   force_n[3] = Vector3d(1.0, 2.0, 3.0);
   ASSERT_TRUE(device.write(force_n));
-  // To the right is -y of the robot, away is its x.
+  // To the right is the robot's -y, and away from the person is its x.
   EXPECT_EQ(robot.received.back()[3], Vector3d(2.0, -1.0, 3.0));
   EXPECT_EQ(robot.received.back()[0], Vector3d::Zero());
   // A force and its work are the same in both frames: what is sent comes back as what acted.
@@ -183,7 +185,7 @@ TEST(ProfiledDevice, TheRobotsOwnSpaceIsSeenFromTheWorkspace) {
   robot.device_capabilities.workspace = {0.2, core::kInfinity, 0.1};
   const ProfiledDevice device(robot, kTurned);
   const core::Workspace seen = device.capabilities().workspace;
-  // Its x is y here; z goes 0.1 to either side of -0.7.
+  // The robot's x is y here; z goes 0.1 m to either side of -0.7 m.
   EXPECT_EQ(seen.half_width_x_m, core::kInfinity);
   EXPECT_DOUBLE_EQ(seen.half_width_y_m, 0.4);
   EXPECT_DOUBLE_EQ(seen.half_width_z_m, 0.8);
@@ -208,7 +210,7 @@ TEST(ProfiledDevice, RefusesWhatIsNoRotationAndNoLimit) {
   EXPECT_THROW(ProfiledDevice(robot, far), core::Error);
 }
 
-/// Says of itself what no other device says, and counts what it is asked.
+/// A device that says of itself what no other device says, and notes what it is asked.
 class TellingDevice final : public HapticDevice {
  public:
   std::string_view name() const noexcept override { return "telling"; }
@@ -232,7 +234,8 @@ class TellingDevice final : public HapticDevice {
   core::ContactSums contact_sums() const noexcept override { return {.num_ticks = 9}; }
 
   std::string asked;
-  SimulatedHand* hand = reinterpret_cast<SimulatedHand*>(this);  // Compared, never used.
+  // This is compared, never used.
+  SimulatedHand* hand = reinterpret_cast<SimulatedHand*>(this);
 };
 
 TEST(ProfiledDevice, PassesOnWhateverElseItIsAsked) {
@@ -280,7 +283,7 @@ TEST(ProfiledDevice, OverridesEveryFunctionOfADevice) {
   EXPECT_GE(num_functions, 15);
 }
 
-/// The lumped hand as a robot whose own frame is another one would tell of it.
+/// The lumped hand as a robot with another frame would report it.
 class ElsewhereDevice final : public HapticDevice {
  public:
   ElsewhereDevice(HapticDevice& hand, const Eigen::Matrix3d& rotation, const Vector3d& offset_m)
@@ -315,7 +318,7 @@ class ElsewhereDevice final : public HapticDevice {
   Vector3d offset_m_;
 };
 
-/// A second in a thick fluid, sample by sample.
+/// The samples of a second in a thick fluid.
 std::vector<core::Sample> stroked_through_a_fluid(HapticDevice& device) {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;

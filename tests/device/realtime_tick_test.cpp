@@ -53,7 +53,7 @@ struct Scene {
               .workspace = {.half_width_x_m = 100.0},
               .force_map = &some_map()},
              faulty, {commands, telemetry, stop, &samples, &heartbeat}) {
-    // What the test's own device remembers is in place before.
+    // The memory of the test's own device is allocated before the ticks.
     scripted.received.resize(kNumTicks);
     scripted.received.clear();
     scripted.move_all({0.05, 0.0, 0.0});
@@ -76,7 +76,7 @@ struct Scene {
   void command(const core::MediumAmounts& medium) {
     commands.publish({.sequence = ++sequence, .medium = medium, .ramp_s = 0.050});
   }
-  /// With a window that lives, and a consumer that keeps up.
+  /// Runs the loop with a window that lives and a consumer that keeps up.
   void run(int num_ticks) {
     for (int i = 0; i < num_ticks; ++i) {
       heartbeat.beat();
@@ -114,10 +114,10 @@ struct Situation {
   const char* name;
   std::vector<ScheduledFault> faults;
   void (*play)(Scene& scene);
-  core::Fault expected;  ///< At the end.
+  core::Fault expected;  ///< The fault at the end.
 };
 
-/// Struck from tick 100 on, armed again at tick 400.
+/// Strikes from tick 100 on, and arms again at tick 400.
 void be_struck_and_rearm(Scene& scene) {
   scene.command(core::viscous({.viscosity_pa_s = 10.0}));
   scene.run(400);
@@ -237,8 +237,8 @@ const std::vector<Situation>& situations() {
   return all;
 }
 
-/// Plays every situation on every device, each watched by a `Watch` from its first tick to its
-/// last, after one round to warm up. `caught` says what the watch has seen, if anything.
+/// Plays every situation on every device, after one round to warm up. A `Watch` watches each
+/// from its first tick to its last. `caught` says what the watch has seen, if anything.
 template <typename Watch, typename Caught>
 void expect_nothing_in_any_situation(Caught&& caught) {
   for (const Situation& situation : situations()) {

@@ -7,10 +7,10 @@
 
 namespace jnd::test_support {
 
-/// Counts the locks and waits of this thread while it is alive: pthread's mutexes, rwlocks,
-/// conditions, spinlocks and semaphores, all of which std's are made of, and whatever goes
-/// through `syscall`, as the waits of std's atomics and semaphores do. Also those that would
-/// not have had to wait, and tries.
+/// Counts the locks and waits of this thread while it is alive: those of pthread's mutexes,
+/// rwlocks, conditions, spinlocks and semaphores, of which std's are made, and those that go
+/// through `syscall`, as the waits of std's atomics and semaphores do. Tries and locks that
+/// would not have had to wait count, too.
 class LockCounter {
  public:
   /// False under ASan and TSan, which own these functions: skip the test there.
@@ -26,9 +26,9 @@ class LockCounter {
   std::size_t at_start_;
 };
 
-/// Catches the first system call of this thread while it is alive, whoever makes it: the kernel
-/// hands it to a signal handler, which notes it and carries it out. Later ones pass. One at a
-/// time in a program.
+/// Catches the first system call of this thread while it is alive, whoever makes it. The kernel
+/// hands the call to a signal handler, which notes it and carries it out; later calls pass.
+/// Only one may be alive in a program.
 class SystemCallTrap {
  public:
   /// False where the kernel or the processor has no such dispatch, and under sanitizers.
@@ -39,7 +39,7 @@ class SystemCallTrap {
   SystemCallTrap(const SystemCallTrap&) = delete;
   SystemCallTrap& operator=(const SystemCallTrap&) = delete;
 
-  /// Its number, as in <sys/syscall.h>.
+  /// The number of the first call, as in <sys/syscall.h>.
   [[nodiscard]] static std::optional<long> first_call() noexcept;
 
  private:
@@ -62,7 +62,7 @@ class PageFaultCounter {
   std::int64_t at_start_;
 };
 
-/// All memory of the process in place while it lives, where that is allowed.
+/// Keeps all memory of the process in place while it lives, where that is allowed.
 class LockedMemory {
  public:
   LockedMemory() noexcept;

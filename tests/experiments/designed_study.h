@@ -4,8 +4,8 @@
 
 namespace jnd::experiments {
 
-/// A study of two fluids, one of them in two blocks, half of the people primed; with these
-/// contrasts, a JSON list without its brackets.
+/// A study of two fluids, one of them in two blocks, with half of the people primed and these
+/// contrasts, which are a JSON list without its brackets.
 inline std::string designed_study(const std::string& contrasts = "") {
   const auto block = [](const std::string& name, const std::string& fluid, double reference) {
     const std::string levels = fluid.empty() ? "" : R"("levels": {"fluid": ")" + fluid + "\"},";

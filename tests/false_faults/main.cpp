@@ -1,7 +1,7 @@
-// How often the loop's guards disturb healthy people: counts faults, warnings and repeated
-// trials of simulated hands on devices with friction, noise and loss, watched as real ones are.
-// `./dev false-faults` writes data/reference/false_faults/README.md. The same seed gives the
-// same page.
+// Finds how often the loop's guards disturb healthy people. It counts faults, warnings and
+// repeated trials of simulated hands on devices with friction, noise and loss, which are
+// watched as real ones are. `./dev false-faults` writes data/reference/false_faults/README.md.
+// The same seed gives the same page.
 
 #include <array>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -25,7 +25,7 @@ namespace {
 constexpr double kHome_m = -0.15;
 constexpr int kNumFaults = static_cast<int>(core::kLastFault) + 1;
 
-/// What the hand does in it.
+/// What the hand does with the stimulus.
 enum class Act { kStrokes, kRests, kPresses };
 
 struct Stimulus {
@@ -35,10 +35,10 @@ struct Stimulus {
   bool is_solid = false;
 };
 
-/// Those of the shipped studies, and what else a study may ask for.
+/// The stimuli of the shipped studies, and others that a study may ask for.
 std::vector<Stimulus> stimuli() {
   const core::Immersion endless{.origin_z_m = 1.0};
-  // The palm's outer point rests a centimetre deep in it.
+  // The palm's outer point rests a centimetre deep in the table.
   const core::Immersion table{.origin_z_m = kHome_m - 0.033};
   const core::Immersion bucket{.radius_m = 0.25, .depth_m = 1.0, .origin_z_m = kHome_m + 0.3};
   return {{"water, scale 0.25", core::water({.scale = 0.25}), endless},
@@ -59,15 +59,15 @@ std::vector<Stimulus> stimuli() {
           {"float of 8 N in water", core::water({}) + core::buoyant(8.0), endless}};
 }
 
-/// What one person's sessions came to.
+/// The counts of one person's sessions.
 struct Tally {
   std::int64_t num_ticks = 0;
   std::array<std::int64_t, kNumFaults> num_faults{};
   std::array<std::int64_t, core::kGuards.size()> num_warnings{};
   struct OfStimulus {
     std::int64_t num_trials = 0;
-    std::int64_t num_faulted = 0;   ///< Repeated for a fault.
-    std::int64_t num_detached = 0;  ///< Repeated for a finger that came off.
+    std::int64_t num_faulted = 0;   ///< Repeated because of a fault.
+    std::int64_t num_detached = 0;  ///< Repeated because a finger came off.
   };
   std::vector<OfStimulus> by_stimulus;
 
@@ -86,7 +86,7 @@ struct Tally {
   }
 };
 
-/// One person, for an hour: a trial is a stimulus of some seconds and a rest without any.
+/// An hour of one person. A trial is a stimulus of some seconds and a rest without any.
 class Hour {
  public:
   Hour(std::uint64_t seed, std::int64_t person, const std::vector<Stimulus>& stimuli)
@@ -131,7 +131,7 @@ class Hour {
     }
   }
 
-  /// A hand enters what is solid from above.
+  /// The hand enters a solid stimulus from above.
   void begin_act(const Stimulus& stimulus, std::int64_t trial) {
     const core::RandomStream stream(seed_, "strokes", {person_, trial});
     const double draw = random_.uniform();
@@ -150,7 +150,7 @@ class Hour {
     commands_.publish({.sequence = ++sequence_, .medium = medium, .immersion = immersion});
   }
 
-  /// False: a fault came, and the rest of the time was not lived.
+  /// Returns false if a fault came; the rest of the time is then left out.
   bool run(int num_ticks) {
     for (int i = 0; i < num_ticks; ++i) {
       loop_.tick();
@@ -167,7 +167,8 @@ class Hour {
     return true;
   }
 
-  /// The experimenter reads it in the window, and the person moves the hand a second later.
+  /// The experimenter reads the warning in the window, and the person moves the hand a second
+  /// later.
   void move_where_asked() {
     constexpr int kReaction_ms = 1000;
     const bool is_asked = telemetry_.value().warning == core::Fault::kPositionFrozen;
@@ -200,7 +201,7 @@ class Hour {
   Tally tally_;
 };
 
-/// Of all stimuli having the same share.
+/// The p value of the hypothesis that all stimuli have the same share.
 double p_of_equal_shares(const Tally& tally, std::int64_t Tally::OfStimulus::*counted) {
   std::int64_t all = 0, trials = 0;
   for (const Tally::OfStimulus& of : tally.by_stimulus) {
@@ -220,7 +221,7 @@ double p_of_equal_shares(const Tally& tally, std::int64_t Tally::OfStimulus::*co
   return boost::math::cdf(boost::math::complement(distribution, chi_squared));
 }
 
-/// Of so many events that happen by chance.
+/// The upper bound of a 95 % confidence interval for the mean of a Poisson count.
 double upper_bound(std::int64_t count) {
   const boost::math::chi_squared distribution(2.0 * static_cast<double>(count + 1));
   return 0.5 * boost::math::quantile(distribution, 0.975);
@@ -309,7 +310,7 @@ int main(int argc, char** argv) {
   Tally sum;
   for (const Tally& tally : tallies) sum.add(tally);
   print(sum, all, num_people, seed);
-  // Said so, one exits as a test that failed.
+  // The program says how many faults came, and exits as a test that failed if there was one.
   std::int64_t num_faults = 0;
   for (const std::int64_t count : sum.num_faults) num_faults += count;
   return num_faults == 0 ? 0 : 1;

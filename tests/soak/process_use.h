@@ -9,29 +9,31 @@
 
 namespace jnd::soak {
 
-/// What a process holds, after a round.
+/// What a process holds after a round.
 struct ProcessUse {
-  double allocated_bytes = 0.0;  ///< By `malloc`, in use, in every arena; 0 of another process.
-  double resident_bytes = 0.0;   ///< In memory, free parts of the arenas among it.
-  int num_handles = 0;           ///< Open files, sockets and pipes.
+  /// Bytes in use by `malloc`, in every arena; 0 for another process.
+  double allocated_bytes = 0.0;
+  double resident_bytes = 0.0;  ///< Bytes in memory, the free parts of the arenas included.
+  int num_handles = 0;          ///< Open files, sockets and pipes.
   int num_threads = 0;
 };
 
-/// Of this process.
+/// What this process holds.
 [[nodiscard]] ProcessUse process_use();
-/// Of another one, as the system sees it from outside; zeros where there is none.
+/// What another process holds, as the system sees it from outside; zeros if there is none.
 [[nodiscard]] ProcessUse use_of(pid_t process);
 
-/// The most that a quantity may have grown by from the rounds after the warm-up to the last.
+/// The largest relative growth of a quantity from the rounds after the warm-up to the last ones
+/// that counts as none.
 constexpr double kMostGrowth = 0.03;
 
-/// What has grown, one sentence each; none where all is as it was. The first quarter of the
-/// rounds is warm-up. `judges_resident`: whether there were rounds enough for the arenas to
+/// Says what has grown, one sentence each; empty if nothing has. The first quarter of the
+/// rounds is warm-up. `judges_resident` says whether there were enough rounds for the arenas to
 /// have found their size.
 [[nodiscard]] std::vector<std::string> growths(const std::vector<ProcessUse>& rounds,
                                                bool judges_resident);
 
-/// Median of one quantity over the rounds right after the warm-up, and over the last ones.
+/// The median of one quantity over the rounds right after the warm-up, and over the last ones.
 struct BeforeAndAfter {
   double before = 0.0, after = 0.0;
 

@@ -6,7 +6,7 @@
 
 namespace jnd::test_support {
 
-/// Whether it comes about within ten seconds, which no machine takes that does anything at all.
+/// Whether it comes about within ten seconds. No machine that works at all takes that long.
 [[nodiscard]] inline bool comes_about(const std::function<bool()>& it) {
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(10);
   while (!it()) {

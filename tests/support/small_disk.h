@@ -8,8 +8,8 @@
 
 namespace jnd::test_support {
 
-/// A disk in memory of a size of its own, over an empty folder; gone with the test. Needs the
-/// right to mount: `mounted` tells whether there was any.
+/// A disk in memory with a size of its own, mounted over an empty folder. It is gone with the
+/// test. It needs the right to mount: `mounted` tells whether there was any.
 class SmallDisk {
  public:
   SmallDisk(const std::filesystem::path& folder, int size_kib) : folder_(folder) {

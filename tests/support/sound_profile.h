@@ -6,7 +6,7 @@
 
 namespace jnd::test_support {
 
-/// A profile of this device with every field that there is, wide limits, and for many years.
+/// A profile of this device that has every field and wide limits, and is valid for many years.
 inline experiments::DeviceProfile sound_profile(const std::string& model = "wam",
                                                 const std::string& serial = "17") {
   using experiments::MeasuredValue;

@@ -174,7 +174,8 @@ TEST_F(ForceDimensionFaultsTest, OneWithAWristAndAGripperIsHeldToTheSame) {
   }));
 }
 
-/// Its cable is pulled: what is under way fails, and what ends the force is the controller.
+/// When the device's cable is pulled, whatever is under way fails, and the controller ends the
+/// force.
 TEST_F(ForceDimensionFaultsTest, ACablePulledInAnyPhaseEndsTheForce) {
   for (const int phase : {TWIN_IN_READ, TWIN_IN_WRITE, TWIN_IN_HALT, TWIN_IN_CLOSE}) {
     SetUp();
@@ -197,7 +198,7 @@ TEST_F(ForceDimensionFaultsTest, ACablePulledInAnyPhaseEndsTheForce) {
     EXPECT_EQ(force_at_twin_n(), 0.0) << phase;
     EXPECT_EQ(page().trouble, TWIN_UNPLUGGED) << phase;
     EXPECT_EQ(page().num_unsafe, 0) << phase << ", act " << page().first_unsafe;
-    // Connected again, it is another opening.
+    // Connecting the device again is another opening.
     page().unplugged_in = TWIN_NEVER;
     page().trouble = TWIN_IS_WELL;
     EXPECT_EQ(why_not_with(), "") << phase;
@@ -261,12 +262,12 @@ TEST_F(ForceDimensionFaultsTest, AfterTheControllersWatchdogZerosSwitchItOnAndAP
 
 TEST_F(ForceDimensionFaultsTest, ForcesOfARealOneEndByThemselvesWhenCommandsDo) {
   page().is_virtual = 0;
-  page().watchdog_step_s = 10.0;  // The host's own end, not the controller's.
+  page().watchdog_step_s = 10.0;  // The host has to end the force, not the controller.
   const auto device = opened(argument());
   core::HapticState state;
   ASSERT_TRUE(comes_to([&] {
     (void)device->read(state);
-    // A busy machine may have been silent for too long already.
+    // On a busy machine the program may have been silent for too long already.
     if (!device->write(pushed(1.0))) (void)device->write(core::zero_vectors());
     return force_at_twin_n() == 1.0;
   }));
@@ -275,7 +276,7 @@ TEST_F(ForceDimensionFaultsTest, ForcesOfARealOneEndByThemselvesWhenCommandsDo) 
   EXPECT_EQ(page().is_on, 1) << "it goes on to carry its weight";
 }
 
-/// The library keeps its lock, so no halt of ours gets through.
+/// The library keeps its lock, so that no halt of ours gets through.
 TEST_F(ForceDimensionFaultsTest, WhereTheLibraryIsStuckTheControllerEndsTheForce) {
   page().is_virtual = 0;
   page().watchdog_step_s = 125e-6;
@@ -299,7 +300,7 @@ TEST_F(ForceDimensionFaultsTest, AHaltEndsTheForceAtOnceAndZerosAloneBringItBack
   const auto becomes = [&](double force_n, double asked_n) {
     return comes_to([&] {
       (void)device->read(state);
-      // A busy machine may have been silent for too long meanwhile.
+      // On a busy machine the program may have been silent for too long in the meantime.
       if (!device->write(pushed(asked_n))) (void)device->write(core::zero_vectors());
       return force_at_twin_n() == force_n;
     });
@@ -328,7 +329,8 @@ TEST_F(ForceDimensionFaultsTest, SaturationAndTheTimeGuardAreNoErrors) {
     EXPECT_EQ(fluid.run(200), Fault::kNone);
     page().trouble = TWIN_IS_WELL;
   }
-  // Asked twice as often as the library asks the device: half are the one before.
+  // The driver asks twice as often as the library asks the device, so that half of the
+  // positions are the one before.
   DriverAlone alone(driver(), "library=" + twin().string() + ",time_guard_us=1000");
   ASSERT_TRUE(alone.is_open());
   int num_new = 0, num_old = 0;
@@ -368,7 +370,7 @@ TEST_F(ForceDimensionFaultsTest, TheDriverAloneTakesNoForceThatMustNotBe) {
   EXPECT_EQ(force_at_twin_n(), 0.0) << "the one before does not stand";
   page().trouble = TWIN_IS_WELL;
   refuses(1.0, "after a write that failed");
-  // After a read that failed zeros are not enough: where the hand is nobody knows.
+  // After a read that failed, zeros are not enough: nobody knows where the hand is.
   page().trouble = TWIN_READS_FAIL;
   EXPECT_EQ(alone.read(), JND_DEVICE_FAILED);
   EXPECT_EQ(force_at_twin_n(), 0.0);
@@ -415,13 +417,13 @@ TEST_F(ForceDimensionFaultsTest, AfterAPauseItsVelocityIsTheWayOverThePause) {
     return alone.state().velocity_m_per_s[0][0];
   };
   EXPECT_NEAR(velocity_m_per_s(), 0.0, 0.01) << "the first read comes after one";
-  page().held_m[1] = 0.02;  // Its y is our x.
+  page().held_m[1] = 0.02;  // The device's y is our x.
   const double found_m_per_s = velocity_m_per_s();
   EXPECT_GT(found_m_per_s, 0.005);
   EXPECT_LT(found_m_per_s, 0.21) << "20 mm in 100 ms";
 }
 
-/// A halt that comes while a force is on its way to the device.
+/// The halt comes while a force is on its way to the device.
 TEST_F(ForceDimensionFaultsTest, NoForceStandsAfterAHaltWheneverItComes) {
   DriverAlone alone(driver(), "library=" + twin().string());
   ASSERT_TRUE(alone.is_open());
@@ -430,7 +432,7 @@ TEST_F(ForceDimensionFaultsTest, NoForceStandsAfterAHaltWheneverItComes) {
   page().trouble = TWIN_SLOW_WRITE;
   constexpr int kNumRounds = 60;
   std::atomic<int> round{0}, num_halts{0};
-  // Once in each round, a little later each time.
+  // It halts once in each round, a little later each time.
   std::thread halting([&] {
     for (int i = 1; i <= kNumRounds; ++i) {
       while (round < i) std::this_thread::yield();
@@ -445,7 +447,7 @@ TEST_F(ForceDimensionFaultsTest, NoForceStandsAfterAHaltWheneverItComes) {
     round = i;
     num_taken += alone.write(1.0) == JND_DEVICE_OK ? 1 : 0;
     while (num_halts < i) pause_ms(1);
-    pause_ms(10);  // Longer than a force may stand.
+    pause_ms(10);  // This is longer than a force may stand.
     EXPECT_EQ(force_at_twin_n(), 0.0) << "round " << i;
   }
   halting.join();

@@ -14,7 +14,7 @@
 namespace jnd::device {
 
 /// The driver of Force Dimension's devices over a twin of their library, which sees every force
-/// that it is given. Both are built as an outsider would.
+/// that it is given. Both are built as an outsider would build them.
 class ForceDimensionTest : public PluginTest {
  protected:
   static void SetUpTestSuite() {
@@ -37,7 +37,7 @@ class ForceDimensionTest : public PluginTest {
     page_file_.reset();
     PluginTest::TearDownTestSuite();
   }
-  /// An omega.3 in a hand that strokes, simulated by its maker.
+  /// Sets up an omega.3 in a hand that strokes, simulated by its maker.
   void SetUp() override {
     PluginTest::SetUp();
     twin_page fresh{};
@@ -48,16 +48,17 @@ class ForceDimensionTest : public PluginTest {
     fresh.serial = 11311;
     fresh.is_virtual = 1;
     fresh.has_power = fresh.has_watchdog = fresh.has_gravity_compensation = 1;
-    fresh.watchdog_step_s = 4e-3;  // A busy machine is no fault of a driver.
+    // A slow watchdog, as a busy machine is no fault of a driver.
+    fresh.watchdog_step_s = 4e-3;
     fresh.is_calibrated = fresh.is_wrist_calibrated = 1;
     fresh.calibrates_after_ms = -1;
     fresh.limit_n = 12.0;
-    fresh.held_m[2] = -0.03;  // In the fluid.
+    fresh.held_m[2] = -0.03;  // The hand is in the fluid.
     fresh.stroke_m = 0.04;
     for (int i = 0; i < 3; ++i) fresh.rotation[i][i] = 1.0;
     *page_ = fresh;
   }
-  /// Whatever else a test is about.
+  /// Every test, whatever it is about, has to leave nothing unsafe.
   void TearDown() override {
     EXPECT_EQ(page().num_unsafe, 0) << "the first is number " << page().first_unsafe;
   }
@@ -112,14 +113,14 @@ class ForceDimensionTest : public PluginTest {
   static inline twin_page* page_ = nullptr;
 };
 
-/// A loop as in a session: a viscous fluid all around a hand that strokes through it.
+/// A loop as in a session: a viscous fluid is all around a hand that strokes through it.
 class StrokedFluid {
   static constexpr std::chrono::milliseconds kTick{1};
 
  public:
   explicit StrokedFluid(HapticDevice& device)
       : device_(device),
-        // On a busy machine the twin moves by leaps, which are not what these tests are about.
+        // On a busy machine the twin moves by leaps, which these tests are not about.
         loop_({.starts_armed = device.capabilities().simulated,
                .shadows_guards = true,
                .max_jump_m = 0.1},
@@ -129,7 +130,7 @@ class StrokedFluid {
                        .immersion = {.radius_m = 10.0, .depth_m = 10.0},
                        .ramp_s = 0.0});
   }
-  /// For so many ticks, a millisecond each, or until something is wrong.
+  /// Runs this many ticks of a millisecond each, or until something is wrong.
   core::Fault run(int num_ticks) {
     for (int i = 0; i < num_ticks; ++i) {
       loop_.tick();
@@ -139,7 +140,7 @@ class StrokedFluid {
     }
     return core::Fault::kNone;
   }
-  /// For so many ticks, whatever is wrong.
+  /// Runs this many ticks, whatever is wrong.
   void go_on(int num_ticks) {
     for (int i = 0; i < num_ticks; ++i) {
       if (run(1) != core::Fault::kNone) std::this_thread::sleep_for(kTick);

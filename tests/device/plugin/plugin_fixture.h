@@ -17,7 +17,7 @@
 
 namespace jnd::device {
 
-/// As somebody does who has nothing of this program but the header.
+/// Builds a driver as somebody does who has nothing of this program but the header.
 inline std::filesystem::path built_driver(const std::filesystem::path& source,
                                           const std::filesystem::path& folder,
                                           const std::string& name,
@@ -46,8 +46,9 @@ class PluginTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { folder_ = std::make_unique<test_support::TemporaryFolder>(); }
   static void TearDownTestSuite() { folder_.reset(); }
-  /// Beside it, so that no driver has to be told where it is. A driver that crashes does so at
-  /// once: what a sanitizer would write about it takes longer than a driver is waited for.
+  /// Names the program that runs drivers, so that no driver has to be told where it is. A
+  /// driver that crashes has to do so at once: a sanitizer's report takes longer than the
+  /// program waits for a driver.
   void SetUp() override {
     ::setenv("JND_DEVICE_HOST", test_support::device_host_file().c_str(), 1);
     const char* others = std::getenv("ASAN_OPTIONS");
@@ -70,7 +71,7 @@ class PluginTest : public ::testing::Test {
         test_support::source_folder() / "tests" / "device" / "plugin" / "hostile_driver.c",
         "hostile" + definition, definition);
   }
-  /// "plugin:" with a driver of this trouble.
+  /// An argument "plugin:" of a driver with this trouble.
   static std::string troubled(const std::string& trouble, const std::string& more = "") {
     return hostile().string() + ":simulated,trouble=" + trouble + more;
   }
@@ -81,7 +82,7 @@ class PluginTest : public ::testing::Test {
     device->open();
     return device;
   }
-  /// What is said of a driver that cannot be used; "" if it can.
+  /// What the program says of a driver that cannot be used; "" if it can.
   static std::string why_not(const std::string& argument) {
     try {
       (void)opened(argument);
@@ -111,13 +112,13 @@ class PluginTest : public ::testing::Test {
         .read(reinterpret_cast<char*>(&told), sizeof told);
     return told;
   }
-  /// At its own pace, with a log of its motors.
+  /// A driver at its own pace, with a log of its motors.
   static std::string own_clock(const std::string& trouble, const std::string& more = "") {
     std::filesystem::remove(motor_file());
     return hostile().string() + ":" + (more.empty() ? "real" : more) +
            ",flags=4,log=" + motor_file().string() + ",trouble=" + trouble;
   }
-  /// Whether it comes to this within some seconds.
+  /// Whether the condition holds within some seconds.
   template <typename Condition>
   static bool comes_to(const Condition& condition) {
     for (int i = 0; i < 5000; ++i) {

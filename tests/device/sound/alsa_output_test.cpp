@@ -40,8 +40,8 @@ class Staircase final : public core::SoundSource {
   std::atomic<std::int64_t> num_frames{0}, last_heard_ns{0};
 };
 
-/// ALSA's own plug-in that writes what it plays to a file, over its plug-in that plays
-/// nothing: a sound card for a machine that has none.
+/// ALSA's own plug-in that writes what it plays to a file, over its plug-in that plays nothing,
+/// stands in for a sound card.
 class AlsaOutputTest : public ::testing::Test {
  protected:
   AlsaOutputTest() {
@@ -102,8 +102,8 @@ TEST_F(AlsaOutputTest, PlaysToWhatKeepsNothingByTheClock) {
   output->start(source);
   std::this_thread::sleep_for(500ms);
   output->stop();
-  // Half a second, and a quarter until it is known for what it is; a busy machine may be late,
-  // and none is early.
+  // The frames are those of half a second, and of the quarter of a second within which the
+  // output finds that the device keeps nothing. A busy machine may be late, and none is early.
   EXPECT_LE(source.num_frames, 48000);
   EXPECT_GT(source.num_frames, 4800);
   EXPECT_GT(output->longest_latency_s(), 0.0);

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 constexpr double kTolerance = 1e-10;
 
-/// Computed with NumPy and SciPy: see the script beside it.
+/// Values that the script beside it computed with NumPy and SciPy.
 const json& reference() { return test_support::reference_data("quest_plus/quest_plus.json"); }
 
 ParameterGrid grid_of(const json& parameter) {

@@ -84,8 +84,8 @@ TEST(DeviceProfile, LeavesOutWhatWasNotMeasured) {
   }
 }
 
-// The fields are written in `profile_fields.h` and described in the table: neither has what the
-// other lacks.
+// `profile_fields.h` writes the fields and the table describes them: neither has a field that
+// the other lacks.
 TEST(DeviceProfile, WritesEveryKeyOfTheTablesInTheirOrder) {
   const auto text = nlohmann::ordered_json::parse(device_profile_text(sound_profile()));
   const auto check = [](const nlohmann::ordered_json& object, const ParameterTable& table,
@@ -140,8 +140,8 @@ json changed(const json& value) {
   return nullptr;
 }
 
-// Every measured number, one by one: whichever is changed, the profile is refused, and the part
-// that it stands in is named.
+// Whichever measured number is changed, the profile is refused, and the message names the part
+// in which the number stands.
 TEST(DeviceProfile, IsRefusedWhereAnyMeasuredNumberWasChanged) {
   const auto text = json::parse(device_profile_text(sound_profile()));
   const json flat = text.flatten();
@@ -278,7 +278,7 @@ TEST(DeviceProfile, EveryBrokenOneGivesExactlyTheMessagesBesideIt) {
     ++num_files;
   }
   EXPECT_GT(num_files, 20);
-  // Every message of the rules is shown.
+  // The broken profiles show every message of the rules.
   const std::string code =
       read_file(test_support::source_folder() / "experiments/device_profile/profile_rules.cpp");
   int num_messages = 0;

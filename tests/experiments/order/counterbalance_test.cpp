@@ -258,7 +258,7 @@ TEST(Counterbalance, KeepsEachOfTwoCrossedFactorsEvenAfterEverySession) {
 }
 
 TEST(Counterbalance, MakesUpForDropOuts) {
-  // Five of six who began with b dropped out: the next five begin with b.
+  // Five of the six who began with b dropped out, so that the next five begin with b.
   const Study study = study_of({counterbalance("o", kOrder, 2)});
   std::vector<std::string> completed(6, "o=a,b");
   completed.push_back("o=b,a");

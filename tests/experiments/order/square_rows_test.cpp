@@ -40,7 +40,7 @@ TEST(SquareRows, OfALatinSquareOfThreeRunInCircles) {
 }
 
 TEST(SquareRows, OfAWilliamsSquareOfFourAreThePublishedOnes) {
-  // Williams 1949, written from 0: first row 0, 1, 3, 2.
+  // Williams 1949, written from 0, has the first row 0, 1, 3, 2.
   EXPECT_EQ(williams_rows(4),
             (OrderRows{{0, 1, 3, 2}, {1, 2, 0, 3}, {2, 3, 1, 0}, {3, 0, 2, 1}}));
 }

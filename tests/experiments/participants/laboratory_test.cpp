@@ -80,7 +80,7 @@ TEST(Laboratory, EveryNumberIsNeededAndMustBeOne) {
       nlohmann::json without = file;
       without[section].erase(key);
       const std::string place = std::string("/") + section + "/" + key + ": expected";
-      const bool is_optional = key == "free_modulus";  // Older laboratories have none.
+      const bool is_optional = key == "free_modulus";  // Older laboratories lack this key.
       EXPECT_TRUE(is_optional || problems_of(without).find(place) != std::string::npos)
           << place;
       nlohmann::json text = file;

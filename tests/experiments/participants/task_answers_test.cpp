@@ -12,8 +12,8 @@
 #include "experiments/procedures/stimulus.h"
 #include "experiments/protocol/study_reader.h"
 
-// Every task gives back what its simulated participant has, and a criterion shows where theory
-// says it does.
+// Tests that every task gives back what its simulated participant has, and that a criterion
+// shows where theory says it does.
 
 namespace jnd::experiments {
 namespace task_answers_test {
@@ -21,7 +21,7 @@ namespace task_answers_test {
 constexpr double kWeber = 0.152;
 constexpr double kReference = 8.0;
 
-/// Only reading noise.
+/// A laboratory with reading noise alone.
 Laboratory plain_laboratory() {
   Laboratory laboratory = without_noise(thesis_laboratory());
   laboratory.perceiver.weber_fraction = kWeber;
@@ -56,7 +56,8 @@ Study many_trials(const std::string& task, const Laboratory& laboratory) {
   return study;
 }
 
-/// Share of 1 among the responses that `counts` says, with four standard deviations of it.
+/// The share of ones among the responses that are counted, with four of its standard
+/// deviations.
 struct Share {
   double ratio = 0.0, tolerance = 0.0;
 };
@@ -107,7 +108,7 @@ TEST(SameDifferentAnswers, FollowTheDifferencingRule) {
   const Laboratory laboratory = plain_laboratory();
   Study study = many_trials(R"json("task": "same_different")json", laboratory);
   const std::vector<AnsweredTrial> trials = answers(study, laboratory);
-  // A difference has a standard deviation of ln(1 + w), which is the criterion, too.
+  // A difference has a standard deviation of ln(1 + w), which is also the criterion.
   const Share false_alarms = share_of_ones(trials, is_catch);
   EXPECT_NEAR(false_alarms.ratio, 0.3173, false_alarms.tolerance) << "2 Phi(-1)";
   const Share hits = share_of_ones(trials, is_test);
@@ -126,7 +127,7 @@ TEST(YesNoAnswers, AreYesHalfOfTheTimeOneWeberFractionAboveFreeSpace) {
   const std::vector<AnsweredTrial> trials = answers(study, laboratory);
   const Share hits = share_of_ones(trials, is_test);
   EXPECT_NEAR(hits.ratio, 0.5, hits.tolerance);
-  // One reading alone has the noise, ln(1 + w) / sqrt 2.
+  // One reading alone has a noise of ln(1 + w) / sqrt 2.
   const Share false_alarms = share_of_ones(trials, is_catch);
   EXPECT_NEAR(false_alarms.ratio, 0.0786, false_alarms.tolerance) << "Phi(-sqrt 2)";
 }
@@ -208,7 +209,7 @@ TEST(PracticeAnswers, EndWhereTheCriterionIsMet) {
   EXPECT_LT(trials.size(), 20U) << "these are easy";
 }
 
-/// Shares of "cannot tell" in a block of many trials whose test equals the reference.
+/// The share of "cannot tell" in a block of many trials whose test equals the reference.
 double share_open(Study& study, const Laboratory& laboratory) {
   double open = 0.0, all = 0.0;
   for (const AnsweredTrial& trial : answers(study, laboratory)) {
@@ -219,8 +220,8 @@ double share_open(Study& study, const Laboratory& laboratory) {
 }
 
 TEST(CannotTellAnswers, AreAsOftenAsTheNoiseIsWithinTheCertaintyThatPeopleAskFor) {
-  // Of two that are equal the difference over its noise is normal, and certainty is 2 Phi(|z|)
-  // - 1, whose distribution is even from 0 to 1.
+  // For two equal stimuli the difference over its noise is normal, and the certainty 2 Phi(|z|)
+  // - 1 is uniform from 0 to 1.
   Laboratory laboratory = plain_laboratory();
   Study study =
       many_trials(R"json("task": "two_interval", "cannot_tell": true)json", laboratory);
@@ -237,7 +238,7 @@ TEST(CannotTellAnswers, WhoLapsesCannotTell) {
   laboratory.perceiver.lapse_rate = 0.1;
   Study study = many_trials(R"json("cannot_tell": true)json", laboratory);
   auto& block = std::get<Block>(study.stages.front().content);
-  block.intensities = {40.0 * kReference};  // Nobody is in doubt.
+  block.intensities = {40.0 * kReference};  // At this level nobody is in doubt.
   EXPECT_NEAR(share_open(study, laboratory), 0.2, 0.016) << "twice the rate of errors";
 }
 
@@ -275,7 +276,7 @@ AnsweredBlock timed(Study& study, const Laboratory& laboratory) {
 }
 
 TEST(TimedAnswers, FeelEachStimulusAsLongAsTheBlockSays) {
-  const Laboratory laboratory = plain_laboratory();  // Who looks once at each.
+  const Laboratory laboratory = plain_laboratory();  // People look at each stimulus once.
   Study study = study_with(R"json("procedure": "constant_stimuli", "viscosity_pa_s": [7, 9],
       "reference_viscosity_pa_s": 8, "repetitions": 10)json");
   auto& block = std::get<Block>(study.stages.front().content);

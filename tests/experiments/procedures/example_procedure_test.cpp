@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-// The example of CONTRIBUTING.md, so that what stands there compiles and does what it says.
+// Tests the example of CONTRIBUTING.md, so that it compiles and does what it says.
 
 namespace jnd::experiments {
 namespace example_procedure_test {

@@ -39,7 +39,7 @@ std::vector<PlannedTrial> drawn(const Block& block, std::uint64_t seed,
   return procedure_named(block.procedure).draw_next(block, answered, stream);
 }
 
-/// So many trials one after the other, all answered with yes and no in turn.
+/// This many trials one after the other, answered with yes and no in turn.
 std::vector<AnsweredTrial> answered_one_by_one(const Block& block, std::size_t num_trials,
                                                std::uint64_t seed) {
   std::vector<AnsweredTrial> answered;
@@ -89,7 +89,7 @@ TEST(Task, StoresTheChosenIntervalAsWhetherItHeldTheTest) {
     for (const double interval : {1.0, 2.0}) {
       const double response = response_of(AnswerKind::kInterval, trial, interval);
       EXPECT_EQ(answer_of(AnswerKind::kInterval, trial, response), interval);
-      // The rule that the codebook tells.
+      // The codebook tells this rule.
       EXPECT_EQ(response == 1.0 ? *trial.test_interval : 3 - *trial.test_interval, interval);
     }
   }
@@ -120,7 +120,8 @@ TEST(Task, FeedbackCallsAnAnswerRightAlsoWhereTwoEqualStimuliAreCompared) {
   EXPECT_EQ(feedback_response(Task::kReminder, more), 1.0);
   EXPECT_EQ(feedback_response(Task::kSameDifferent, equal), 0.0);
   EXPECT_EQ(feedback_response(Task::kYesNo, {.intensity = 0.0, .is_catch = true}), 0.0);
-  // Of two intervals whichever was drawn for the test, so that either is right half the time.
+  // With two intervals, the one that was drawn for the test counts as right, so that either is
+  // right half the time.
   for (const int test : {1, 2}) {
     PlannedTrial trial = equal;
     trial.test_interval = test;
@@ -299,7 +300,7 @@ TEST(AdaptiveTrials, HaveCatchTrialsAmongThemThatMoveNoLevel) {
   EXPECT_EQ(num_trials, 2000);
   EXPECT_NEAR(num_catch, 500, 4 * std::sqrt(375.0));
 
-  // Without them the levels of each staircase are the same, one answer after the other.
+  // Without catch trials the levels of each staircase are the same, one answer after the other.
   const Block block = block_with(kStaircase + kReference + keys);
   std::vector<AnsweredTrial> answered;
   std::map<int, std::vector<double>> levels;

@@ -14,9 +14,9 @@
 #include "support/files.h"
 #include "support/places.h"
 
-// tests/experiments/protocol/broken holds a broken study NAME.json for each rule, and in
-// NAME.txt what the reader must say of it, in folders by what is broken. Its README says how a
-// new pair is made.
+// tests/experiments/protocol/broken holds, for each rule, a broken study NAME.json and in
+// NAME.txt what the reader must say of it, in folders by what is broken. Its README says how to
+// make a new pair.
 
 namespace jnd::experiments {
 namespace broken_corpus_test {
@@ -26,7 +26,7 @@ using test_support::read_file;
 
 fs::path source(const std::string& name) { return test_support::source_folder() / name; }
 
-/// The files of a folder and of those in it with this extension, in order.
+/// The files with this extension in a folder and the folders in it, in order.
 std::vector<fs::path> files_in(const fs::path& folder, const std::string& extension) {
   std::set<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -41,7 +41,7 @@ const fs::path kProfiles = "tests/experiments/device_profile/broken";
 std::string all_expected_messages() {
   std::string all;
   for (const fs::path& file : files_in(source(kFolder), ".txt")) all += read_file(file);
-  // What studies have no values of, and profiles of devices have.
+  // Some values occur only in device profiles, not in studies.
   for (const fs::path& file : files_in(source(kProfiles), ".txt")) all += read_file(file);
   return all;
 }
@@ -79,7 +79,7 @@ TEST(BrokenCorpus, NamesAStudyOnceWhateverItsFolder) {
   }
 }
 
-/// The literals of a C++ source, those that stand side by side as one.
+/// The string literals of a C++ source. Literals that stand side by side count as one.
 std::vector<std::string> literals_of(const std::string& code) {
   static const std::regex kLiteral(R"re("((?:[^"\\\n]|\\.)*)")re");
   std::vector<std::string> literals;
@@ -101,11 +101,11 @@ std::vector<std::string> literals_of(const std::string& code) {
   return literals;
 }
 
-// The reader's fixed words, read from its sources: every literal that begins a message has to
-// stand in the corpus at least once. So a rule without an example is found, whoever adds it.
+// The reader's fixed words are read from its sources: every literal that begins a message has
+// to stand in the corpus at least once. So a rule without an example is found, whoever adds it.
 TEST(BrokenCorpus, HoldsEveryMessageThatTheReaderCanGive) {
   const std::string all = all_expected_messages();
-  // Messages that are not about a text of the corpus's kind; their tests are named.
+  // These messages are not about a text of the corpus's kind. The comments name their tests.
   const std::set<std::string> elsewhere = {
       "expected a study file that can be read, found ",                     // StudyReader
       "expected at most 4 MiB of text, found more; is this a study file?",  // HostileStudies
@@ -122,7 +122,8 @@ TEST(BrokenCorpus, HoldsEveryMessageThatTheReaderCanGive) {
     ASSERT_NE(code, "") << name;
     for (const std::string& words : literals_of(code)) {
       if (!words.starts_with("expected ") || elsewhere.contains(words)) continue;
-      // The parser's own words are searched for in its messages, not told.
+      // The reader searches for these words in the parser's messages and does not say them
+      // itself.
       if (words == "expected ") continue;
       ++num_messages;
       EXPECT_NE(all.find(words), std::string::npos)
@@ -133,7 +134,7 @@ TEST(BrokenCorpus, HoldsEveryMessageThatTheReaderCanGive) {
   EXPECT_GT(num_messages, 40);
 }
 
-/// The kind of value that a pointer's last key has, in any table.
+/// The kinds of value that a pointer's last key has, in any table.
 std::set<ValueKind> kinds_of(const std::string& pointer) {
   std::set<ValueKind> kinds;
   std::string key = pointer;

@@ -7,7 +7,7 @@
 
 namespace jnd::experiments {
 
-/// A small sound study with one stage of most kinds, to be broken in one place at a time.
+/// A small sound study with one stage of most kinds, which tests break in one place at a time.
 inline const std::string kSoundStudy = R"json({
   "format": 1,
   "name": "sound",

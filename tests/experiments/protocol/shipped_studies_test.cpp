@@ -61,7 +61,7 @@ TEST(ShippedStudies, SpeakEnglishAndGerman) {
   }
 }
 
-// Thesis, sec. 4 and D.3.2.
+// The values are those of the thesis, sec. 4 and D.3.2.
 TEST(ShippedStudies, EstimateAndProduceWaterAsInTheThesis) {
   const Study study = shipped("magnitude_of_virtual_water");
   const std::vector<double> factors = {0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4};
@@ -76,7 +76,7 @@ TEST(ShippedStudies, EstimateAndProduceWaterAsInTheThesis) {
   EXPECT_EQ(content_of<Training>(study, "training").examples.size(), 3u);
 }
 
-// Thesis, table 1 with the corrections of table D.1.
+// The values are those of table 1 of the thesis, with the corrections of table D.1.
 TEST(ShippedStudies, CompareTheViscositiesOfTheThesis) {
   const Study study = shipped("viscosity_discrimination");
   const auto& d = content_of<Block>(study, "group_d");

@@ -16,7 +16,7 @@ std::string layout(const std::string& name) {
   return test_support::read_file(test_support::source_folder() / "data/database" / name);
 }
 
-/// What stands between the brackets of `CREATE TABLE name (`, in the layout of study folders,
+/// What stands between the brackets of `CREATE TABLE name (` in the layout of study folders,
 /// and what later layouts added.
 std::string columns_of(const std::string& table) {
   const std::string sql = layout("1_study.sql") + layout("8_answers_to_questions.sql");

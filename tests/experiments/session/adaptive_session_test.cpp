@@ -41,7 +41,7 @@ class AdaptiveSessionTest : public ::testing::Test {
     present(s, "test");
     s.answer(response, {.response_time_s = 1.5}, s.state().last_tick);
   }
-  /// "Yes" above 6 Pa s.
+  /// Answers "yes" above 6 Pa s, to the end of the block.
   static void run_to_end(Session& s) {
     while (s.state().current_trial()) run_trial(s, level(s) > 6.0 ? 1.0 : 0.0);
   }

@@ -5,7 +5,7 @@
 #include "experiments/session/session_in_memory.h"
 #include "experiments/session/trial_course.h"
 
-// "Cannot tell", deadlines, and going back to stimuli, as a session stores them.
+// Tests "cannot tell", deadlines, and going back to stimuli, as a session stores them.
 
 namespace jnd::experiments {
 namespace answering_session_test {
@@ -55,8 +55,8 @@ class AnsweringSessionTest : public ::testing::Test {
   static void answer(Session& s, const std::optional<double>& value) {
     s.answer(value, {.response_time_s = 1.5}, s.state().last_tick);
   }
-  /// One that depends on the trial and its attempt alone: every second cannot be told, and
-  /// every third misses the deadline once.
+  /// Runs a trial whose answer depends only on the trial's number and attempt: every second one
+  /// is "cannot tell", and every third one misses the deadline once.
   static void run_trial(Session& s) {
     const std::int64_t trial = now(s);
     feel(s);
@@ -215,7 +215,7 @@ TEST_F(AnsweringSessionTest, NobodyGoesBackMoreOftenThanTheBlockAllows) {
   EXPECT_EQ(log_.events.size(), before);
   present(s, "free_space");
   answer(s, 1.0);
-  feel(s);  // Of the next trial nothing was felt yet.
+  feel(s);  // In the next trial nothing was felt yet.
   EXPECT_EQ(num_returns(s.state().trial(now(s))), 0);
 }
 
@@ -236,7 +236,7 @@ TEST_F(AnsweringSessionTest, AnAttemptAnewAllowsAllReturnsAgain) {
 
 TEST_F(AnsweringSessionTest, OfThreeIntervalsAReturnIsToTheSamePlaceWhateverItHolds) {
   Session s = begun(kConstant + R"(, "task": "oddity", "max_returns": 0)");
-  feel(s);  // Two of them are the reference.
+  feel(s);  // Two of the three intervals are the reference.
   EXPECT_EQ(num_returns(s.state().trial(now(s))), 0);
   EXPECT_THROW(s.require_interval("second"), core::Error);
 }
@@ -247,7 +247,7 @@ TEST_F(AnsweringSessionTest, TheQuestionIsAskedFromTheStartOfTheStimulusThatWasM
   const auto asked = [&] { return asked_tick(s.current_form(), s.state().trial(now(s))); };
   EXPECT_EQ(asked(), std::nullopt);
   present(s, "reference");   // Ticks 0 to 99.
-  present(s, "free_space");  // 100 to 199.
+  present(s, "free_space");  // Ticks 100 to 199.
   present(s, "reference");
   EXPECT_EQ(asked(), std::nullopt) << "the test was not felt";
   s.begin_presentation("test", 300);

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "experiments/session/session.h"
 
-// What a session needs around it that is played without a disk or a device.
+// What a session needs that is played without a disk or a device.
 
 namespace jnd::experiments {
 
@@ -23,7 +23,8 @@ class MemoryLog final : public EventLog {
   }
 
   std::vector<core::Commit> commits;
-  std::vector<core::EventRow> events;  ///< Of the commits, as a session is resumed from them.
+  /// The events of the commits, from which a session is resumed.
+  std::vector<core::EventRow> events;
   std::vector<core::DesignRow> design;
   std::vector<core::TrialRow> trials;
   bool refuses = false;
