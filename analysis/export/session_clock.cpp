@@ -137,20 +137,22 @@ void SessionClock::order_events() {
   }
   double before_s = -std::numeric_limits<double>::infinity();
   std::size_t place = 0;
-  std::optional<double> set_ahead_s;  // Since the clock of the day was set within a part.
+  // By how much the clock of the day is ahead since it was set within a part.
+  bool was_set = false;
+  double set_ahead_s = 0.0;
   for (std::size_t i = 0; i < events_.size(); ++i) {
     const core::EventRow& event = events_[i];
-    if (part_of_event(event) != std::exchange(place, part_of_event(event))) set_ahead_s.reset();
+    if (part_of_event(event) != std::exchange(place, part_of_event(event))) was_set = false;
     const Part& part = parts_[place];
     double time_s = 0.0;
     if (const std::optional<double> told = told_s(event)) {
       time_s = *told;
       const double ahead_s = day_s(event.time_ns) - (*told - part.shift_s);
-      const bool was_set = std::abs(ahead_s - part.ahead_s) > kAnotherStart_s;
-      set_ahead_s = was_set ? std::optional(ahead_s) : std::nullopt;
+      was_set = std::abs(ahead_s - part.ahead_s) > kAnotherStart_s;
+      set_ahead_s = ahead_s;
     } else {
       const double by_day_s =
-          day_s(event.time_ns) - set_ahead_s.value_or(part.ahead_s) + part.shift_s;
+          day_s(event.time_ns) - (was_set ? set_ahead_s : part.ahead_s) + part.shift_s;
       time_s = std::max(before_s, std::min(by_day_s, latest_s[i]));
     }
     event_times_s_[event.sequence] = time_s;
