@@ -5,7 +5,7 @@
 namespace jnd::chaos {
 namespace {
 
-/// Loop and device in one program.
+/// Plays a schedule with loop and device in one program.
 class DirectWorld {
  public:
   explicit DirectWorld(const Schedule& schedule)
@@ -38,7 +38,7 @@ class DirectWorld {
     program_.pass_millisecond(now_ms_);
   }
 
-  /// The loop has read the device and has not written its force yet.
+  /// Called after the loop has read the device and before it has written its force.
   void happen_within_tick() {
     program_.press_stop_within_tick(now_ms_);
     int held_up_ms = 0;

@@ -15,11 +15,12 @@ namespace fs = std::filesystem;
 using test_support::ProgramOptions;
 using test_support::ProgramOutcome;
 
-/// SAFETY.md and device/network/README.md: of what calls itself a simulation.
+/// The limits of SAFETY.md and device/network/README.md for devices that call themselves
+/// simulated.
 constexpr int kServerPatience_ms = 100;
 constexpr int kHostPatience_ms = 250;
-/// For whoever has to act and is not the one whose clock is looked at: another thread of the
-/// process, or a datagram in the hands of the system.
+/// Time that is allowed in addition: a thread other than the one whose clock counts may have to
+/// act, or a datagram may be on its way in the system.
 constexpr int kSlack_ms = 50;
 
 ProgramOutcome run_other(const std::string& program, const std::vector<std::string>& words) {
@@ -34,7 +35,7 @@ fs::path reference(const std::string& name) {
   return test_support::source_folder() / "device/network/reference" / name;
 }
 
-/// As somebody does who has nothing of this program but a header or a file.
+/// Compiles as somebody does who has nothing of this program but a header or a file.
 fs::path compiled(const std::vector<std::string>& words, const fs::path& source,
                   const fs::path& made) {
   std::vector<std::string> all = {"-std=c11", "-O2", "-Wall", "-Wextra", "-Werror"};
@@ -43,7 +44,8 @@ fs::path compiled(const std::vector<std::string>& words, const fs::path& source,
   return run_other("cc", all).exit_code == 0 ? made : fs::path();
 }
 
-/// Of "forces.1234": the process that writes it.
+/// Returns 1234 for the file "forces.1234": the process that writes it. Returns -1 if the name
+/// has no number.
 pid_t process_of(const fs::path& log) {
   const std::string number = log.extension().string();
   return number.size() > 1 ? std::stoi(number.substr(1)) : -1;
@@ -90,7 +92,7 @@ DoorDevice::DoorDevice(const DoorSchedule& schedule, fs::path folder)
 }
 
 ProgramOptions DoorDevice::options() const {
-  // Nothing is to be written beside the sources.
+  // Python must not write files beside the sources.
   return {.folder = folder_,
           .environment = {{"XDG_CONFIG_HOME", (folder_ / "config").string()},
                           {"PYTHONDONTWRITEBYTECODE", "1"}}};
@@ -174,7 +176,7 @@ pid_t DoorDevice::host() const {
   if (!has_driver(schedule_.door)) return -1;
   pid_t newest = -1;
   fs::file_time_type written;
-  // One whose program was killed lives on for a moment.
+  // The driver of a killed program lives on for a moment, so the newest file counts.
   for (const fs::path& file : log_files()) {
     if (!is_running(process_of(file))) continue;
     const fs::file_time_type at = fs::last_write_time(file);
@@ -216,7 +218,7 @@ std::vector<ForceLog> DoorDevice::logs() const {
   return logs;
 }
 
-/// The numbers stand in observing_driver.c, c_device.c and python_device.py.
+/// These numbers are those of observing_driver.c, c_device.c and python_device.py.
 Happenings DoorDevice::promised() const {
   if (!has_driver(schedule_.door)) {
     return {.most_per_point_n = 8.0, .most_in_all_n = 20.0, .most_step_n = 2.0};

@@ -14,11 +14,11 @@
 
 namespace jnd::chaos {
 
-/// What a machine may lack: a compiler of C, Python, the program. Drivers and devices are
+/// Tools that a machine may lack: a C compiler, Python and the program. Drivers and devices are
 /// compiled once for all schedules.
 class DoorTools {
  public:
-  /// Those of this machine.
+  /// Returns the tools of this machine.
   [[nodiscard]] static const DoorTools& here();
 
   [[nodiscard]] bool has(Door door) const;
@@ -27,44 +27,46 @@ class DoorTools {
 
  private:
   DoorTools();
-  std::filesystem::path driver_, c_device_;  ///< Empty: could not be made.
+  std::filesystem::path driver_, c_device_;  ///< A path is empty if the file could not be made.
   bool has_program_ = false, has_python_ = false;
 };
 
-/// The device of a schedule and, where it has one, its server. Everything is in `folder`.
+/// Runs the device of a schedule and, if it has one, its server. All files are in `folder`.
 class DoorDevice {
  public:
   DoorDevice(const DoorSchedule& schedule, std::filesystem::path folder);
 
-  /// What stands behind `--device`.
+  /// Returns the words after `--device`.
   [[nodiscard]] std::string words() const;
   [[nodiscard]] test_support::ProgramOptions options() const;
 
-  /// Of a device across the network; at the port that it had before, if any. False: the port
-  /// is not to be had.
+  /// Serves a device across the network, at the same port as before, if it had one. Returns
+  /// false if the port is taken.
   [[nodiscard]] bool serve();
   void kill_server();
-  /// What became of a server that has ended by itself; none if it runs.
+  /// Returns the outcome of a server that ended by itself, or nothing while it runs.
   [[nodiscard]] std::optional<test_support::ProgramOutcome> ended_server();
   void signal_server(int number) const;
   [[nodiscard]] bool is_served() const { return server_.has_value(); }
-  /// The process in which the newest driver runs; -1: none.
+  /// Returns the process in which the newest driver runs, or -1 if there is none.
   [[nodiscard]] pid_t host() const;
 
   void plug_in(bool is_in) const;
-  /// From now on: whether the device has force that is of a program to come.
+  /// From this call on, `has_new_force` reports only the force of a program that is yet to
+  /// come.
   void await_force();
   [[nodiscard]] bool has_new_force();
-  /// All devices that were open, one after the other.
+  /// Returns the logs of all devices that were open, one after the other.
   [[nodiscard]] std::vector<ForceLog> logs() const;
-  /// Limits, and for how long a force may stand that nobody renews.
+  /// Returns the device's limits, and for how long a force may stand without being renewed.
   [[nodiscard]] Happenings promised() const;
-  /// From the last command of a program on.
+  /// Returns within which time after the last command of a program the force ends.
   [[nodiscard]] int force_ends_within_ms() const;
-  /// From the last command to a driver on, whoever gives it.
+  /// Returns within which time after the last command to a driver the force ends, whoever gave
+  /// the command.
   [[nodiscard]] int driver_force_ends_within_ms() const;
-  /// For so long whoever has the device across the network, or else the driver's process, may
-  /// stand still without an end of the force.
+  /// Returns for how long the process that has the device may stand still without an end of the
+  /// force. This is the server's process across the network, and otherwise the driver's.
   [[nodiscard]] int longest_pause_ms() const;
 
  private:

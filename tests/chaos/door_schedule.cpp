@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kSeedsADoor = 20;
 constexpr std::uint64_t kFirstOfThem = 17;
 
-/// Each trouble that can happen behind this door.
+/// Returns each trouble that can happen behind this door.
 std::vector<DoorTrouble> troubles_of(Door door) {
   std::vector<DoorTrouble> all = {DoorTrouble::kProgramKilled, DoorTrouble::kProgramStopped,
                                   DoorTrouble::kAllStopped};
@@ -48,7 +48,7 @@ bool is_played_through_a_door(std::uint64_t seed) noexcept {
 DoorSchedule drawn_door_schedule(std::uint64_t seed) {
   core::RandomStream random(seed, "doors");
   DoorSchedule schedule{.seed = seed};
-  // In turn, whether all seeds are played through doors or one in twenty.
+  // The doors take turns, whether all seeds are played through doors or one in twenty.
   schedule.door = static_cast<Door>((seed + seed / kSeedsADoor) % kNumDoors);
   schedule.has_key = is_networked(schedule.door) && random.with_probability(0.5);
   constexpr std::array kPoints = {31U, 31U, 1U, 12U};

@@ -21,15 +21,16 @@ namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 using test_support::RunningProgram;
 
-/// A machine that is too busy for real time interrupts a session as well. So many times in a
-/// row without another answer are no longer a machine's fault.
+/// A machine that is too busy for real time also interrupts a session. If this many tries in a
+/// row add no answer, the machine is not the cause.
 constexpr int kMostTries = 20;
-constexpr int kEnvironmentLacks = 3;  ///< Exit code of what this machine or device lacks.
-/// Until a program that was started gives force.
+constexpr int kEnvironmentLacks = 3;  ///< The exit code if this machine or device lacks
+                                      ///< something.
+/// The longest time from the start of a program to its first force.
 constexpr std::chrono::seconds kLongestWait(30);
 
-/// Two trials of some seconds. That a busy machine misses ticks is no reason to repeat
-/// one.
+/// A study of two trials of some seconds. Ticks that a busy machine misses do not repeat a
+/// trial.
 constexpr const char* kStudy = R"({
   "format": 1, "name": "doors", "languages": ["en"], "title": {"en": "Doors"},
   "description": {"en": "A session of seconds."}, "authors": ["jnd"],
@@ -40,8 +41,9 @@ constexpr const char* kStudy = R"({
      "repetitions": 1, "expected_trial_s": 2,
      "instruction": {"en": "Estimate."}, "question": {"en": "How strong?"}}]})";
 
-/// A person with less patience than the shipped one: one short stroke, and of a hand that does
-/// not tell its strokes, as behind a server, not much time to wait for it.
+/// Returns a laboratory with a less patient person than the shipped one, who makes one short
+/// stroke. If the hand does not report its strokes, as behind a server, the person does not
+/// wait long for them.
 std::string hasty_laboratory(Door door) {
   auto laboratory = nlohmann::ordered_json::parse(
       std::ifstream(test_support::source_folder() / "data/laboratories/thesis.json"));
@@ -62,7 +64,7 @@ void pause(int milliseconds) {
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
 }
 
-/// One session of the real program on a device of the real world.
+/// Plays one session of the real program on a real device.
 class DoorWorld {
  public:
   explicit DoorWorld(const DoorSchedule& schedule)
@@ -91,7 +93,7 @@ class DoorWorld {
   [[nodiscard]] bool is_running() const { return program_ && !program_->has_ended(); }
 
   [[nodiscard]] std::vector<std::string> next_words() const {
-    // As a person would: a session that was begun is resumed.
+    // As a person would, the test resumes a session that has begun.
     if (told_.has_session()) {
       return {"resume", study(), "--headless", "--acknowledge", "--realtime", "--wait-s", "10"};
     }
@@ -115,7 +117,7 @@ class DoorWorld {
     program_.emplace(next_words(), device_.options());
   }
 
-  /// After it has ended by itself, or was killed.
+  /// Takes the program's end, after it ended by itself or was killed.
   void take_end(bool was_killed) {
     const ProgramOutcome ended = program_->wait();
     program_.reset();
@@ -136,8 +138,8 @@ class DoorWorld {
     }
   }
 
-  /// Until a running program gives force, and for so long after that; false: the session is
-  /// over.
+  /// Waits until a running program gives force, and for `and_then_ms` after that. Returns false
+  /// if the session is over.
   bool comes_to_force(int and_then_ms) {
     auto deadline = std::chrono::steady_clock::now() + kLongestWait;
     while (violation_.empty()) {
@@ -171,7 +173,8 @@ class DoorWorld {
     take_end(false);
   }
 
-  /// One that finds its driver gone or unplugged may end and say so; somebody starts it again.
+  /// A server that finds its driver gone or unplugged may end and say so. Then somebody starts
+  /// it again.
   void look_after_server() {
     const std::optional<ProgramOutcome> ended = device_.ended_server();
     if (!ended) return;
@@ -274,12 +277,13 @@ class DoorWorld {
     const std::int64_t until_ns = now_ns();
     ::kill(host, SIGCONT);
     if (until_ns - from_ns < 1'000'000ll * device_.driver_force_ends_within_ms()) return;
-    // Some moments for its threads to wake.
+    // The threads of the process need a few moments to wake.
     revoke_of_this_program(
         {.cause = "the driver's process stood still", .from_ns = until_ns, .within_ms = 10});
   }
 
-  /// Whoever runs first afterwards finds what the other said before.
+  /// Stops all processes. The one that runs first afterwards still finds what the other one
+  /// said before.
   void stop_all(const DoorEvent& event) {
     const pid_t host = device_.host();
     const auto signal_device = [&](int number) {
@@ -313,14 +317,15 @@ class DoorWorld {
                             .over_by_ns = until_ns});
   }
 
-  /// Behind a server the driver's process runs on although the server may not.
+  /// Behind a server, the driver's process may run while the server does not.
   [[nodiscard]] Revocation::Clock clock_of_the_door() const {
     return schedule_.door == Door::kServedDriver ? Revocation::Clock::kRecords
                                                  : Revocation::Clock::kBeats;
   }
 
   void revoke(const Revocation& revocation) { happenings_.revocations.push_back(revocation); }
-  /// One that has not given force yet may begin to after whatever happened to the device.
+  /// Revokes the force of this program. A program that has not given force yet may still begin
+  /// to, after whatever happened to the device.
   void revoke_of_this_program(const Revocation& revocation) {
     if (had_force_) revoke(revocation);
   }
@@ -353,7 +358,8 @@ class DoorWorld {
     return outcome;
   }
 
-  /// Played again, a schedule is another run: what happened in this one is told with it.
+  /// Notes what happened. The same schedule may run differently when it is played again, so a
+  /// violation prints these notes.
   void note(std::string what) {
     while (what.ends_with('\n')) what.pop_back();
     const std::int64_t since_ns =
@@ -365,7 +371,7 @@ class DoorWorld {
     if (violation_.empty()) violation_ = "the program after " + met_ + ": " + what;
   }
 
-  /// Those that a program tells even if it gets no further.
+  /// A program acknowledges this number of events even if it gets no further than its start.
   static constexpr std::size_t kEventsOfAStart = 3;
 
   const DoorSchedule& schedule_;
@@ -374,7 +380,7 @@ class DoorWorld {
   ToldEvents told_{study()};
   std::optional<RunningProgram> program_;
   Happenings happenings_;
-  bool had_force_ = false;  ///< This program.
+  bool had_force_ = false;  ///< Whether this program has given force.
   bool is_complete_ = false;
   int num_tries_ = 0;
   std::string met_ = "nothing", story_;

@@ -12,10 +12,11 @@ constexpr std::size_t kRecordBytes = 128;
 constexpr double kRounding = 1e-6;
 constexpr std::int64_t kNsPerMs = 1'000'000;
 
-/// Of a pause of a process no more than this counts as time in which it could have acted. The
-/// slowest of the clocks ticks every 2 ms.
+/// If a process pauses, no more than this much of the pause counts as time in which it could
+/// have acted. The slowest of the clocks ticks every 2 ms.
 constexpr std::int64_t kMostOfAPause_ns = 5 * kNsPerMs;
-/// A tick may be interrupted in its middle and go on after whatever happened.
+/// A tick may be interrupted in its middle and continue after any event, so a single sign
+/// proves nothing.
 constexpr int kLeastSigns = 2;
 
 ForceLog::Record record_in(const char* bytes) {
@@ -45,7 +46,8 @@ double total_n(const ForceLog::Record& record) {
 
 bool has_force(const ForceLog::Record& record) { return !(total_n(record) == 0.0); }
 
-/// The first moment at which whoever has this clock has had `within_ms` to act in since then.
+/// Returns the first moment at which the process with this clock has had `within_ms` to act
+/// since `from_ns`.
 std::int64_t deadline_ns(const std::vector<std::int64_t>& signs_ns, std::int64_t from_ns,
                          int within_ms) {
   std::int64_t counted_ns = 0, last_ns = from_ns;
@@ -81,8 +83,8 @@ class Judge {
   }
 
  private:
-  /// Until when the force of a record stood. After the last sign of its process only the
-  /// device's own controller can end it.
+  /// Returns until when the force of a record stood. After the last sign of its process, only
+  /// the device's own controller can end the force.
   [[nodiscard]] std::int64_t until_ns(std::size_t i) const {
     if (i + 1 < log_.records.size()) return log_.records[i + 1].time_ns;
     return log_.beats_ns.empty() ? log_.records[i].time_ns : log_.beats_ns.back();
@@ -112,8 +114,9 @@ class Judge {
     }
   }
 
-  /// A halt may come while a force is on its way to a driver, for nobody who halts waits. That
-  /// one force arrives after it and is taken back at once; it is a step from the one before.
+  /// Returns the force before a record. A halt may come while a force is on its way to a
+  /// driver, because a halt does not wait. This one force arrives after the halt and is taken
+  /// back at once, so the next step counts from the force before it.
   [[nodiscard]] const core::PointVectors& force_before(std::size_t i) const {
     static const core::PointVectors kNone_n = core::zero_vectors();
     if (i == 0) return kNone_n;
@@ -131,7 +134,7 @@ class Judge {
     if (due_ns < until_ns(i)) violated(i, "a force stood that nobody renewed");
   }
 
-  /// Of whoever could have armed it.
+  /// Judges that there is no force before any program could have armed the device.
   void judge_start() {
     const auto& starts_ns = happenings_.program_starts_ns;
     const std::int64_t first_ns = starts_ns.empty() ? Revocation::kNever_ns : starts_ns.front();
@@ -180,7 +183,7 @@ class Judge {
                  " ms, record " + std::to_string(i) + ": " + what + around(i, begin_ns);
   }
 
-  /// For whoever wants to understand it: no other run has the same records.
+  /// Returns the records around a violation, because no other run has the same records.
   [[nodiscard]] std::string around(std::size_t i, std::int64_t begin_ns) const {
     std::ostringstream text;
     const std::size_t first = i < 4 ? 0 : i - 4;

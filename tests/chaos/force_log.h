@@ -11,33 +11,35 @@
 
 namespace jnd::chaos {
 
-/// What one device was given from its opening to its end, by its own record. Times are those of
-/// CLOCK_MONOTONIC.
+/// What one device was given from its opening to its end, as the device itself recorded it.
+/// Times are those of CLOCK_MONOTONIC.
 struct ForceLog {
   struct Record {
     std::int64_t time_ns = 0;
-    core::PointVectors force_n;  ///< That stands from then on.
+    core::PointVectors force_n;  ///< The force that stands from this time on.
   };
   std::vector<Record> records;
-  /// When the process that has the device surely ran, rising. By these it is told apart whether
-  /// a force stood because nobody ended it or because the machine let nobody run.
+  /// Times in ascending order at which the process with the device certainly ran. They show
+  /// whether a force stood because nobody ended it, or because the machine let no process run.
   std::vector<std::int64_t> beats_ns;
-  /// No other program can reach it: a driver that is the child of one.
+  /// Whether no other program can reach the device. This is so for a driver that is the child
+  /// of a program.
   bool is_of_one_program = false;
 };
 
-/// The file that a reference device or the observing driver wrote. Without a file of beats each
-/// record is one: the device writes one in each tick. What is not whole at its end is left out.
+/// Reads the file that a reference device or the observing driver wrote. Without a file of
+/// beats, each record is a beat, because such a device writes one in each tick. An incomplete
+/// record at the end is left out.
 [[nodiscard]] ForceLog read_force_log(const std::filesystem::path& file,
                                       const std::filesystem::path& beats = {});
 
-/// Looks at a file that is still being written, from here on.
+/// Watches a file that is still being written, from an offset on.
 class ForceWatch {
  public:
   explicit ForceWatch(std::uintmax_t offset_bytes = 0) : offset_bytes_(offset_bytes) {}
 
-  /// Whether there is force now, and was none at a time since the beginning: that of whoever
-  /// came before does not count.
+  /// Returns whether there is force now and there was none at some time since the beginning. So
+  /// the force of an earlier program does not count.
   [[nodiscard]] bool has_new_force(const std::filesystem::path& file);
 
  private:
@@ -45,18 +47,19 @@ class ForceWatch {
   bool was_without_ = false, has_force_ = false;
 };
 
-/// A reason for which there must be no force at a device until a program is started anew.
+/// A reason for which there must be no force at a device until a program is started again.
 struct Revocation {
-  /// What shows that whoever has to end the force was able to run.
+  /// What shows that the process that has to end the force was able to run.
   enum class Clock { kBeats, kRecords };
   static constexpr std::int64_t kNever_ns = std::numeric_limits<std::int64_t>::max();
 
   std::string cause;
   std::int64_t from_ns = 0;
-  /// Until the force has to be gone, in time of which `clock` shows that it was one to act in.
+  /// The time within which the force must be gone. Only time in which `clock` shows that the
+  /// process could act counts.
   int within_ms = 0;
   Clock clock = Clock::kBeats;
-  /// If the cause is over before that, nothing is due.
+  /// If the cause is over before this time, nothing is due.
   std::int64_t over_by_ns = kNever_ns;
 };
 
@@ -64,19 +67,21 @@ struct Revocation {
 struct Happenings {
   double most_per_point_n = 0.0;
   double most_in_all_n = 0.0;
-  double most_step_n = 0.0;  ///< At one point from one record to the next; none for an end.
-  /// For so long a force may stand that nobody renews. Of a device that writes its records in
-  /// each tick it says nothing.
+  double most_step_n = 0.0;  ///< The largest change at one point from one record to the next.
+                             ///< An end of the force may be any step.
+  /// How long a force may stand without being renewed. This does not apply to a device that
+  /// writes a record in each tick.
   int longest_standing_ms = 0;
-  std::vector<std::int64_t> program_starts_ns;  ///< Rising. Each arms what it finds.
+  std::vector<std::int64_t> program_starts_ns;  ///< These are in ascending order. Each program
+                                                ///< arms the device that it finds.
   std::vector<Revocation> revocations;
 };
 
-/// What is wrong about the forces of a device; "" if nothing. It knows what arrived and what
-/// the schedule did, and nothing that any program says of itself.
+/// Returns what is wrong with the forces of a device, or "" if nothing is. The judge knows what
+/// arrived and what the schedule did, and nothing that a program says about itself.
 [[nodiscard]] std::string judged(const ForceLog& log, const Happenings& happenings);
 
-/// For how long there was force, in ms.
+/// Returns for how many ms there was force.
 [[nodiscard]] int milliseconds_with_force(const ForceLog& log);
 
 }  // namespace jnd::chaos

@@ -19,7 +19,8 @@ ForceLog::Record record(std::int64_t at_ms, double force_n) {
   return made;
 }
 
-/// A device that tells each of its ticks, with this force until then and none afterwards.
+/// Returns the log of a device that records each tick, with this force until `until_ms` and
+/// none afterwards.
 ForceLog ticking(double force_n, int until_ms, int end_ms = 2000) {
   ForceLog log;
   for (int at_ms = 1; at_ms < end_ms; ++at_ms) {
@@ -29,7 +30,7 @@ ForceLog ticking(double force_n, int until_ms, int end_ms = 2000) {
   return log;
 }
 
-/// A device that tells what it is told, and besides when it ran.
+/// Returns the log of a device that records what it is told, and separately when it ran.
 ForceLog told_until(double force_n, int until_ms, int end_ms = 2000) {
   ForceLog log = ticking(force_n, until_ms, end_ms);
   std::erase_if(log.records,
@@ -114,7 +115,7 @@ TEST(ForceLogJudge, FindsForcesThatAreNoneOrTooLarge) {
   EXPECT_NE(judged(with(1, 3.0), happenings), "") << "a step";
   EXPECT_NE(judged(with(2, -1.0), happenings), "") << "a step beyond zero";
   EXPECT_EQ(judged(with(2, 0.5), happenings), "");
-  // However slowly it came.
+  // The limit also holds for a force that rises slowly.
   ForceLog slow;
   for (int i = 0; i < 80; ++i) {
     slow.records.push_back(record(i + 1, 0.1 * i));

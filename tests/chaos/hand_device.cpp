@@ -13,7 +13,7 @@ constexpr double kDepth_m = 0.15;
 constexpr double kMostOfPerson_n = 25.0;
 constexpr int kZeroesAfter_ms = 20;
 
-/// Where the points of a hand are that is at the origin.
+/// Returns the places of the points of a hand at the origin.
 core::PointVectors points_m() {
   return {Eigen::Vector3d(0.0, -0.061, 0.03), Eigen::Vector3d(0.0, -0.061, -0.03),
           Eigen::Vector3d(0.0, 0.0, 0.05), Eigen::Vector3d(0.0, 0.059, 0.03),
@@ -30,7 +30,8 @@ Eigen::Vector3d total_n(const core::PointVectors& forces_n) {
   return total;
 }
 
-/// Field 0 to 11: an axis of the position, velocity, end effector or acting force.
+/// Returns a field of the measurement. Fields 0 to 11 are the axes of the position, the
+/// velocity, the end effector and the acting force.
 double& field_of(core::HapticState& state, int field, int point) {
   const int axis = field % 3;
   switch (field / 3) {
@@ -61,7 +62,8 @@ int HandDevice::lateness_ms(int always_ms, Trouble what) const {
                   always_ms + (event == nullptr ? 0 : static_cast<int>(event->size)));
 }
 
-/// A spring and a damper to where the person wants the hand to be, no stronger than an arm.
+/// Returns the force of a spring and a damper that pull the hand to where the person wants it.
+/// It is no stronger than an arm.
 Eigen::Vector3d HandDevice::force_of_person_n() const {
   constexpr double kStiffness_n_per_m = 100.0;
   const double damping_n_s_per_m = 1.4 * std::sqrt(kStiffness_n_per_m * schedule_.hand_mass_kg);
@@ -84,7 +86,7 @@ void HandDevice::pass_millisecond(int now_ms) {
   sent_n_[slot(now_ms_, kHistory_ms)] = standing_n_;
   const int late_ms = lateness_ms(schedule_.force_late_ms, Trouble::kForceLate);
   const core::PointVectors& acted_n = sent_n_[slot(now_ms_ - late_ms, kHistory_ms)];
-  // Exact under a force that stays for a millisecond.
+  // This step is exact for a force that stays constant for a millisecond.
   const Eigen::Vector3d before_m_per_s = velocity_m_per_s_;
   velocity_m_per_s_ +=
       kStep_s / schedule_.hand_mass_kg * (total_n(acted_n) + force_of_person_n());
@@ -94,8 +96,8 @@ void HandDevice::pass_millisecond(int now_ms) {
   remember(acted_n);
 }
 
-/// As SAFETY.md asks of a real device's own controller: by its own clock, and the force comes
-/// back only after zeros.
+/// Does what SAFETY.md requires of a real device's own controller. It ends the force by its own
+/// clock, and the force comes back only after zeros.
 void HandDevice::zero_by_itself() {
   if (schedule_.zeroes_by_itself && now_ms_ - last_write_ms_ >= kZeroesAfter_ms) {
     take_force_away();
@@ -131,7 +133,7 @@ bool HandDevice::read(core::HapticState& state) noexcept {
   }
   const int late_ms = lateness_ms(schedule_.reading_late_ms, Trouble::kReadingLate);
   state = measured_[slot(now_ms_ - late_ms, kHistory_ms)];
-  // A clock of its own that goes on is what a late reading hides behind.
+  // If a reading comes late, its device time nevertheless goes on, which hides the lateness.
   state.device_time_ns = std::int64_t{1'000'000} * now_ms_;
   spoil(state);
   oracle_.handed_out(state);
@@ -140,7 +142,7 @@ bool HandDevice::read(core::HapticState& state) noexcept {
   return true;
 }
 
-/// What was handed out last stands still, whether it was spoilt before or not.
+/// A frozen reading repeats what was handed out last, whether that was spoilt or not.
 void HandDevice::spoil(core::HapticState& state) const {
   if (is_on(Trouble::kReadingFreezes)) {
     state = frozen_;

@@ -10,12 +10,13 @@
 
 namespace jnd::chaos {
 
-/// The device at the very end: a hand of one mass, moved by a person's spring to and fro, under
-/// the forces that arrive. It does to its measurements what the schedule says, and tells the
-/// oracle everything. Not simulated, as far as it says: it is treated as a real one.
+/// The device at the very end: a hand of one mass, which a person's spring moves to and fro
+/// under the forces that arrive. It spoils its measurements as the schedule says, and reports
+/// everything to the oracle. It does not call itself simulated, so the program treats it as a
+/// real device.
 class HandDevice final : public device::HapticDevice {
  public:
-  /// Both have to outlive this.
+  /// `schedule` and `oracle` must outlive this object.
   HandDevice(const Schedule& schedule, Oracle& oracle);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "chaos"; }
@@ -28,16 +29,16 @@ class HandDevice final : public device::HapticDevice {
   void close() noexcept override {}
   void halt() noexcept override;
 
-  /// A millisecond of the hand under the force that stands.
+  /// Moves the hand for a millisecond under the present force.
   void pass_millisecond(int now_ms);
 
-  /// What happens between a measurement and the force that is made of it.
+  /// Called between a measurement and the force that follows from it.
   std::function<void()> after_read;
-  /// Whether its cable is one that the schedule pulls; else that is the network's.
+  /// Whether the schedule pulls this device's cable. If false, the network does that.
   bool has_cable = true;
 
  private:
-  /// Longer than any lateness that a schedule draws.
+  /// This history is longer than any delay that a schedule draws.
   static constexpr int kHistory_ms = 128;
 
   [[nodiscard]] bool is_on(Trouble what) const {

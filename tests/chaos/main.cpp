@@ -10,7 +10,8 @@
 
 #include "chaos/worlds.h"
 
-// The campaign: random schedules of everything at once. `./dev chaos` runs it.
+// The campaign plays random schedules in which anything may go wrong at once. `./dev chaos`
+// runs it.
 
 namespace {
 
@@ -19,12 +20,15 @@ using namespace jnd::chaos;
 struct Arguments {
   std::uint64_t num_schedules = 1000;
   std::uint64_t first_seed = 1;
-  bool in_virtual_time = false;  ///< Without the real program.
-  bool through_doors = false;    ///< Nothing but the real program on devices of others.
-  bool tells_all = false;      ///< A schedule through a door before it is played, and its time.
-  bool wrong_devices = false;  ///< Such devices that are wrong on purpose, to be found.
-  bool ends_at_first = false;  ///< At the first violation.
-  bool measures_energy = false;  ///< A line a schedule, for whoever derives the bound.
+  bool in_virtual_time = false;  ///< Leaves out the real program.
+  bool through_doors = false;    ///< Plays nothing but the real program on other people's
+                                 ///< devices.
+  bool tells_all = false;  ///< Prints each schedule through a door before it is played, and how
+                           ///< long it took.
+  bool wrong_devices = false;    ///< Plays devices that are wrong on purpose and must be found.
+  bool ends_at_first = false;    ///< Ends at the first violation.
+  bool measures_energy = false;  ///< Prints a line for each schedule, from which the bound of
+                                 ///< the energy is derived.
 };
 
 std::optional<std::uint64_t> number(std::string_view text) {
@@ -73,7 +77,8 @@ struct Counts {
   std::uint64_t num_played = 0, num_failed = 0, num_left_out = 0, num_with_force = 0;
 };
 
-/// Where nothing but virtual time is asked for, these seeds are played in it as well.
+/// Returns whether this seed is played through a door. If only virtual time is wanted, these
+/// seeds are played in virtual time as well.
 bool is_for_a_door(std::uint64_t seed, const Arguments& arguments) {
   if (arguments.in_virtual_time) return false;
   return arguments.through_doors || is_played_through_a_door(seed);
@@ -119,7 +124,7 @@ void count(const Outcome& outcome, Counts& counts) {
   counts.num_with_force += outcome.num_milliseconds_with_force > 0 ? 1 : 0;
 }
 
-/// The last line is one that whoever reads a test run's output knows.
+/// Prints the totals. The last line has the form in which CTest reports its results.
 void sum_up(const Counts& counts, const Arguments& arguments, double took_s) {
   std::printf("chaos: %" PRIu64 " schedules from seed %" PRIu64 " on in %.1f s, %" PRIu64
               " of them with force; %" PRIu64 " left out\n",
@@ -130,13 +135,12 @@ void sum_up(const Counts& counts, const Arguments& arguments, double took_s) {
           ? 100.0
           : 100.0 * static_cast<double>(counts.num_played - counts.num_failed) /
                 static_cast<double>(counts.num_played);
-  // Not rounded up to all of them.
+  // The percentage is rounded down, so that it is 100 only if all passed.
   std::printf("%.0f%% tests passed, %" PRIu64 " tests failed out of %" PRIu64 "\n",
               std::floor(passed_percent), counts.num_failed, counts.num_played);
 }
 
-/// Each device that is wrong on purpose has to be found by the judge who finds the others
-/// sound.
+/// Each device that is wrong on purpose must be found by the judge that calls the others sound.
 int campaign_of_wrong_devices(const Arguments& arguments) {
   int num_missed = 0;
   for (std::uint64_t i = 0; i < arguments.num_schedules; ++i) {

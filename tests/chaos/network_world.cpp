@@ -21,7 +21,8 @@ constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr int kTryAgainAfter_ms = 300;
 constexpr std::size_t kMostRemembered = 500;
 
-/// The program at one end of a network that does what the schedule says, the hand at the other.
+/// Plays a schedule with the program at one end of a network that behaves as the schedule says,
+/// and the hand at the other end.
 class NetworkWorld {
  public:
   explicit NetworkWorld(const Schedule& schedule)
@@ -57,7 +58,7 @@ class NetworkWorld {
     return event != nullptr && random_.with_probability(event->size);
   }
 
-  /// Everything but the loop's tick.
+  /// Does everything of a millisecond except the loop's tick.
   void pass_millisecond() {
     oracle_.begin_millisecond(++now_ms_);
     program_.pass_millisecond(now_ms_);
@@ -91,7 +92,7 @@ class NetworkWorld {
     }
   }
 
-  /// Who is killed says no goodbye.
+  /// A killed program sends no goodbye.
   void stop_program() {
     program_.kill();
     is_mute_ = true;
@@ -141,7 +142,7 @@ class NetworkWorld {
 
   const Schedule& schedule_;
   core::RandomStream random_;
-  /// Every other schedule seals what it says.
+  /// Every other schedule has a key, by which both ends sign their datagrams.
   std::optional<device::DeviceKey> key_ =
       schedule_.seed % 2 == 0 ? std::nullopt : std::optional(device::DeviceKey{});
   SimulatedNetwork network_;

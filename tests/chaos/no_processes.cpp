@@ -1,7 +1,7 @@
 #include "chaos/worlds.h"
 
-// In place of process_world.cpp and door_world.cpp, for a campaign without storage and without
-// the program.
+// Replaces process_world.cpp and door_world.cpp in a campaign without storage and without the
+// program.
 
 namespace jnd::chaos {
 

@@ -1,16 +1,16 @@
-/* A driver that keeps a record of what its motors were told, for a judge who must know nothing
- * of the program. Behind it is a hand of five points that strokes along x by itself, in the
- * fluid, whatever the force; its time is this machine's.
+/* A driver that records what its motors were told, for a judge that must know nothing of the
+ * program. It has a hand of five points that strokes along x by itself in the fluid, whatever
+ * the force. Its time is this machine's.
  *
- * log=PATH: each opening writes a file PATH.PROCESS of records of 128 bytes, one for each write
- * and each halt: time (CLOCK_MONOTONIC, ns, int64) and the 15 components of the force that
- * stands from then on (N, double). PATH.PROCESS.beats gets the time alone, some five hundred
- * times a second: it shows when this process ran. Nothing is buffered, so a process that is
- * killed has told everything.
- * plug=PATH: while there is such a file the device is unplugged, and calls fail.
- * paces=1: it sets the pace of the loop. points=BITS: which points it has.
- * wrong=NAME: it is wrong on purpose. "halt": it takes no notice of a halt, nor of forces that
- * become none. "limits": the motors give three times what they are asked for. */
+ * log=PATH: each opening writes a file PATH.PROCESS. It consists of records of 128 bytes, one
+ * for each write and each halt: the time (CLOCK_MONOTONIC, ns, int64) and the 15 components of
+ * the force that stands from then on (N, double). The file PATH.PROCESS.beats gets the time
+ * alone, some five hundred times a second, and so shows when this process ran. Nothing is
+ * buffered, so a killed process has written everything. plug=PATH: while this file exists, the
+ * device is unplugged and calls fail. paces=1: the driver sets the pace of the loop.
+ * points=BITS: the points that it has. wrong=NAME: the driver is wrong on purpose. With "halt"
+ * it ignores a halt, and forces that become zero. With "limits" the motors give three times the
+ * force that they are asked for. */
 #include "jnd_device.h"
 
 #include <fcntl.h>
@@ -32,8 +32,8 @@ struct jnd_device {
   char plug[TEXT_SIZE];
   int64_t begun_ns, next_ns;
   uint64_t number;
-  double force_n[POINTS][3]; /* That the last write asked for. */
-  atomic_int is_halted;      /* Since then: by whichever thread. */
+  double force_n[POINTS][3]; /* The force of the last write. */
+  atomic_int is_halted;      /* Set by any thread after that write. */
   atomic_int is_over;
   pthread_t beating;
 };
@@ -46,7 +46,7 @@ static int failed(const char* words) {
   return JND_DEVICE_FAILED;
 }
 
-/* What stands behind KEY= among the options; "" if nothing. */
+/* Copies what follows KEY= in the options to text, or "" if KEY= is not there. */
 static void word(const char* options, const char* key, char* text) {
   const char* at = strstr(options, key);
   snprintf(text, TEXT_SIZE, "%s", at == NULL ? "" : at + strlen(key));
@@ -72,7 +72,7 @@ static void sleep_until(int64_t until_ns) {
   }
 }
 
-/* Two threads do this; the system keeps their records whole and apart. */
+/* Two threads call this. The system keeps their records whole and separate. */
 static void tell(jnd_device* device, double force_n[POINTS][3]) {
   struct {
     int64_t time_ns;
@@ -170,7 +170,7 @@ int jnd_device_read(jnd_device* device, jnd_device_state* state) {
   }
   if (device->is_paced) {
     sleep_until(device->next_ns);
-    /* Measurements that were due while this process stood still were never made. */
+    /* Measurements that were due while this process stood still are skipped. */
     const int64_t late_ns = now_ns() - device->next_ns;
     device->next_ns += period_ns * (1 + (late_ns > 0 ? late_ns / period_ns : 0));
   }

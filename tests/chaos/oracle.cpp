@@ -10,19 +10,21 @@ namespace {
 
 constexpr double kMostPerPoint_n = 10.0;
 constexpr double kMostInAll_n = 30.0;
-constexpr double kMostStep_n = 2.0;  ///< In a millisecond.
+constexpr double kMostStep_n = 2.0;  ///< The limit holds for one millisecond.
 constexpr double kRounding = 1e-6;
 
-// SAFETY.md, in ticks of a millisecond.
+// Limits of SAFETY.md, in ticks of a millisecond.
 constexpr int kLoopIsDead_ms = 22;        ///< 20 ms and one look of the watchdog.
-constexpr int kHeartbeatIsLost_ms = 351;  ///< 250 ms, the fading of 100 ms, and a tick.
-constexpr int kStaleReadings = 5;         ///< That may stand in.
+constexpr int kHeartbeatIsLost_ms = 351;  ///< 250 ms, the fading of 100 ms, and one tick.
+constexpr int kStaleReadings = 5;         ///< So many stale readings may stand in.
 constexpr int kStaleReadingsByNet = 20;   ///< The same bound across a network.
-constexpr double kStuckWay_m = 0.004;  ///< By its velocity, of a point that stands still: 3 mm,
-                                       ///< and one for what the network swallows.
-constexpr int kQuietNetwork_ms = 2;    ///< A command's way, in the ticks of both sides.
+/// How far a point that stands still would have moved by its velocity: 3 mm, and one mm for
+/// what the network loses.
+constexpr double kStuckWay_m = 0.004;
+constexpr int kQuietNetwork_ms = 2;        ///< The way of a command, in ticks of both sides.
 constexpr int kDisturbedNetwork_ms = 45;   ///< No force answers to a state older than 40 ms.
-constexpr int kDisturbanceLasts_ms = 120;  ///< What was on the way may come as late.
+constexpr int kDisturbanceLasts_ms = 120;  ///< Datagrams that were on their way may arrive so
+                                           ///< much later.
 
 constexpr const char* kBrokenMedium = "the medium was no number";
 
@@ -52,7 +54,8 @@ std::string in_text(double number) {
 Oracle::Oracle(const Schedule& schedule) : schedule_(schedule) {}
 
 void Oracle::armed() {
-  // Nobody arms against a stop. Else all that went wrong before is forgotten.
+  // Nobody can arm against a pressed stop. Otherwise, arming ends all earlier reasons against
+  // force.
   if (stop_is_pressed_) return;
   may_have_force_ = true;
   revocations_.clear();
@@ -70,7 +73,7 @@ void Oracle::stop_pressed() {
   revoke("the stop was pressed", Way::kLoop);
 }
 
-/// One that is replaced before the loop has looked never was.
+/// A broken medium that is replaced before the loop has looked at it has no effect.
 void Oracle::medium_sent(bool is_broken) {
   medium_is_broken_ = is_broken;
   if (is_broken) return;
@@ -83,7 +86,7 @@ void Oracle::loop_ticked() {
   ++num_silent_ticks_;
 }
 
-/// It knows of no arming before its own.
+/// A new program knows of no arming before its own.
 void Oracle::program_started() {
   dead_ms_ = 0;
   num_silent_ticks_ = 0;
@@ -131,7 +134,7 @@ void Oracle::judge_staleness(const core::HapticState& state) {
   const int most = is_networked() ? kStaleReadingsByNet : kStaleReadings;
   if (num_stale_readings_ > most) revoke("measurements stood still", Way::kLoop);
   if (is_stale) return;
-  // Moving, as it says itself, and yet where it was.
+  // The point moves by its own account, and yet stays where it was.
   bool any_stands = false;
   double most_way_m = 0.0;
   for (std::size_t i = 0; i < stuck_way_m_.size(); ++i) {
@@ -149,7 +152,8 @@ void Oracle::judge_staleness(const core::HapticState& state) {
   }
 }
 
-/// Of a point that was held before and is held still. A lossy network may show none of it.
+/// Judges leaps of points that were held before and still are. A lossy network may show none of
+/// a leap.
 void Oracle::judge_leaps(const core::HapticState& state) {
   if (is_networked() &&
       schedule_.is_disturbed(now_ms_ - kDisturbanceLasts_ms, now_ms_ + kDisturbanceLasts_ms)) {
@@ -223,7 +227,7 @@ void Oracle::begin_millisecond(int now_ms) {
   cut_ms_ = is_cut ? cut_ms_ + 1 : 0;
 }
 
-/// What lasts and is noticed by its lasting.
+/// Judges conditions that are noticed because they last.
 void Oracle::judge_silences() {
   const bool may_be_late =
       is_networked() && schedule_.has_late_datagrams(now_ms_ - kDisturbanceLasts_ms, now_ms_);
@@ -236,8 +240,8 @@ void Oracle::judge_silences() {
 
 void Oracle::judge_force() {
   for (Revocation& revocation : revocations_) {
-    // No command counts, and none grows old, while the server stands still: then the device
-    // ends the force by itself.
+    // While the server stands still, commands neither arrive nor grow old, and the device ends
+    // the force by itself.
     if (is_networked() && !was_written_ && !revocation.ends_with_next_write) {
       ++revocation.deadline_ms;
     }

@@ -11,60 +11,62 @@
 
 namespace jnd::chaos {
 
-/// What a hand must never feel. It sits in the device, behind everything else, and knows what
-/// the schedule did, what the device said and what force arrived: nothing of the program, of
-/// its telemetry or of its faults. The times in which a force has to be gone are those of
-/// SAFETY.md.
+/// Judges what a hand must never feel. It sits in the device, behind everything else. It knows
+/// what the schedule did, what the device measured and what force arrived, and nothing of the
+/// program, its telemetry or its faults. The times within which a force must be gone are those
+/// of SAFETY.md.
 ///
-/// In each millisecond: `begin_millisecond`, then whatever happens, in its order.
+/// In each millisecond, call `begin_millisecond` first, and then the other functions in the
+/// order of events.
 class Oracle {
  public:
   explicit Oracle(const Schedule& schedule);
 
-  // What people did.
+  // These functions report what people did.
   void armed();
   void disarmed();
   void stop_pressed();
   void stop_released() { stop_is_pressed_ = false; }
   void medium_sent(bool is_broken);
 
-  // What the schedule let happen.
+  // These functions report what the schedule allowed to happen.
   void window_beat() { num_silent_ticks_ = 0; }
   void loop_ticked();
   void program_started();
   void server_restarted();
 
-  // What the device did.
+  // These functions report what the device did.
   void handed_out(const core::HapticState& state);
   void could_not_be_read();
-  /// A write came. What the hand is under since: `standing_n`.
+  /// Reports a write. `standing_n` is the force that the hand is under from then on.
   void written(const core::PointVectors& standing_n, bool was_taken);
-  /// Something else than a write took the force away.
+  /// Reports that something other than a write took the force away.
   void zeroed() { standing_n_ = core::zero_vectors(); }
-  /// The forces that acted for a millisecond while the hand went this way.
+  /// Reports the forces that acted for a millisecond while the hand moved by `way_m`.
   void moved(const core::PointVectors& acted_n, const Eigen::Vector3d& way_m);
 
-  /// Judges the millisecond before and begins another.
+  /// Judges the millisecond that is over and begins the next one.
   void begin_millisecond(int now_ms);
 
-  /// The first thing that was wrong; empty: nothing was.
+  /// Returns the first violation, or "" if there was none.
   [[nodiscard]] const std::string& violation() const noexcept { return violation_; }
-  /// For whoever wants to know whether a schedule came to anything.
+  /// Returns for how many milliseconds there was force, which shows whether a schedule tested
+  /// anything.
   [[nodiscard]] int num_milliseconds_with_force() const noexcept { return num_with_force_; }
   [[nodiscard]] double most_given_j() const noexcept { return most_given_j_; }
 
  private:
-  /// A reason for which there must be no force, and when it has to be gone.
+  /// A reason for which there must be no force, and the time at which it must be gone.
   struct Revocation {
     std::string cause;
     int deadline_ms;
     bool ends_with_next_write;
   };
 
-  /// Within how much time a cause has to reach the force.
+  /// How a cause reaches the force, which decides how long it may take.
   enum class Way {
-    kDevice,  ///< Whoever reads and writes the device sees it: in the same tick.
-    kLoop,    ///< Only the loop sees it: a network may be in between.
+    kDevice,  ///< The part that reads and writes the device sees it in the same tick.
+    kLoop,    ///< Only the loop sees it, and a network may lie between.
   };
 
   [[nodiscard]] bool is_networked() const { return schedule_.world == World::kNetwork; }
@@ -89,8 +91,8 @@ class Oracle {
   std::vector<Revocation> revocations_;
 
   int num_silent_ticks_ = 0;
-  int dead_ms_ = 0;  ///< Since the loop's last tick.
-  int cut_ms_ = 0;   ///< Since the cable was pulled.
+  int dead_ms_ = 0;  ///< The time since the loop's last tick.
+  int cut_ms_ = 0;   ///< The time since the cable was pulled.
   bool was_written_ = false;
 
   std::optional<core::HapticState> last_reading_;
@@ -104,12 +106,12 @@ class Oracle {
   int num_with_force_ = 0;
 };
 
-/// The most that a hand may be given beyond what it put in, within the quarter of a second that
-/// the watch over the port remembers: 0.25 J where reading and force are prompt (the largest of
-/// 6000 schedules was 0.19 J, of 30 g). Where they are late, or a force stands until a
-/// watchdog ends it, it pushes until a reading shows it, and m v = F t: (20 N t)^2 / 2 m comes
-/// on top. The limiter would allow 30 N; the energies that were found are those of 14 N, so
-/// that the bound is twice what was found.
+/// Returns the largest energy that a hand may be given beyond what it put in, within the
+/// quarter of a second that the watch over the port remembers. It is 0.25 J if reading and
+/// force are prompt. (The largest of 6000 schedules was 0.19 J, with a mass of 30 g.) If they
+/// are late, or a force stands until a watchdog ends it, the force pushes until a reading shows
+/// it. Then m v = F t, so (20 N t)^2 / 2 m is added. The limiter would allow 30 N, and the
+/// measured energies correspond to 14 N, so the bound is twice what was measured.
 [[nodiscard]] double most_energy_j(const Schedule& schedule);
 
 }  // namespace jnd::chaos

@@ -24,13 +24,13 @@ namespace fs = std::filesystem;
 using test_support::ProgramOutcome;
 using test_support::RunningProgram;
 
-/// What a run of the program meets before its study is finished.
+/// What can happen to a run of the program before its study is finished.
 enum class Interruption {
-  kKilledAfterAnAnswer,  ///< Right after a line that it told.
+  kKilledAfterAnAnswer,  ///< The program is killed right after a line that it printed.
   kKilledAtAnyMoment,
-  kStopped,  ///< SIGSTOP, and on after a while: it has to finish.
+  kStopped,  ///< SIGSTOP, and SIGCONT after a while. The program then has to finish.
   kDiskIsFull,
-  kSyncFails,  ///< Once, or from then on.
+  kSyncFails,  ///< The call fails once, or from then on.
   kWriteFails,
 };
 constexpr int kNumInterruptions = 6;
@@ -41,7 +41,7 @@ bool can_follow_system_calls() {
   return can;
 }
 
-/// One study that the real program writes, with the machine against it.
+/// Runs one study, which the real program writes while the machine works against it.
 class ProcessWorld {
  public:
   explicit ProcessWorld(const Schedule& schedule)
@@ -76,7 +76,7 @@ class ProcessWorld {
   [[nodiscard]] std::vector<std::string> resume_words() const {
     return {"resume", study(), "--headless", "--acknowledge"};
   }
-  /// As a person would: a session that was begun is resumed.
+  /// As a person would, the test resumes a session that has begun.
   [[nodiscard]] std::vector<std::string> next_words() const {
     return told_.empty() ? run_words() : resume_words();
   }
@@ -147,7 +147,7 @@ class ProcessWorld {
     return space.capacity - space.free;
   }
 
-  /// From one of the first calls of a thread for the study on: once, or for ever.
+  /// Makes calls of one thread fail, beginning with one of its first calls: once, or for ever.
   void fail_calls(const std::string& calls, const std::string& error) {
     met_ = "its calls of " + calls + " failed";
     if (!can_follow_system_calls()) return;
@@ -181,7 +181,7 @@ class ProcessWorld {
     ProgramOutcome outcome = test_support::run_program(resume_words(), options({}));
     const bool is_resumed = outcome.exit_code == 0 && outcome.out.starts_with("EVENT");
     if (!is_resumed && told_.empty()) {
-      // Killed before its folder or its session was made.
+      // The program was killed before it had made its folder or its session.
       outcome = test_support::run_program(run_words(), options({}));
     }
     if (outcome.exit_code != 0) return violated("it did not finish: " + outcome.err);

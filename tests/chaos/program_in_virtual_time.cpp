@@ -7,7 +7,7 @@
 namespace jnd::chaos {
 namespace {
 
-/// As `device::WatchedLoop` has it for a device at which somebody can be hurt.
+/// The values of `device::WatchedLoop` for a device that can hurt somebody.
 constexpr int kLongestStall_ms = 20;
 constexpr int kLookEvery_ms = 2;
 constexpr int kBeatEvery_ms = 10;
@@ -73,7 +73,7 @@ void ProgramInVirtualTime::act(const Event& event) {
 }
 
 void ProgramInVirtualTime::pass_millisecond(int now_ms) {
-  // A program that is stopped takes no keys.
+  // A stopped program receives no keys.
   if (is_on(Trouble::kProgramStops, now_ms)) return;
   for (const Event& event : schedule_.events) {
     if (event.at_ms == now_ms) act(event);
@@ -91,7 +91,7 @@ void ProgramInVirtualTime::tick_if_due(int now_ms) {
     return;
   }
   const int num_missed = last_tick_ms_ == 0 ? 0 : now_ms - last_tick_ms_ - 1;
-  // As the loop's real-time thread does.
+  // This is what the loop's real-time thread does.
   if (num_missed >= kLongestStall_ms) loop_->stalled();
   loop_->due(in_ns(now_ms), num_missed);
   last_tick_ms_ = now_ms;

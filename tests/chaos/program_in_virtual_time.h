@@ -9,27 +9,28 @@
 
 namespace jnd::chaos {
 
-/// The program as far as it reaches the device: loop, watchdog, window and the people before
-/// it, driven by a schedule millisecond by millisecond. Whoever owns it lets the device live.
+/// The part of the program that reaches the device: loop, watchdog and window, with the people
+/// before it. A schedule drives it millisecond by millisecond. The owner also moves the device
+/// on.
 class ProgramInVirtualTime {
  public:
-  /// Both have to outlive this.
+  /// `schedule` and `oracle` must outlive this object.
   ProgramInVirtualTime(const Schedule& schedule, Oracle& oracle)
       : schedule_(schedule), oracle_(oracle) {}
 
-  /// Begins with this device, as a new process: disarmed. What people had pressed stays
-  /// pressed, as the session's start has it.
+  /// Starts disarmed with this device, as a new process does. A stop that people had pressed
+  /// stays pressed, as at the start of a session.
   void start(device::HapticDevice& device);
   void kill();
   [[nodiscard]] bool runs() const noexcept { return loop_ != nullptr; }
 
-  /// What people do in this millisecond, and what the window and the watchdog do.
+  /// Does what people, the window and the watchdog do in this millisecond.
   void pass_millisecond(int now_ms);
-  /// The loop's tick of this millisecond, unless the schedule says that there is none.
+  /// Runs the loop's tick of this millisecond, unless the schedule says that there is none.
   void tick_if_due(int now_ms);
-  /// Within a tick, after the device was read: acts that come just then.
+  /// Does the acts of people that come within a tick, after the device was read.
   void press_stop_within_tick(int now_ms);
-  /// The loop's thread sees how long its tick took.
+  /// Returns whether a tick is under way. The loop's thread measures how long its tick took.
   [[nodiscard]] bool is_within_tick() const noexcept { return is_within_tick_; }
 
  private:

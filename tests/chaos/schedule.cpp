@@ -12,7 +12,7 @@ namespace jnd::chaos {
 namespace {
 
 constexpr double kShareOfProcesses = 0.05;
-constexpr int kNumFields = 12;  ///< Three axes of the four vectors of a measurement.
+constexpr int kNumFields = 12;  ///< A measurement has four vectors with three axes each.
 
 struct TroubleKind {
   Trouble what;
@@ -22,7 +22,7 @@ struct TroubleKind {
   double least, most;
 };
 
-/// A new fault is a line here, a name in `Trouble`, and a few lines where it happens.
+/// A new fault needs a line here, a name in `Trouble`, and a few lines where it happens.
 constexpr std::array kTroubles = {
     TroubleKind{Trouble::kArm, "somebody arms", true, true, 0, 0, 0, 0},
     TroubleKind{Trouble::kDisarm, "somebody disarms", true, true, 0, 0, 0, 0},
@@ -79,7 +79,7 @@ Event drawn_event(core::RandomStream& random, const TroubleKind& kind, int at_ms
           .size = random.uniform(kind.least, kind.most)};
 }
 
-/// People arm again and again, and release a stop after it was pressed.
+/// Adds the acts of people, who arm again and again, and release a stop after it was pressed.
 void add_acts_of_people(core::RandomStream& random, Schedule& schedule) {
   std::vector<Event> acts;
   for (int at_ms = 20 + static_cast<int>(random.below(300)); at_ms < schedule.lasts_ms;
@@ -90,7 +90,7 @@ void add_acts_of_people(core::RandomStream& random, Schedule& schedule) {
     if (event.what != Trouble::kPressStop && event.what != Trouble::kPressStopWithinTick) {
       continue;
     }
-    // Now and then all keys at once, in whatever order.
+    // Sometimes people press all keys almost at once, in any order.
     const bool is_hasty = random.with_probability(0.3);
     const int least_ms = is_hasty ? event.at_ms - 2 : event.at_ms;
     const std::uint64_t within_ms = is_hasty ? 5 : 800;
@@ -98,7 +98,7 @@ void add_acts_of_people(core::RandomStream& random, Schedule& schedule) {
     acts.push_back({.at_ms = soon_ms(), .what = Trouble::kReleaseStop});
     if (!is_hasty) continue;
     acts.push_back({.at_ms = soon_ms(), .what = Trouble::kArm});
-    // As if the loop had not looked meanwhile.
+    // The loop does not look at the keys meanwhile.
     acts.push_back({.at_ms = least_ms, .lasts_ms = 6, .what = Trouble::kLoopStalls});
   }
   schedule.events.insert(schedule.events.end(), acts.begin(), acts.end());
@@ -117,7 +117,7 @@ void draw_events(core::RandomStream& random, Schedule& schedule) {
   std::ranges::stable_sort(schedule.events, {}, &Event::at_ms);
 }
 
-/// A program that is stopped or gone has no watchdog: that needs a device that knows it.
+/// A stopped or killed program has no watchdog, so the device must end the force by itself.
 bool needs_a_device_that_zeroes_by_itself(const Schedule& schedule) {
   return std::ranges::any_of(schedule.events, [](const Event& event) {
     return event.what == Trouble::kProgramStops || event.what == Trouble::kProgramIsKilled ||

@@ -7,59 +7,60 @@
 
 namespace jnd::chaos {
 
-/// Where a schedule is played.
+/// The place where a schedule is played.
 enum class World {
-  kDirect,   ///< Loop and device in one program, in virtual time.
-  kNetwork,  ///< A network between them, in virtual time.
-  kProcess,  ///< The real program, killed, stopped and starved while it writes a study.
+  kDirect,   ///< Loop and device run in one program, in virtual time.
+  kNetwork,  ///< A network lies between them, in virtual time.
+  kProcess,  ///< The real program is killed, stopped and starved while it writes a study.
 };
 
-/// What people do and what goes wrong. `kTroubles` says of each where it can happen, for how
+/// What people do and what goes wrong. `kTroubles` says where each trouble can happen, for how
 /// long and how strongly.
 enum class Trouble : std::uint8_t {
   kArm,
   kDisarm,
   kPressStop,
   kReleaseStop,
-  kPressStopWithinTick,  ///< After the device was read and before its force is written.
+  kPressStopWithinTick,  ///< The stop is pressed after the device was read and before its force
+                         ///< is written.
   kNewMedium,
   kBrokenMedium,  ///< A command whose amount is no number.
   kLoopStalls,
-  kLoopHeldUpWithinTick,  ///< The loop is held up between reading and writing.
+  kLoopHeldUpWithinTick,  ///< The loop is delayed between reading and writing.
   kWindowStalls,
   kServerStalls,
-  kProgramStops,     ///< SIGSTOP: loop, watchdog and window at once.
-  kProgramIsKilled,  ///< And started anew afterwards.
+  kProgramStops,     ///< SIGSTOP stops loop, watchdog and window at once.
+  kProgramIsKilled,  ///< The program is started again afterwards.
   kServerRestarts,
-  kUnplugged,  ///< Nothing gets through to the device and back.
-  kNoNumber,   ///< NaN in one field of the measurement.
-  kInfinity,   ///< Infinity in it.
+  kUnplugged,  ///< Nothing gets through to the device or back.
+  kNoNumber,   ///< One field of the measurement is NaN.
+  kInfinity,   ///< One field of the measurement is infinite.
   kPositionsFreeze,
-  kReadingFreezes,  ///< With its time.
+  kReadingFreezes,  ///< The reading freezes together with its time.
   kVelocitySign,
   kReadingLate,
   kForceLate,
   kReadsFail,
   kWritesFail,
   kPointComesOff,
-  kLeap,     ///< A point is elsewhere, in metres.
-  kTooFast,  ///< A point's velocity is off, in m/s.
-  kLoses,    ///< This share of the datagrams.
+  kLeap,     ///< A point is displaced, in metres.
+  kTooFast,  ///< A point's velocity is wrong, in m/s.
+  kLoses,    ///< The network loses this share of the datagrams.
   kDoubles,
-  kDelays,    ///< All datagrams, by so many ms.
-  kReorders,  ///< Each datagram by up to so many ms.
+  kDelays,    ///< All datagrams are late by this many ms.
+  kReorders,  ///< Each datagram is late by up to this many ms.
   kCorrupts,
-  kReplays,  ///< Old ones are sent again.
+  kReplays,  ///< Old datagrams are sent again.
 };
 
-/// One trouble, from `at_ms` on. Acts last no time.
+/// One trouble, from `at_ms` on. Acts of people take no time.
 struct Event {
   int at_ms = 0;
   int lasts_ms = 0;
   Trouble what = Trouble::kArm;
-  int point = 0;      ///< Of the hand, where one is meant.
-  int field = 0;      ///< Of the measurement, where one is meant.
-  double size = 0.0;  ///< As `Trouble` says.
+  int point = 0;      ///< The point of the hand, if the trouble is about one.
+  int field = 0;      ///< The field of the measurement, if the trouble is about one.
+  double size = 0.0;  ///< The strength, in the unit that `Trouble` says.
 
   [[nodiscard]] bool is_on(int now_ms) const noexcept {
     return now_ms >= at_ms && now_ms < at_ms + lasts_ms;
@@ -69,37 +70,39 @@ struct Event {
   }
 };
 
-/// All of one run. A pure function of its seed.
+/// Everything of one run, as a pure function of its seed.
 struct Schedule {
   std::uint64_t seed = 0;
   World world = World::kDirect;
   int lasts_ms = 0;
   double hand_mass_kg = 0.3;
-  double stroke_m = 0.1;    ///< Amplitude of what the person does.
-  double stroke_hz = 1.0;   ///< Strokes to and fro.
-  double filter_hz = 0.0;   ///< Of the device's velocity; 0: none.
-  int reading_late_ms = 0;  ///< Always; events come on top.
+  double stroke_m = 0.1;    ///< The amplitude of the person's strokes.
+  double stroke_hz = 1.0;   ///< The frequency of strokes to and fro.
+  double filter_hz = 0.0;   ///< The cut-off frequency of the device's velocity filter, or 0 for
+                            ///< none.
+  int reading_late_ms = 0;  ///< The constant delay. Events add to it.
   int force_late_ms = 0;
   double viscosity_pa_s = 8.0;
-  bool zeroes_by_itself = true;  ///< The device, 20 ms after the last write.
-  std::vector<Event> events;     ///< By their time.
+  bool zeroes_by_itself = true;  ///< Whether the device ends the force by itself, 20 ms after
+                                 ///< the last write.
+  std::vector<Event> events;     ///< The events are in the order of their time.
 
-  /// The first event of the kind that is on now; nullptr: none.
+  /// Returns the first event of this kind that is on at this time, or nullptr if there is none.
   [[nodiscard]] const Event* on(Trouble what, int now_ms) const noexcept;
-  /// Whether something was on that holds up or loses what goes between loop and device.
+  /// Returns whether a trouble was on that delays or loses what goes between loop and device.
   [[nodiscard]] bool is_disturbed(int from_ms, int to_ms) const noexcept;
-  /// Whether datagrams may have come late, or again.
+  /// Returns whether datagrams may have come late or repeatedly.
   [[nodiscard]] bool has_late_datagrams(int from_ms, int to_ms) const noexcept;
-  /// Whether a force may stand for a while that was meant for a moment: until a watchdog ends
-  /// it, or until it is seen that readings stand still.
+  /// Returns whether a force that was meant for a moment may stand longer: until a watchdog
+  /// ends it, or until the program sees that readings stand still.
   [[nodiscard]] bool may_let_a_force_stand() const noexcept;
-  /// The most by which reading and force together are ever late, on the way to the device.
+  /// Returns the longest total delay of reading and force on the way to the device.
   [[nodiscard]] int most_late_ms() const noexcept;
 };
 
 [[nodiscard]] Schedule drawn_schedule(std::uint64_t seed);
 
-/// A few lines for a person: what is played, one event a line.
+/// Describes the schedule in a few lines for a person, with one event in each line.
 [[nodiscard]] std::string told(const Schedule& schedule);
 
 [[nodiscard]] std::string_view name(Trouble what) noexcept;

@@ -12,7 +12,8 @@ bool says_complete(const std::string& json) {
   return json.find("\"complete\": true") != std::string::npos;
 }
 
-/// "EVENT 12 trial_answered" has to stand in the study as number 12.
+/// Returns whether the study contains the line, for example "EVENT 12 trial_answered" as its
+/// event number 12.
 bool stands(const std::string& line, const std::vector<core::EventRow>& events) {
   std::istringstream words(line);
   std::string word, kind;
@@ -50,7 +51,7 @@ bool ToldEvents::has_session() const {
   try {
     return !core::StudyStore(study_, core::StudyStore::Mode::kReadOnly).sessions().empty();
   } catch (const core::Error&) {
-    return false;  // Its program was killed before there was one.
+    return false;  // The program was killed before there was a session.
   }
 }
 

@@ -9,8 +9,7 @@
 
 namespace jnd::chaos {
 
-/// The events of a session of which the program said that they are on the disk. The judge of
-/// whether they are.
+/// Collects the events that the program acknowledged as stored, and judges whether they are.
 class ToldEvents {
  public:
   explicit ToldEvents(std::filesystem::path study) : study_(std::move(study)) {}
@@ -18,12 +17,13 @@ class ToldEvents {
   [[nodiscard]] bool empty() const noexcept { return lines_.empty(); }
   [[nodiscard]] std::size_t size() const noexcept { return lines_.size(); }
   void add(const std::string& line) { lines_.push_back(line); }
-  /// Whole lines count: the last one of a killed program may have been cut off.
+  /// Adds whole lines only, because a killed program may have left an incomplete last line.
   void take(const test_support::ProgramOutcome& outcome);
 
-  /// What is missing in the study, or wrong about it by the word of `jnd verify`; "": nothing.
+  /// Returns what is missing in the study, or what `jnd verify` finds wrong with it, or "" if
+  /// all is right.
   [[nodiscard]] std::string problem(const test_support::ProgramOptions& options) const;
-  /// Whether there is a session to resume, although nothing may have been told of it yet.
+  /// Returns whether there is a session to resume, even if no event of it was acknowledged yet.
   [[nodiscard]] bool has_session() const;
   [[nodiscard]] bool session_is_complete() const;
 

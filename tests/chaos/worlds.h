@@ -7,23 +7,23 @@
 
 namespace jnd::chaos {
 
-/// What became of a schedule.
+/// The outcome of a schedule.
 struct Outcome {
-  std::string violation;  ///< Empty: none.
+  std::string violation;  ///< It is empty if there was no violation.
   int num_milliseconds_with_force = 0;
   double most_given_j = 0.0;
-  std::string story;       ///< What happened when, of what is no function of the seed.
-  bool was_played = true;  ///< False: what it needs is not there.
+  std::string story;       ///< What happened when, as far as the seed does not determine it.
+  bool was_played = true;  ///< False if this machine lacks what the schedule needs.
 };
 
-/// In virtual time, all of it in this thread.
+/// Plays a schedule in virtual time, in this thread alone.
 [[nodiscard]] Outcome played_directly(const Schedule& schedule);
 [[nodiscard]] Outcome played_over_a_network(const Schedule& schedule);
 
-/// The real program, in real time. Not played where none was built.
+/// Plays the real program in real time. If no program was built, nothing is played.
 [[nodiscard]] Outcome played_by_processes(const Schedule& schedule);
 
-/// The same on devices of other programs, which keep a record of what they were given.
+/// Plays the real program on devices of other programs, which record what they were given.
 [[nodiscard]] Outcome played_through_a_door(const DoorSchedule& schedule);
 
 }  // namespace jnd::chaos
