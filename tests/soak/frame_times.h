@@ -8,22 +8,23 @@
 
 namespace jnd::soak {
 
-/// How long frames took, at first and at last, as counts of classes that are 2 % wide: as large
-/// after a day as at its beginning, so that a soak does not grow by what it measures.
+/// Records how long frames took, early and late in a soak, as counts in classes that are 2 %
+/// wide. It has the same size after a day as at its beginning, so that the soak does not grow
+/// by what it measures.
 class FrameTimes {
  public:
-  /// `passed_ratio`: of the whole soak. Its first eighth is warm-up, the second is "at first",
-  /// the last is "at last".
+  /// Adds a frame. `passed_ratio` is the share of the soak that has passed. The first eighth is
+  /// warm-up, the second eighth is "at first", and the last eighth is "at last".
   void add(double took_s, double passed_ratio) noexcept {
     ++num_;
     if (passed_ratio >= 0.125 && passed_ratio < 0.25) at_first_.add(took_s);
     if (passed_ratio >= 0.875) at_last_.add(took_s);
   }
   [[nodiscard]] std::size_t num() const noexcept { return num_; }
-  /// Median, seconds; 0 without frames.
+  /// Returns the median in seconds, or 0 without frames.
   [[nodiscard]] double at_first_s() const noexcept { return at_first_.median_s(); }
   [[nodiscard]] double at_last_s() const noexcept { return at_last_.median_s(); }
-  /// Of whichever there are fewer.
+  /// Returns the number of frames in the smaller of both groups.
   [[nodiscard]] std::size_t num_compared() const noexcept {
     return std::min(at_first_.num, at_last_.num);
   }
@@ -31,7 +32,7 @@ class FrameTimes {
  private:
   struct Classes {
     static constexpr double kShortest_s = 1e-6, kStep = 1.02;
-    static constexpr std::size_t kCount = 700;  // Up to a second.
+    static constexpr std::size_t kCount = 700;  // The classes reach up to a second.
 
     void add(double took_s) noexcept {
       const double place = std::log(std::max(took_s, kShortest_s) / kShortest_s) / kLogStep;

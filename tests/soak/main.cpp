@@ -18,18 +18,18 @@
 #include "soak/process_use.h"
 #include "support/temporary_folder.h"
 
-// A day of work in minutes: everything in the window, again and again, by a clock that goes on
-// a thirtieth of a second with each frame. What grows is a leak. Exit code 0: nothing has
-// grown; 1: something has, or a view was never seen; 2: wrong usage.
+// Does a day of work in minutes: everything in the window, again and again, by a clock that
+// advances a thirtieth of a second with each frame. What grows is a leak. The exit code is 0 if
+// nothing has grown, 1 if something has or a view was never seen, and 2 for wrong usage.
 
 namespace jnd::soak {
 namespace {
 
-/// From so many on, all is judged: below, the arenas of the C library have not found their size
-/// yet, and nobody looks long at anything.
+/// From this length on, everything is judged. In a shorter soak the arenas of the C library
+/// have not reached their size, and each view is shown only briefly.
 constexpr double kHoursOfALongSoak = 2.0;
 constexpr double kLook_s = 6.0, kGlance_s = 0.4;
-/// Median of the frames of the last eighth against the second.
+/// The largest ratio of the median frame time in the last eighth to that in the second.
 constexpr double kMostSlowing = 1.2;
 constexpr std::size_t kFramesToJudgeAView = 500;
 constexpr std::size_t kFewestRounds = 8;
@@ -37,7 +37,7 @@ constexpr std::size_t kLeftBehindEachRound_bytes = 1'000'000;
 
 struct Options {
   double hours = 8.0;
-  /// For a proof that a soak sees them: what is left behind in each round.
+  /// These make the soak leave something behind in each round, to prove that it finds leaks.
   bool leaks_memory = false, leaks_handles = false;
   bool tells = false;
 };
@@ -67,7 +67,7 @@ Options options_of(int argc, char** argv) {
 }
 
 void leave_behind(const Options& options) {
-  // Volatile, so that no compiler leaves out what nobody reads.
+  // Volatile, so that the compiler keeps a write that nobody reads.
   static char* volatile lost = nullptr;
   if (options.leaks_memory) {
     for (std::size_t bytes = 0; bytes < kLeftBehindEachRound_bytes; bytes += 1000) {
@@ -78,8 +78,8 @@ void leave_behind(const Options& options) {
   if (options.leaks_handles) (void)::open("/dev/null", O_RDONLY | O_CLOEXEC);
 }
 
-/// The last frames against the first ones after the warm-up, of each view that has enough of
-/// them: the median of the views' ratios.
+/// Compares the last frames with the first ones after the warm-up, in each view that has enough
+/// of them. Returns the median of the views' ratios.
 double slowing(const Person& person) {
   std::vector<double> ratios;
   for (const auto& [view, times] : person.frames()) {
@@ -104,7 +104,7 @@ int soak(const Options& options) {
   app::SimulatedStudy made;
   made.simulate(2, /*record=*/true);
   (void)made.interrupt(3);
-  // Where the copies look for it: beside them.
+  // The copies look for the study file beside themselves.
   app::write_file(folder.path() / "tiny.json", app::kTinyStudy);
   Person person({.template_study = made.folder(),
                  .table = app::write_file(folder.path() / "order.csv",
@@ -147,7 +147,7 @@ int soak(const Options& options) {
                          {"machine_is_busy", is_busy},
                          {"held", told_of(rounds)},
                          {"problems", problems}};
-  // In a short one the first frames of a view are not of what its last ones show.
+  // In a short soak, the first frames of a view do not show the same as its last ones.
   if (is_long) told["frame_slowing_ratio"] = slower;
   for (const auto& [view, times] : person.frames()) {
     told["views"][view] = {{"frames", times.num()},
@@ -162,7 +162,7 @@ int soak(const Options& options) {
 }  // namespace jnd::soak
 
 int main(int argc, char** argv) {
-  // Widgets that are drawn twice are told by the expectations of the frames.
+  // The expectations of the frames report widgets that are drawn twice.
   int no_arguments = 1;
   ::testing::InitGoogleTest(&no_arguments, argv);
   try {

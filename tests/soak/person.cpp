@@ -19,15 +19,15 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-/// As the window draws where something moves.
+/// The window draws at this rate when something moves.
 constexpr double kFrame_s = 1.0 / 30.0;
-/// Real time, where work beside the window is waited for.
+/// This is real time, for waiting on work beside the window.
 constexpr auto kBetweenLooksAtWork = std::chrono::milliseconds(3);
 constexpr int kFramesBetweenLooksBeside = 30;
-/// Real time: a device without a session runs in it.
+/// This is real time, because a device without a session runs in it.
 constexpr double kWatched_s = 0.15;
 constexpr int kFramesOfAnAct = 6;
-/// Simulated.
+/// This is simulated time.
 constexpr double kLongestSession_s = 3600.0;
 
 double thread_cpu_s() {
@@ -93,8 +93,8 @@ void Person::look() {
 
 void Person::think() { draw_frames(static_cast<int>(parameters_.look_s / 4.0 / kFrame_s)); }
 
-/// Until what was pressed is taken and carried out: input is held as long as the session has
-/// not come to what was asked of it.
+/// Draws frames until the input is taken and carried out. Input waits as long as the session
+/// has not done what was asked of it.
 void Person::settle() {
   ui_.move(5, 5);
   if (!until([&] { return ui_.queue().empty(); }, 5.0)) miss("input is held");
@@ -132,7 +132,8 @@ void Person::miss(const std::string& what) {
   if (offers("message_close")) ui_.press(Key::kEnter);
 }
 
-/// A frame for each event that waits, and those in which what was used opens.
+/// Draws a frame for each waiting event, and the frames in which the used widget opens
+/// something.
 bool Person::use(const std::string& name, double patience_s) {
   if (!until([&] { return offers(name); }, patience_s)) {
     miss(name + " was not offered");
@@ -176,7 +177,8 @@ void Person::look_at_keys() {
   press({.key = Key::kF1});
 }
 
-/// On another monitor each time, and closed; a session opens it again.
+/// Shows the participant's window on another monitor each time and closes it. A session opens
+/// it again.
 void Person::look_at_participant_screens() {
   press({.key = Key::kF9});
   look();
@@ -191,7 +193,8 @@ void Person::finish_work() {
   think();
 }
 
-/// Two folders by turns: the window may hold the last one open until the next is.
+/// The rounds use two folders by turns, because the window may keep the last one open until it
+/// opens the next.
 void Person::go_round() {
   look_at_start();
   const fs::path folder =
@@ -317,7 +320,7 @@ void Person::prepare() {
   come_to("session");
 }
 
-/// A percent is typed and stored; false where none is asked now.
+/// Types a percentage and stores it. Returns false if none is asked for now.
 bool Person::answer_percent() {
   if (ui_.drawn().find("answer_percent") == nullptr || offers("present")) return false;
   if (!offers("answer_percent") && !ui_.drawn().shows("type the percent")) return false;
@@ -325,7 +328,7 @@ bool Person::answer_percent() {
   return offers("answer_percent") && use("answer_percent");
 }
 
-/// Whatever is asked, answered somehow; false where nothing is asked now.
+/// Answers somehow whatever is asked. Returns false if nothing is asked now.
 bool Person::answer() {
   for (const char* name : {"message_close", "doubt_store", "release_stop", "rearm"}) {
     if (offers(name)) return use(name);
@@ -336,7 +339,7 @@ bool Person::answer() {
     return true;
   }
   if (answer_percent()) return true;
-  // Nobody goes on early from a break, which would have to be explained.
+  // The person does not end a break early, because that would need an explanation.
   if (offers("finish_break")) return ui_.drawn().shows("0:00") && use("finish_break");
   for (const char* name :
        {"begin", "go_on", "item_done", "consent_given", "item_yes", "feel_medium",
@@ -348,7 +351,8 @@ bool Person::answer() {
   return false;
 }
 
-/// A note that is not written, every key, the apparatus, the emergency stop.
+/// Interrupts the session with a note that is not saved, the list of keys, the apparatus and
+/// the emergency stop.
 void Person::interrupt_session() {
   press({letter('N'), true});
   press({.key = Key::kF2});
@@ -404,7 +408,8 @@ void Person::look_at_data() {
   }
 }
 
-/// As a program that is begun and left: what one window leaves behind counts as well.
+/// Opens another window as a program that starts and ends, because what one window leaves
+/// behind counts as well.
 void Person::open_another_window() {
   app::gui::Application other({.study_folder = parameters_.template_study}, [] {});
   for (int i = 0; i < 5; ++i) {

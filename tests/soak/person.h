@@ -16,56 +16,60 @@
 
 namespace jnd::soak {
 
-/// Somebody at the window without its pixels, who goes through all of it again and again. What
-/// they look for and do not find is told: a soak that passes a view by proves nothing of it.
+/// Plays somebody at the window without its pixels, who goes through all of it again and again.
+/// The person reports what they look for and do not find, because a soak that passes by a view
+/// proves nothing about it.
 ///
 /// Each frame is a thirtieth of a second of the simulated day, as in a window that shows a
-/// session; sessions take their time from the same clock. A frame is drawn as soon as the last
-/// one is, but where work beside the window is waited for.
+/// session, and sessions take their time from the same clock. A frame is drawn as soon as the
+/// last one is done, except while work beside the window is waited for.
 class Person {
  public:
   struct Parameters {
-    std::filesystem::path template_study;  ///< A folder with sessions; copied for each round.
-    std::filesystem::path table;           ///< Of answers, for the view of data.
-    std::filesystem::path folder;          ///< Where the studies of rounds are.
-    double duration_s = 0.0;  ///< Of the simulated day: which frames are the first, and last.
-    double look_s = 0.0;      ///< Simulated, at each view and page; a quarter for each act.
-    bool tells = false;       ///< How long each part of a round took, to stderr.
+    std::filesystem::path template_study;  ///< A folder with sessions, which is copied for each
+                                           ///< round.
+    std::filesystem::path table;           ///< A table of answers for the view of data.
+    std::filesystem::path folder;          ///< The folder that holds the studies of the rounds.
+    double duration_s = 0.0;  ///< The length of the simulated day, which decides which frames
+                              ///< are the first and the last.
+    double look_s = 0.0;      ///< The simulated time at each view and page. Each act takes a
+                              ///< quarter of it.
+    bool tells = false;  ///< Whether to print to stderr how long each part of a round took.
   };
   explicit Person(Parameters parameters);
 
-  /// From the start through every view and a session, and back to the start.
+  /// Goes from the start through every view and a session, and back to the start.
   void go_round();
 
-  /// Of the simulated day so far.
+  /// Returns the simulated time so far.
   [[nodiscard]] double now_s() const noexcept { return clock_s_.load(); }
-  /// What drawing a frame took, by view.
+  /// Returns how long frames took to draw, for each view.
   [[nodiscard]] const std::map<std::string, FrameTimes>& frames() const noexcept {
     return frames_;
   }
   [[nodiscard]] std::size_t num_frames() const noexcept { return num_frames_; }
   [[nodiscard]] int num_sessions() const noexcept { return num_sessions_; }
-  /// Of the simulated day, within sessions.
+  /// Returns the simulated time within sessions.
   [[nodiscard]] double in_sessions_s() const noexcept { return in_sessions_s_; }
-  /// What was looked for and not found, each once with its view.
+  /// Returns what was looked for and not found, each once with its view.
   [[nodiscard]] const std::vector<std::string>& missed() const noexcept { return missed_; }
 
  private:
   void frame();
   void draw_frames(int count);
-  /// At what stands there, with a mouse that moves over it.
+  /// Looks at the present view while the mouse moves over it.
   void look();
   void think();
   void settle();
   bool until(const std::function<bool()>& it, double patience_s);
   [[nodiscard]] bool offers(const std::string& name) const;
-  /// Clicks what has this name once it is offered.
+  /// Clicks the widget of this name as soon as it is offered.
   bool use(const std::string& name, double patience_s = 5.0);
   void press(const app::gui::Chord& chord);
   void type(const std::string& text);
   void come_to(const std::string& view);
   void miss(const std::string& what);
-  /// Opens what this opens, looks, and leaves it.
+  /// Opens what this widget opens, looks at it and leaves it.
   void look_into(const std::string& name);
   void look_at_keys();
   void look_at_participant_screens();
@@ -87,7 +91,7 @@ class Person {
 
   Parameters parameters_;
   app::gui::HeadlessUi ui_{1600, 1000}, participant_{1280, 720};
-  std::atomic<double> clock_s_{0.0};  ///< Before the window, whose session asks for it.
+  std::atomic<double> clock_s_{0.0};  ///< Declared before the window, whose session reads it.
   std::unique_ptr<app::gui::Application> application_;
   std::map<std::string, FrameTimes> frames_;
   std::vector<std::string> missed_;

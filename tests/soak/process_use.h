@@ -9,29 +9,32 @@
 
 namespace jnd::soak {
 
-/// What a process holds, after a round.
+/// What a process holds after a round.
 struct ProcessUse {
-  double allocated_bytes = 0.0;  ///< By `malloc`, in use, in every arena; 0 of another process.
-  double resident_bytes = 0.0;   ///< In memory, free parts of the arenas among it.
-  int num_handles = 0;           ///< Open files, sockets and pipes.
+  double allocated_bytes = 0.0;  ///< The memory in use from `malloc` in every arena, or 0 for
+                                 ///< another process.
+  double resident_bytes = 0.0;   ///< The memory that is resident, including free parts of the
+                                 ///< arenas.
+  int num_handles = 0;           ///< The number of open files, sockets and pipes.
   int num_threads = 0;
 };
 
-/// Of this process.
+/// Measures this process.
 [[nodiscard]] ProcessUse process_use();
-/// Of another one, as the system sees it from outside; zeros where there is none.
+/// Measures another process, as the system sees it from outside. All values are 0 if there is
+/// no such process.
 [[nodiscard]] ProcessUse use_of(pid_t process);
 
-/// The most that a quantity may have grown by from the rounds after the warm-up to the last.
+/// The largest growth of a quantity from the rounds after the warm-up to the last rounds.
 constexpr double kMostGrowth = 0.03;
 
-/// What has grown, one sentence each; none where all is as it was. The first quarter of the
-/// rounds is warm-up. `judges_resident`: whether there were rounds enough for the arenas to
-/// have found their size.
+/// Returns one sentence for each quantity that has grown. The first quarter of the rounds is
+/// warm-up. `judges_resident` says whether there were enough rounds for the arenas to reach
+/// their size.
 [[nodiscard]] std::vector<std::string> growths(const std::vector<ProcessUse>& rounds,
                                                bool judges_resident);
 
-/// Median of one quantity over the rounds right after the warm-up, and over the last ones.
+/// The median of one quantity over the rounds right after the warm-up, and over the last ones.
 struct BeforeAndAfter {
   double before = 0.0, after = 0.0;
 
@@ -39,7 +42,7 @@ struct BeforeAndAfter {
 };
 [[nodiscard]] BeforeAndAfter compared(const std::vector<double>& rounds);
 
-/// The same as JSON: each quantity after the warm-up, at the end, and by round.
+/// Returns the same as JSON: each quantity after the warm-up, at the end, and in each round.
 [[nodiscard]] nlohmann::json told_of(const std::vector<ProcessUse>& rounds);
 
 [[nodiscard]] double median(std::vector<double> values);

@@ -16,10 +16,10 @@
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
-// The real program's window, its pixels drawn on a display of memory: letters in every size,
-// both themes, the picture of the apparatus, the participant's window. What it holds is looked
-// at from outside. Exit code 0: nothing has grown; 1: something has; 2: wrong usage, or a view
-// did not come.
+// Opens the real program's window on a display in memory, with its pixels: letters in every
+// size, both themes, the picture of the apparatus, and the participant's window. What the
+// program holds is observed from outside. The exit code is 0 if nothing has grown, 1 if
+// something has, and 2 for wrong usage or a view that did not appear.
 
 namespace jnd::soak {
 namespace {
@@ -28,11 +28,12 @@ namespace fs = std::filesystem;
 using app::Screen;
 
 constexpr std::size_t kFewestRounds = 8;
-/// The participant's window moves between the two that the experimenter does not look at.
+/// The participant's window moves between the two monitors that the experimenter does not look
+/// at.
 constexpr const char* kMonitors =
     "LEFT 0 0 1280 720\nMIDDLE 1280 0 1024 600\nRIGHT 2304 0 800 600\n";
 
-/// Opens everything that draws, once around.
+/// Opens once everything that draws.
 class Round {
  public:
   Round(app::WindowDriver& window, fs::path study)
@@ -77,7 +78,7 @@ class Round {
     window_.press("BackSpace");
     window_.wait_for_view("sessions");
   }
-  /// Each size has a picture of its letters, and each theme its colours.
+  /// Each size has a picture of its letters, and each theme has its colours.
   void look_at_letters() {
     for (const char* key : {"ctrl+plus", "ctrl+plus", "ctrl+minus", "ctrl+minus", "ctrl+d"}) {
       window_.press(key);
@@ -91,7 +92,7 @@ class Round {
     window_.wait_for_view("prepare");
     window_.use("start_session");
     window_.use("begin");
-    // The reference and the test.
+    // The reference is presented first, and then the test.
     window_.use("present");
     window_.wait_until("the test", [](const Screen& now) {
       return now.offers("present") && now.find("present")->label == "Present the test";
