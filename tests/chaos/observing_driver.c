@@ -2,15 +2,15 @@
  * program. It has a hand of five points that strokes along x by itself in the fluid, whatever
  * the force. Its time is this machine's.
  *
- * log=PATH: each opening writes a file PATH.PROCESS. It consists of records of 128 bytes, one
- * for each write and each halt: the time (CLOCK_MONOTONIC, ns, int64) and the 15 components of
+ * log=PATH: each opening writes a file PATH.PROCESS of records of 128 bytes, one for each write
+ * and each halt. A record has the time (CLOCK_MONOTONIC, ns, int64) and the 15 components of
  * the force that stands from then on (N, double). The file PATH.PROCESS.beats gets the time
  * alone, some five hundred times a second, and so shows when this process ran. Nothing is
- * buffered, so a killed process has written everything. plug=PATH: while this file exists, the
- * device is unplugged and calls fail. paces=1: the driver sets the pace of the loop.
- * points=BITS: the points that it has. wrong=NAME: the driver is wrong on purpose. With "halt"
- * it ignores a halt, and forces that become zero. With "limits" the motors give three times the
- * force that they are asked for. */
+ * buffered, so a killed process has written everything.
+ * plug=PATH: while this file exists, the device is unplugged and calls fail.
+ * paces=1: the driver sets the pace of the loop. points=BITS: the points that it has.
+ * wrong=NAME: the driver is wrong on purpose. With "halt" it ignores a halt, and forces that
+ * become zero. With "limits" the motors give three times the force that they are asked for. */
 #include "jnd_device.h"
 
 #include <fcntl.h>
