@@ -8,7 +8,7 @@
 namespace jnd::experiments {
 namespace {
 
-/// 50 intensities, 50 x 25 x 4 = 5000 combinations.
+/// Returns a rule with 50 intensities and 50 x 25 x 4 = 5000 combinations of parameters.
 QuestPlusRule large_rule() {
   const auto grid = [](double low, double high, int count) {
     return equally_spaced(LevelScale::kLogarithmic, low, high, count);
@@ -20,7 +20,7 @@ QuestPlusRule large_rule() {
           .max_trials = 60};
 }
 
-/// Answers by the toss of a coin that favours high intensities.
+/// Draws random answers that favour high intensities.
 std::vector<LevelAnswer> answers_of(const QuestPlus& quest, int num_answers) {
   core::RandomStream stream(1, "adaptive_bench");
   QuestPlusPosterior posterior = quest.prior();
@@ -33,7 +33,7 @@ std::vector<LevelAnswer> answers_of(const QuestPlus& quest, int num_answers) {
   return answers;
 }
 
-/// One answer more, and the stimulus after it.
+/// Measures one more answer and the choice of the stimulus after it.
 void quest_plus_next(benchmark::State& state) {
   const QuestPlus quest(large_rule());
   core::RandomStream stream(1, "adaptive_bench");
@@ -47,8 +47,8 @@ void quest_plus_next(benchmark::State& state) {
 }
 BENCHMARK(quest_plus_next)->Unit(benchmark::kMicrosecond);
 
-/// The same as Watson (2017) writes it: the posterior after each possible answer and its
-/// entropy.
+/// Measures the same as Watson (2017) writes it: the posterior after each possible answer, and
+/// its entropy.
 void quest_plus_next_naive(benchmark::State& state) {
   const QuestPlusRule rule = large_rule();
   const QuestPlus quest(rule);
@@ -83,7 +83,7 @@ void quest_plus_next_naive(benchmark::State& state) {
 }
 BENCHMARK(quest_plus_next_naive)->Unit(benchmark::kMicrosecond);
 
-/// As after a restart: sixty answers from the prior on.
+/// Measures a restart, which computes the posterior of sixty answers from the prior on.
 void quest_plus_replay(benchmark::State& state) {
   const QuestPlus quest(large_rule());
   const auto answers = answers_of(quest, 60);

@@ -1,6 +1,7 @@
-// What intervals and group values are worth: draws people whose Weber fractions are known,
-// analyses their answers, and counts how often the intervals hold the truth. `./dev coverage`
-// prints the page data/reference/coverage/README.md. The same seed gives the same page.
+// Measures how good intervals and group values are. It draws people whose Weber fractions are
+// known, analyses their answers, and counts how often the intervals hold the true values.
+// `./dev coverage` prints the page data/reference/coverage/README.md. The same seed gives the
+// same page.
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +76,7 @@ void cover_one_person(int num_sets, std::uint64_t seed) {
   print_rows(rows);
 }
 
-/// The answers with the test in either interval, by turns.
+/// Draws answers with the test in either interval, by turns.
 std::vector<AnswerCount> answers_in_either_order(double w, const Levels& levels, int num_trials,
                                                  RandomStream& random) {
   std::vector<AnswerCount> rows;

@@ -13,17 +13,18 @@
 namespace jnd::coverage {
 namespace {
 
-/// Conditions with their Weber fractions, and weights of a contrast in their logarithms.
+/// The conditions with their Weber fractions, and the weights of a contrast of the logarithms
+/// of these.
 struct Design {
   std::string words;
-  std::vector<double> weber_fractions;  ///< By condition.
-  std::vector<double> weights;          ///< By condition, of those that a person meets.
-  bool has_groups = false;  ///< The second half of the conditions is of other people.
-  int num_people = 13;      ///< In each group.
-  double own_ln = 0.2;      ///< Sd of what is of its own in each condition.
+  std::vector<double> weber_fractions;  ///< One value for each condition.
+  std::vector<double> weights;          ///< One value for each condition that a person meets.
+  bool has_groups = false;  ///< If true, other people do the second half of the conditions.
+  int num_people = 13;      ///< The number of people in each group.
+  double own_ln = 0.2;      ///< The sd of each person's own deviation in each condition.
 };
 
-/// How often a test was significant, and its interval held the truth.
+/// Counts how often a test was significant, and how often its interval held the true value.
 struct Count {
   Coverage coverage;
   int num_significant = 0, num_equivalent = 0, num_tests = 0;
@@ -34,7 +35,7 @@ struct Count {
     if (!estimate) return;
     ++num_tests;
     num_significant += p_value_of(*estimate, Tail::kTwoSided) < 0.05 ? 1 : 0;
-    // An effect that is as large as the margin is not smaller than it.
+    // An effect that is as large as the margin is not smaller than the margin.
     if (truth != 0.0) {
       num_equivalent += equivalence_p_value(*estimate, std::abs(truth)) < 0.05 ? 1 : 0;
     }

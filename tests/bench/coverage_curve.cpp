@@ -10,7 +10,7 @@
 namespace jnd::coverage {
 namespace {
 
-/// A curve whose truth is known: location 0.2, scale 0.7 over seven levels from -2 to 2.
+/// A known curve with location 0.2 and scale 0.7, at seven levels from -2 to 2.
 struct TrueCurve {
   std::string words;
   CurveModel model;
@@ -41,7 +41,8 @@ std::vector<AnswerCount> drawn_from(const CurveFit& curve, int num_trials,
   return rows;
 }
 
-/// Threshold, JND and slope at level 0.75 of the curve, by four kinds of intervals.
+/// Covers the threshold, the JND and the slope at level 0.75 of the curve, with four kinds of
+/// intervals.
 std::string cover_curve(const TrueCurve& truth, int num_trials, int num_sets,
                         std::uint64_t seed) {
   RandomStream random(seed, "coverage of a psychometric function " + truth.words, {num_trials});

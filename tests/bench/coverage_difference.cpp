@@ -13,12 +13,13 @@ namespace {
 
 using Group = std::vector<ParticipantAnswers>;
 
-/// People in two conditions: how far their slopes go together, and whether their places do.
+/// People in two conditions. It says how far their slopes correlate, and whether their places
+/// do.
 struct Pair {
   std::string words;
   int num_people = 13;
-  double spread_ln = 0.3;  ///< Sd of what is the same in both conditions.
-  double own_ln = 0.0;     ///< Sd of what is of its own in each.
+  double spread_ln = 0.3;  ///< The sd of what a person has in common in both conditions.
+  double own_ln = 0.0;     ///< The sd of what a person has separately in each condition.
   bool own_places = false;
   double lapse = 0.0;
 };

@@ -37,13 +37,13 @@ double pooled_truth(const Population& population, const Levels& levels, bool fre
 
 struct GroupEstimate {
   Coverage coverage;
-  std::vector<double> logs;  ///< ln(estimate / truth)
+  std::vector<double> logs;  ///< The values are ln(estimate / truth).
 
   void add(const std::optional<double>& value, const Interval& interval, double truth) {
     coverage.add(value.has_value(), interval, truth);
     if (value) logs.push_back(std::log(*value / truth));
   }
-  /// Of the geometric mean: as often above the truth as below.
+  /// Returns the bias of the geometric mean, in percent.
   [[nodiscard]] std::string bias() const {
     const Summary summary = summary_of(logs);
     return summary.mean ? percent(std::expm1(*summary.mean)) : "-";
@@ -79,14 +79,14 @@ void add_pooled(GroupEstimate& to, const Group& group, bool free_pse, double tru
   to.add(fraction, interval, truth);
 }
 
-/// Whom a row of the table is about.
+/// The people, levels and numbers of a row of the table.
 struct Row {
   Population population;
   Levels levels = kHardLevels;
   int num_people = 13;
 };
 
-/// The median person's fraction: in all sets, and in those of which no caution is told.
+/// The median person's Weber fraction, in all sets and in those without a caution.
 struct MedianPerson {
   GroupEstimate all, without_caution;
   Coverage lapse_rate;
@@ -116,7 +116,8 @@ std::string cell(const GroupEstimate& one) {
   return words;
 }
 
-/// All sets; the share with a caution, and those without.
+/// Returns the coverage of all sets, the share of sets with a caution, and the coverage of
+/// those without.
 std::string cell(const MedianPerson& one, int num_sets) {
   return cell(one.all) + "; " +
          percent(static_cast<double>(one.num_cautions) / num_sets).substr(1) + " cautions, " +

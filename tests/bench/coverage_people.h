@@ -1,6 +1,7 @@
 #pragma once
 
-// People whose Weber fractions are known, and how often an interval held them.
+// This file draws people whose Weber fractions are known, and counts how often an interval held
+// these.
 
 #include <algorithm>
 #include <atomic>
@@ -22,7 +23,7 @@ namespace jnd::coverage {
 using namespace jnd::analysis;
 using core::RandomStream;
 
-/// Stimuli about a reference; of group D and E of `viscosity_discrimination`.
+/// Stimuli about a reference, as in groups D and E of `viscosity_discrimination`.
 struct Levels {
   std::string words;
   double reference = 0.0;
@@ -33,28 +34,30 @@ inline const Levels kHardLevels = {
 inline const Levels kEasyLevels = {
     "easy", 16.06, {10.1, 11.58, 13.83, 14.945, 17.505, 18.95, 23.2, 29.335}};
 
-/// A person: z = slope (ln(x / reference) - place), with what no fit knows of.
+/// A person with z = slope (ln(x / reference) - place), and with properties that no fit knows
+/// of.
 struct Person {
   double slope = 1.0, place = 0.0, drift = 0.0, lapse = 0.0;
   Sigmoid sigmoid = Sigmoid::kNormal;
 
-  /// `time` from -0.5 at the first trial to 0.5 at the last.
+  /// Returns the probability of an answer. `time` goes from -0.5 at the first trial to 0.5 at
+  /// the last.
   [[nodiscard]] double probability(double log_ratio, double time) const {
     const double z = slope * (log_ratio - place - drift * time);
     return lapse + (1.0 - 2.0 * lapse) * sigmoid_tails(sigmoid, z).lower;
   }
 };
 
-/// Whom people are drawn from.
+/// The population from which people are drawn.
 struct Population {
   std::string words;
-  double weber_fraction = 0.7;  ///< Of the median person.
-  double spread_ln = 0.0;       ///< Sd of ln ln(1 + w).
+  double weber_fraction = 0.7;  ///< The Weber fraction of the median person.
+  double spread_ln = 0.0;       ///< The sd of ln ln(1 + w).
   double place_sd_ln = 0.0;
   double drift_ln = 0.0, lapse = 0.0;
   Sigmoid sigmoid = Sigmoid::kNormal;
-  /// The truth is what a curve that is even in ln has for the Weber fraction, half the distance
-  /// between 15.87 and 84.13 %; of normal noise that is w itself.
+  /// If true, the true value is half the distance between 15.87 and 84.13 %, which is the Weber
+  /// fraction of a curve that is symmetric in ln. With normal noise, it is w itself.
   bool even_truth = false;
 
   [[nodiscard]] Person person(double slope_z, double place_z) const {
@@ -86,11 +89,11 @@ inline std::vector<AnswerCount> answers_of(const Person& person, const Levels& l
   return rows;
 }
 
-/// ln ln(1 + w) of one person by their own fit about the reference of `kHardLevels`, with half
-/// an answer added where there is none.
+/// Returns ln ln(1 + w) of one person's own fit about the reference of `kHardLevels`. Half an
+/// answer is added if there is no fit without it.
 [[nodiscard]] std::optional<double> own_number(const std::vector<AnswerCount>& rows);
 
-/// How often an interval held the truth; an open end holds whatever lies there.
+/// Counts how often an interval held the true value. An open end holds whatever lies there.
 struct Coverage {
   int num_sets = 0, num_without = 0, num_held = 0;
 
@@ -121,8 +124,8 @@ inline void print_row(const std::vector<std::string>& cells) {
   std::fputs(row_of(cells).c_str(), stdout);
 }
 
-/// Rows draw their sets from streams of their own, so all processors work at them at once; they
-/// are printed in their order. stderr tells how many are done.
+/// Prints the rows in their order. Each row draws its sets from its own stream, so all
+/// processors compute rows at once. stderr says how many are done.
 inline void print_rows(const std::vector<std::function<std::string()>>& rows) {
   std::vector<std::string> done(rows.size());
   std::atomic<int> num_done{0};
@@ -141,7 +144,7 @@ inline std::string percent(double value) {
   return text;
 }
 
-/// Markdown sections on stdout.
+/// These functions print Markdown sections to stdout.
 void cover_curves(int num_sets, std::uint64_t seed);
 void cover_groups(int num_sets, std::uint64_t seed);
 void cover_contrasts(int num_sets, std::uint64_t seed);

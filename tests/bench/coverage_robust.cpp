@@ -10,8 +10,8 @@
 namespace jnd::coverage {
 namespace {
 
-/// Of one person, two answers to a level correlating by rho: Polya's urn, whose counts are
-/// beta-binomial.
+/// Draws one person's answers, two of which at the same level correlate by rho. This is Polya's
+/// urn, whose counts are beta-binomial.
 std::vector<AnswerCount> scattered_answers_of(const Person& person, const Levels& levels,
                                               int num_trials, double rho,
                                               RandomStream& random) {
@@ -31,7 +31,7 @@ std::vector<AnswerCount> scattered_answers_of(const Person& person, const Levels
 
 struct ScatteredEstimate {
   Coverage coverage;
-  std::vector<double> logs;  ///< ln(estimate / truth)
+  std::vector<double> logs;  ///< The values are ln(estimate / truth).
 
   void add(const HierarchicalFit& fit, double truth) {
     const bool exists = fit.status == FitStatus::kOk && fit.conditions[0].weber_fraction;

@@ -9,7 +9,7 @@
 namespace jnd::coverage {
 namespace {
 
-/// How people's own contrasts spread about the effect.
+/// How people's own contrasts scatter about the effect.
 enum class Spread { kNormal, kFitted, kSkewed, kHeavyTails };
 
 const char* words_of(Spread spread) {
@@ -19,9 +19,9 @@ const char* words_of(Spread spread) {
                                      : "heavy tails";
 }
 
-/// Contrasts of very many people's own fits in two conditions, in ln ln(1 + w): Weber fractions
-/// 0.6 and 0.4, five answers at each of eight hard levels. Shifted and scaled to mean 0 and
-/// sd 1.
+/// Returns the contrasts in ln ln(1 + w) of many people's own fits in two conditions: Weber
+/// fractions 0.6 and 0.4, with five answers at each of eight hard levels. They are shifted and
+/// scaled to mean 0 and sd 1.
 const std::vector<double>& fitted_contrasts() {
   static const std::vector<double> kAll = [] {
     constexpr int kPeople = 20000;
@@ -51,8 +51,8 @@ const std::vector<double>& fitted_contrasts() {
   return kAll;
 }
 
-/// Mean 0 and sd 1: normal; as of people's own fits; lognormal with sigma 0.5 (skewness 1.75);
-/// Student's t with 5 degrees of freedom (kurtosis 9).
+/// Draws a number with mean 0 and sd 1: normal, as of people's own fits, lognormal with sigma
+/// 0.5 (skewness 1.75), or Student's t with 5 degrees of freedom (kurtosis 9).
 double drawn(Spread spread, RandomStream& random) {
   if (spread == Spread::kFitted) {
     const std::vector<double>& all = fitted_contrasts();
@@ -80,7 +80,7 @@ struct LookedDesign {
   std::vector<int> looks;
   SpendingFunction spending = SpendingFunction::kObrienFleming;
   Tail tail = Tail::kTwoSided;
-  double effect = 0.0;  ///< In standard deviations of people's contrasts.
+  double effect = 0.0;  ///< The effect in standard deviations of people's contrasts.
   Spread spread = Spread::kNormal;
   std::size_t num_groups = 1;
 };
@@ -152,7 +152,7 @@ std::string cover_level(const LookedDesign& design, std::int64_t num_studies,
     const LookedStudy study = study_of(design, boundaries, random);
     num_significant += study.outcome.significant ? 1 : 0;
   }
-  // The same test without looks, for what the test itself brings along.
+  // The same test without looks shows what the test itself contributes.
   LookedDesign fixed = design;
   fixed.looks = {design.looks.back()};
   const SequentialBoundaries at_once =
@@ -255,7 +255,7 @@ void cover_sequential(int num_sets, std::uint64_t seed) {
   for (const LookedDesign& design : designs()) {
     for (const double effect : {0.0, 0.5, 0.8, 1.2}) {
       LookedDesign one = design;
-      // Of two groups the effect is a difference, whose standard error is twice as large.
+      // With two groups the effect is a difference, whose standard error is twice as large.
       one.effect = effect * static_cast<double>(design.num_groups);
       rows.emplace_back([=] { return cover_estimate(one, num_sets, seed); });
     }

@@ -7,8 +7,8 @@
 namespace jnd {
 namespace {
 
-/// What the exoskeleton's own control costs in one tick: filter, kinematics, J^T, protection,
-/// feed-forward, friction compensation, gravity. No physics.
+/// Measures the exoskeleton's own control in one tick: filter, kinematics, J^T, protection,
+/// feed-forward, friction compensation and gravity, without physics.
 void exoskeleton_control(benchmark::State& state) {
   device::ExoskeletonKinematics kinematics(Eigen::Vector3d::Zero());
   device::TorqueControl control({.feed_forward_gain_ratio = 0.3}, 0.001);
@@ -27,7 +27,7 @@ void exoskeleton_control(benchmark::State& state) {
 }
 BENCHMARK(exoskeleton_control);
 
-/// One step of the simulated world, its hand drawn along.
+/// Measures one step of the simulated world, in which the hand is drawn along.
 void exoskeleton_physics(benchmark::State& state) {
   device::ExoskeletonDevice exoskeleton({});
   device::MujocoWorld world({.base_m = exoskeleton.kinematics().base_position_m()});
@@ -41,7 +41,8 @@ void exoskeleton_physics(benchmark::State& state) {
 }
 BENCHMARK(exoskeleton_physics);
 
-/// A whole tick of the loop over the simulated exoskeleton in a fluid, physics and all.
+/// Measures a whole tick of the loop with the simulated exoskeleton in a fluid, including
+/// physics.
 void exoskeleton_tick(benchmark::State& state) {
   device::ExoskeletonDevice exoskeleton({});
   core::LatestValue<core::HapticCommand> commands;

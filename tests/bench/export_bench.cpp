@@ -14,10 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kNumSessions = 26, kNumTrials = 500;
-// Of each trial: its event, its answer, one presentation with an event of its own.
+// Each trial has an event, an answer, and one presentation with its own event.
 constexpr std::int64_t kNumRows = kNumSessions * kNumTrials * 4;
 
-/// As many sessions as both studies of the thesis, each with some more trials.
+/// A study with as many sessions as both studies of the thesis, each with more trials.
 class LargeStudy {
  public:
   LargeStudy() {
@@ -76,7 +76,7 @@ class LargeStudy {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
-/// `export csv` of a large study, from opening it on.
+/// Measures `export csv` of a large study, including its opening.
 void export_csv(benchmark::State& state) {
   const LargeStudy study;
   for (auto _ : state) {
@@ -90,7 +90,7 @@ void export_csv(benchmark::State& state) {
 }
 BENCHMARK(export_csv)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// The reference of the same run: the sqlite3 shell's own CSV of the same rows.
+/// Measures the reference in the same run: the CSV of the same rows by the sqlite3 shell.
 void reference_sqlite3_shell_csv(benchmark::State& state) {
   const LargeStudy study;
   const std::string command = "sqlite3 -readonly -csv -header '" +

@@ -28,7 +28,7 @@ void weber_fit_least_squares(benchmark::State& state) {
 }
 BENCHMARK(weber_fit_least_squares);
 
-/// Everything free: the widest search.
+/// Measures the widest search, in which everything is free.
 void weber_fit_free_pse_and_lapse(benchmark::State& state) {
   const auto method = static_cast<PsychometricMethod>(state.range(0));
   for (auto _ : state) {
@@ -51,7 +51,7 @@ void power_fit(benchmark::State& state) {
 }
 BENCHMARK(power_fit)->Arg(0)->Arg(1);
 
-/// 1000 bootstrap refits of nine levels.
+/// Measures 1000 bootstrap refits of nine levels.
 void bootstrap_1000(benchmark::State& state) {
   for (auto _ : state) {
     benchmark::DoNotOptimize(
@@ -68,7 +68,8 @@ void bootstrap_1000_free_lapse(benchmark::State& state) {
 }
 BENCHMARK(bootstrap_1000_free_lapse)->Unit(benchmark::kMillisecond);
 
-/// 1000 refits of `jnd fit psychometric`: plain, with a free lapse rate, with both rates free.
+/// Measures 1000 refits of `jnd fit psychometric`: plain, with a free lapse rate, and with both
+/// rates free.
 void curve_refits_1000(benchmark::State& state) {
   const CurveModel model = {.family = CurveFamily::kLogistic,
                             .free_guess = state.range(0) > 1,
@@ -82,7 +83,8 @@ void curve_refits_1000(benchmark::State& state) {
 }
 BENCHMARK(curve_refits_1000)->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
 
-/// A million trials read and added up; of nine intensities, or each of its own.
+/// Measures how a million trials are read and added up, at nine intensities or with one for
+/// each trial.
 void answers_1e6_rows(benchmark::State& state) {
   std::string text = "x,r\n";
   for (int i = 0; i < 1'000'000; ++i) {

@@ -10,7 +10,7 @@
 namespace jnd::analysis {
 namespace {
 
-/// 13 people, two conditions, eight levels, five answers each.
+/// Draws 13 people in two conditions, with five answers at each of eight levels.
 std::vector<ParticipantAnswers> group_of_thirteen() {
   core::RandomStream random(6, "group bench");
   std::vector<ParticipantAnswers> all;
@@ -31,9 +31,9 @@ std::vector<ParticipantAnswers> group_of_thirteen() {
   return all;
 }
 
-/// Both conditions at once, slopes correlated. 0: pse at the reference, 1: common, 2: one shift
-/// a person, 3: personal in each condition, 4: that with a lapse rate, which is what results
-/// call primary.
+/// Measures a fit of both conditions at once, with correlated slopes. Argument 0: pse at the
+/// reference, 1: common pse, 2: one shift for each person, 3: an own pse in each condition, 4:
+/// as 3 with a lapse rate, which the results call primary.
 void hierarchical_fit(benchmark::State& state) {
   const std::vector<ParticipantAnswers> answers = group_of_thirteen();
   HierarchicalOptions options{

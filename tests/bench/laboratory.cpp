@@ -1,8 +1,8 @@
-// A session in real time beside streams, pulses, a pedal and sound at once, and the same
-// session alone, by turns. Everything else of a laboratory is a twin here: a recorder of
+// Runs a session in real time beside streams, pulses, a pedal and sound at once, and the same
+// session alone, by turns. All other equipment of the laboratory is simulated: a recorder of
 // streams, an amplifier whose stream is recorded, a box of pulses and a box of answers at
-// pseudo-terminals, and ALSA's output `null`. Prints JSON. Exit code 0: all held; 1: something
-// did not; 2: wrong usage, or a session could not be run.
+// pseudo-terminals, and ALSA's output `null`. Prints JSON. The exit code is 0 if every limit
+// holds, 1 if one does not, and 2 for wrong usage or if a session could not be run.
 
 #include <poll.h>
 #include <unistd.h>
@@ -73,7 +73,8 @@ json summary_ms(const std::vector<double>& values_s) {
           {"max_ms", 1e3 * percentile(values_s, 1.0)}};
 }
 
-/// How late ticks were, as sessions keep it: upper ends of buckets, and how many.
+/// How late ticks were, as a session stores it: the upper ends of classes, and the number of
+/// ticks in each.
 struct Lateness {
   std::map<double, double> num_up_to_us;
   double missed_ticks = 0.0, dropped_samples = 0.0;
@@ -101,13 +102,14 @@ struct Lateness {
   }
 };
 
-/// What a round beside everything has found; sums and lists over rounds.
+/// What a round with everything found, as sums and lists over the rounds.
 struct Findings {
   std::int64_t num_recorded = 0, num_streamed = 0, num_lost_streamed = 0, num_unrecorded = 0;
-  std::vector<double> stream_errors_s;  ///< Largest of each second.
+  std::vector<double> stream_errors_s;  ///< The largest error in each second.
   std::int64_t num_markers = 0;
   std::int64_t num_pulses_stored = 0, num_pulses_received = 0;
-  std::vector<double> pulse_delays_s;  ///< From when its writing began, as stored.
+  std::vector<double> pulse_delays_s;  ///< The delay from when the writing of the pulse began,
+                                       ///< as stored.
   std::int64_t num_amplified = 0, num_lost_amplified = 0;
   std::vector<double> amplifier_errors_s;
   std::vector<double> press_to_read_s, press_to_stored_s;
@@ -116,7 +118,7 @@ struct Findings {
   std::vector<std::string> problems;
 };
 
-/// Does something again and again on a thread, until it is over.
+/// Repeats something on a thread until the object is destroyed.
 class Beside {
  public:
   explicit Beside(std::function<void()> once)
@@ -149,7 +151,7 @@ class Laboratory {
   [[nodiscard]] std::vector<std::string> words() const {
     return {markers_.path(), answers_.path(), name_};
   }
-  /// The session has begun: it is recorded, and pedals are pressed.
+  /// Begins to record and to press pedals, after the session has begun.
   void begin(const std::string& study_id) {
     begun_s_ = steady_s() + 1.0;
     samples_ = listen("samples", study_id);
@@ -169,7 +171,8 @@ class Laboratory {
   [[nodiscard]] const std::vector<std::pair<int, double>>& pulses() const noexcept {
     return pulses_;
   }
-  /// Times of samples by our clock, as a reader of the recorder's file would have them.
+  /// Returns the times of samples by our clock, as a reader of the recorder's file would
+  /// compute them.
   [[nodiscard]] std::vector<double> streamed_s() const {
     const core::ClockCorrection correction(offsets_);
     std::vector<double> times_s = streamed_s_;
@@ -208,7 +211,7 @@ class Laboratory {
     pollfd waits{.fd = markers_.descriptor(), .events = POLLIN, .revents = 0};
     if (::poll(&waits, 1, 50) <= 0) return;
     unsigned char byte = 0;
-    // Nobody has the other end open yet, or any more.
+    // The other end is not open yet, or no longer.
     if (::read(markers_.descriptor(), &byte, 1) != 1) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     } else if (byte != 0) {
@@ -250,11 +253,11 @@ class Laboratory {
   std::unique_ptr<core::StreamInlet> samples_, marker_stream_;
   std::vector<double> streamed_s_, answers_s_;
   std::vector<core::ClockOffset> offsets_;
-  std::vector<std::pair<int, double>> pulses_;  ///< Code, and when it came.
+  std::vector<std::pair<int, double>> pulses_;  ///< The code of each pulse, and when it came.
   std::unique_ptr<Beside> amplifying_, pulsed_, recording_, pressing_;
 };
 
-/// What the session says of its loop, and with what rights it ran.
+/// Returns what the session stored about its loop, and sets the scheduler under which it ran.
 Lateness stored_lateness(const core::StudyStore& store, std::string& scheduler) {
   Lateness lateness;
   for (const core::EventRow& event : store.events(1)) {
@@ -273,7 +276,7 @@ Lateness stored_lateness(const core::StudyStore& store, std::string& scheduler) 
   return lateness;
 }
 
-/// The recorder's samples against our own recording, tick by tick.
+/// Compares the recorder's samples with our own recording, tick by tick.
 void compare_streamed(const core::StudyStore& store, const Laboratory& laboratory,
                       Findings& found) {
   const core::RecordingReader recording(store.recording_file(1));
@@ -305,7 +308,7 @@ void compare_streamed(const core::StudyStore& store, const Laboratory& laborator
       found.stream_errors_s.push_back(std::exchange(largest_s, 0.0));
     }
   }
-  // From the first one that the recorder was there for.
+  // The count begins with the first sample for which the recorder was present.
   const auto expected =
       nearest(streamed_s.back()) - nearest(streamed_s.front()) + std::ptrdiff_t{1};
   found.num_lost_streamed +=
@@ -348,7 +351,7 @@ void compare_amplified(const core::StudyStore& store, Findings& found) {
       if (first < 0) first = number;
       last = number;
       ++num;
-      // Both clocks are this machine's: whatever is added is an error.
+      // Both clocks are this machine's, so any difference is an error.
       found.amplifier_errors_s.push_back(
           std::abs(correction.corrected_s(sample.time_s) - sample.time_s));
     });
@@ -392,7 +395,7 @@ void look_at_sound(const core::StudyStore& store, Findings& found) {
   found.num_sound_frames += newest.at("num_frames").get<std::int64_t>();
 }
 
-/// One session; what was found beside it where there was something.
+/// Runs one session, and adds to `found` what was found beside it, unless `found` is null.
 Lateness run_round(double duration_s, Findings* found, std::string& scheduler) {
   const test_support::TemporaryFolder folder(test_support::memory_folder());
   test_support::write_file(folder.path() / "alsa.conf", "pcm.headphones { type null }\n");
@@ -430,7 +433,7 @@ Lateness run_round(double duration_s, Findings* found, std::string& scheduler) {
   return stored_lateness(store, scheduler);
 }
 
-/// What has to hold and does not.
+/// Returns one sentence for each limit that does not hold.
 std::vector<std::string> judge(const Findings& found, double lateness_ratio) {
   std::vector<std::string> problems = found.problems;
   const auto expect = [&](bool holds, const std::string& words) {
@@ -473,7 +476,8 @@ int measure(double minutes, int num_rounds) {
     Lateness one, alone;
     const auto run_with = [&] { one = run_round(duration_s, &found, scheduler); };
     const auto run_alone = [&] { alone = run_round(duration_s, nullptr, scheduler); };
-    // Whatever else the machine does at the time, neither comes first always.
+    // The order changes with each round, so that other work of the machine does not always meet
+    // the same one.
     if (round % 2 == 0) run_with();
     run_alone();
     if (round % 2 != 0) run_with();

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// More trials than a day has; the session is ended when its time is over.
+/// The study has more trials than a day allows. The session is ended when its time is over.
 constexpr char kLaboratoryStudy[] = R"json({
   "format": 1, "name": "laboratory", "languages": ["en"], "title": {"en": "Laboratory"},
   "authors": ["A. Author"],
@@ -38,7 +38,8 @@ constexpr char kLaboratoryStudy[] = R"json({
      "instruction": {"en": "Compare."}, "question": {"en": "Thicker?"}, "expected_trial_s": 3}]
 })json";
 
-/// Said where it is not required any more, so that a session without sound begins as well.
+/// Without sound, the study does not require the noise, so that the session begins
+/// nevertheless.
 std::string laboratory_study(bool has_sound) {
   std::string text = kLaboratoryStudy;
   const std::string required = ", \"required\": true";
@@ -46,7 +47,7 @@ std::string laboratory_study(bool has_sound) {
   return text;
 }
 
-/// Pictures of the session, and when the newest one came.
+/// Knows when the newest picture of the session came.
 class LatestPicture {
  public:
   void came() {
@@ -58,7 +59,8 @@ class LatestPicture {
     }
     something_.notify_one();
   }
-  /// None within the time that a window may be silent.
+  /// Returns when a picture came, or nothing if none came within 4 ms, which is far less than a
+  /// window may be silent.
   std::optional<std::int64_t> wait() {
     std::unique_lock lock(mutex_);
     something_.wait_for(lock, std::chrono::milliseconds(4), [this] { return came_ns_ != 0; });
@@ -180,7 +182,7 @@ class LaboratoryOperator {
     if (view->step == app::Step::kFinished) worker_->request(app::operate::Leave{""});
   }
 
-  /// Without a pedal somebody at the window presses at the same moments.
+  /// Without a pedal, this presses at the same moments in place of a person at the window.
   void press_what_is_due() {
     const double since_s = std::chrono::duration<double>(Clock::now() - *begun_).count();
     if (since_s > wanted_.duration_s) {

@@ -13,8 +13,9 @@
 namespace jnd {
 namespace {
 
-/// One full tick with the lumped hand: read, kinematics, drag, immersion, distribution,
-/// passivity, limiter, write, sample, telemetry; the queue is drained outside of the timing.
+/// Measures one full tick with the lumped hand: read, kinematics, drag, immersion,
+/// distribution, passivity, limiter, write, sample, telemetry. The queue is emptied outside of
+/// the measured time.
 void full_tick(benchmark::State& state) {
   device::LumpedHandDevice hand({});
   core::LatestValue<core::HapticCommand> commands;
@@ -42,7 +43,8 @@ void full_tick(benchmark::State& state) {
 }
 BENCHMARK(full_tick);
 
-/// The reference of the same run: the sine that a naive stroke would call in every tick.
+/// Measures the reference in the same run: the sine that a simple stroke would compute in every
+/// tick.
 void reference_sine(benchmark::State& state) {
   double x = 0.1;
   for (auto _ : state) {

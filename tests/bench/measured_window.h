@@ -31,7 +31,8 @@ inline double percentile(std::vector<double> values, double ratio) {
 
 inline double median(std::vector<double> values) { return percentile(std::move(values), 0.5); }
 
-/// Of a minute; whatever else runs moves every figure, so it stands beside each.
+/// Returns the load average of one minute. Other work of the machine influences every figure,
+/// so the load is printed with each.
 inline double load_average() {
   double load = 0.0;
   return ::getloadavg(&load, 1) == 1 ? load : -1.0;
@@ -41,7 +42,7 @@ inline void sleep_s(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-/// Runs `work`; what it cannot do is told in the JSON, and the others are measured all the
+/// Runs `work`. If it fails, the JSON says why, and the other benchmarks are measured all the
 /// same.
 inline void measure(benchmark::State& state, const std::function<void()>& work) {
   const std::string lacking = what_windows_lack();
@@ -50,7 +51,8 @@ inline void measure(benchmark::State& state, const std::function<void()>& work) 
       if (!lacking.empty()) throw std::runtime_error(lacking);
       work();
     } catch (const std::exception& error) {
-      const std::string what = error.what();  // The first line says what, others what it saw.
+      // The first line says what failed, and the others say what was shown.
+      const std::string what = error.what();
       state.SkipWithError(what.substr(0, what.find('\n')).c_str());
       return;
     }
@@ -58,7 +60,7 @@ inline void measure(benchmark::State& state, const std::function<void()>& work) 
   state.counters["load_average"] = load_average();
 }
 
-/// The real window, drawn by the processor on a display of 1600 x 1000 of its own.
+/// Measures the real window, which the processor draws on a display of its own of 1600 x 1000.
 class MeasuredWindow {
  public:
   struct Frame {
@@ -80,7 +82,7 @@ class MeasuredWindow {
   }
   [[nodiscard]] WindowDriver& person() { return person_; }
 
-  /// Every frame of this run so far.
+  /// Returns every frame of this run so far.
   [[nodiscard]] std::vector<Frame> frames() const {
     std::vector<Frame> all;
     std::ifstream lines(frame_file());
@@ -92,7 +94,8 @@ class MeasuredWindow {
     return all;
   }
 
-  /// Once no frame was drawn for half a second: what was begun in the view is through.
+  /// Waits until no frame was drawn for half a second, so that the view has finished what it
+  /// began.
   void wait_for_rest() const {
     std::size_t before = 0;
     for (int wait = 0; wait < 60; ++wait) {
@@ -104,7 +107,7 @@ class MeasuredWindow {
     throw std::runtime_error("the window draws on and on");
   }
 
-  /// The mouse wanders over the whole window for about that long.
+  /// Moves the mouse over the whole window for about this time.
   void move_mouse(double seconds) const {
     constexpr double kStep_s = 0.04;
     std::vector<std::string> words = {"xdotool"};
@@ -120,7 +123,7 @@ class MeasuredWindow {
     }
   }
 
-  /// What all threads of the program took so far.
+  /// Returns the processor time of all threads of the program so far.
   [[nodiscard]] double cpu_s() const {
     const ToolOutcome found =
         run_tool({"xdotool", "search", "--onlyvisible", "--name", "^jnd$", "getwindowpid"},

@@ -11,7 +11,7 @@ core::ForceMap map_with_lift() {
   return core::ForceMap({{0.0, 1.0, 0.2, 0.0}, {0.8, 1.0, 0.6, 0.5}, {1.571, 1.0, 0.9, 0.0}});
 }
 
-/// One full tick of a stroking hand, as `full_tick`, in a medium of each law.
+/// Measures one full tick of a stroking hand, as `full_tick` does, in this medium.
 void tick_in(benchmark::State& state, const core::MediumAmounts& medium) {
   const core::ForceMap map = map_with_lift();
   device::LumpedHandDevice hand({});

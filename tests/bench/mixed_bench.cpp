@@ -9,8 +9,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// 5,000 trials of nine people in two conditions, intercept and slope theirs. Stimuli at nine
-/// levels, or each trial at its own.
+/// Draws 5,000 trials of nine people in two conditions, each person with an own intercept and
+/// slope. The stimuli are at nine levels, or each trial has its own.
 MixedData five_thousand_trials(bool at_levels) {
   core::RandomStream stream(1, "mixed bench");
   constexpr int kTrials = 5000, kPeople = 9;

@@ -9,8 +9,8 @@
 namespace jnd::analysis {
 namespace {
 
-/// One participant's recording, from end to end: read, unpacked, measured. Argument 1: with the
-/// 22 joints of an exoskeleton. One core.
+/// Measures the analysis of one participant's recording from end to end, on one core: read,
+/// unpacked and measured. Argument 1 adds the 22 joints of an exoskeleton.
 void movement_analysis(benchmark::State& state) {
   RecordedStudy study;
   core::RandomStream random(1, "movement bench");

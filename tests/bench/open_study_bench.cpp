@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using core::StudyStore;
 
-/// A study whose first session was simulated and whose others are copies of it, but the last,
-/// which was interrupted half way.
+/// A study whose first session was simulated. The others are copies of it, and the last one was
+/// interrupted half way.
 class StudyOfManySessions {
  public:
   explicit StudyOfManySessions(int num_sessions)
@@ -50,7 +50,7 @@ class StudyOfManySessions {
     row.session = 0;
     row.participant = "P" + std::to_string(1000 + number);
     const std::int64_t session = store_.add_session(row);
-    // The rows go with the events that they were projected from.
+    // Rows are appended together with the events from which they were projected.
     std::map<std::int64_t, core::Commit> commits;
     for (core::EventRow& event : store_.events(1)) {
       event.session = session;
@@ -81,7 +81,8 @@ class StudyOfManySessions {
   StudyStore store_;
 };
 
-/// Everything that the start and sessions views show of a study.
+/// Measures how everything is read that the views of the start and of the sessions show of a
+/// study.
 void open_study_100_sessions(benchmark::State& state) {
   const StudyOfManySessions study(100);
   std::size_t num_sessions = 0;

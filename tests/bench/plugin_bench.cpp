@@ -29,9 +29,8 @@ void sleep_until(std::int64_t due_ns) {
   }
 }
 
-/// How long a read and a write of the example driver take, at 1 kHz by the clock: with a
-/// process of its own that is by how much the loop's measurement and force are later than
-/// without.
+/// Measures a read and a write of the example driver, at 1 kHz by the clock. If the driver has
+/// a process of its own, the loop's measurement and force come later by this time.
 void plugin_exchange(benchmark::State& state) {
   const bool in_process = state.range(0) == 0;
   constexpr int kNumTicks = 5000;

@@ -12,8 +12,8 @@ namespace {
 
 const std::string kSource = test_support::source_folder().string();
 
-/// 1000 studies of study 2 with 13 participants: answers, individual fits, group tests, sums.
-/// Wanted: under 10 s on 2 cores.
+/// Measures 1000 simulations of study 2 with 13 participants: answers, individual fits, group
+/// tests and sums. The goal is less than 10 s on 2 cores.
 void power_of_study_2(benchmark::State& state) {
   const auto study =
       experiments::read_study(kSource + "/protocols/viscosity_discrimination.json");
@@ -27,7 +27,7 @@ void power_of_study_2(benchmark::State& state) {
 }
 BENCHMARK(power_of_study_2)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// One person's answers in both blocks, without a device.
+/// Measures one person's answers in both blocks, without a device.
 void answers_without_a_device(benchmark::State& state) {
   const auto study = experiments::read_study(
       kSource + (state.range(0) == 2 ? "/protocols/viscosity_discrimination.json"

@@ -1,6 +1,6 @@
-// How precisely a Weber fraction is known after so many trials, by constant stimuli, staircases
-// and QUEST+ on the same simulated people. `./dev precision` writes data/reference/precision.
-// The same seed gives the same files.
+// Measures how precisely a Weber fraction is known after a number of trials, with constant
+// stimuli, staircases and QUEST+ on the same simulated people. `./dev precision` writes
+// data/reference/precision. The same seed gives the same files.
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ constexpr double kReference = 8.0;
 constexpr double kLeastFraction = 0.05, kLargestFraction = 2.0;
 constexpr int kMaxTrials = 120, kStep = 10;
 
-/// Three ways to ask the same people, 120 trials each.
+/// A study that asks the same people in three ways, with 120 trials each.
 const char* const kStudy = R"json({
   "format": 1, "name": "precision", "languages": ["en"], "title": {"en": "Precision"},
   "authors": ["jnd"], "stages": [
@@ -59,7 +59,7 @@ const char* const kStudy = R"json({
    "instruction": {"en": "Compare."}, "question": {"en": "Thicker?"}, "expected_trial_s": 10}
   ]})json";
 
-/// What is estimated after n trials; the names are columns.
+/// The estimators, whose names are the columns.
 const std::vector<std::pair<std::string, std::string>> kEstimators = {
     {"constant_stimuli", "constant stimuli, curve fitted"},
     {"staircase", "staircase, reversals averaged"},
@@ -70,7 +70,8 @@ double ln_within(double fraction) {
   return std::log(std::clamp(fraction, kLeastFraction, kLargestFraction));
 }
 
-/// ln w of the curve through the answers; where there is none, the end that its limit lies at.
+/// Returns ln w of the curve through the answers. If there is no curve, it returns the end at
+/// which its limit lies.
 double fitted(const std::vector<LevelAnswer>& answers) {
   std::map<double, AnswerCount> levels;
   for (const LevelAnswer& answer : answers) {
@@ -89,8 +90,8 @@ double fitted(const std::vector<LevelAnswer>& answers) {
   return ln_within(fit.reason.starts_with("separated") ? 0.0 : 1e300);
 }
 
-/// ln w by the mean of the reversals, all but those of the first steps, and the level that the
-/// rule converges to, the pse taken to be at the reference.
+/// Returns ln w from the mean of the reversals, without those of the first steps. It uses the
+/// level to which the rule converges, and assumes that the pse is at the reference.
 double by_reversals(const Block& block, const std::vector<AnsweredTrial>& answered) {
   constexpr std::size_t kCoarseSteps = 2;
   double sum_ln = 0.0;
@@ -110,7 +111,7 @@ double by_reversals(const Block& block, const std::vector<AnsweredTrial>& answer
   return ln_within(spread_ln > 0.0 ? std::expm1(spread_ln) : 0.0);
 }
 
-/// Errors of ln w of one person: estimator by number of trials.
+/// The errors of ln w of one person, by estimator and number of trials.
 using Errors = std::vector<std::vector<double>>;
 
 const AnsweredBlock& named(const std::vector<AnsweredBlock>& blocks, const std::string& name) {
@@ -145,7 +146,8 @@ Errors errors_of(const std::vector<AnsweredBlock>& blocks, const QuestPlus& ques
   return errors;
 }
 
-/// People who compare steadily: only their noise, lapses and, if asked for, their pse differ.
+/// Returns a laboratory whose people compare steadily. They differ only in their noise, their
+/// lapses and, if asked for, their pse.
 Laboratory steady_people(Laboratory laboratory, double pse_sd_ln) {
   laboratory.device.mechanical_viscosity_n_s_per_m = 0.0;
   Laboratory::Perceiver& perceiver = laboratory.perceiver;
@@ -163,7 +165,7 @@ struct Precision {
   double root_mean_square = 0.0, mean = 0.0;
 };
 
-/// By estimator and number of trials.
+/// The table has a row for each estimator and a column for each number of trials.
 using Table = std::vector<std::vector<Precision>>;
 
 Table precision_of(const Study& study, const Laboratory& laboratory, int num_people) {

@@ -18,14 +18,14 @@
 namespace jnd {
 namespace {
 
-/// How late something at 1 kHz came, in microseconds.
+/// How late events at 1 kHz came, in microseconds.
 struct Lateness {
   double p50_us = 0.0;
   double p99_us = 0.0;
   double p999_us = 0.0;
 };
 
-/// What a command printed; nothing if it failed.
+/// Returns what a command printed, or nothing if it failed.
 std::optional<std::string> output_of(const std::string& command) {
   FILE* pipe = ::popen((command + " 2>/dev/null").c_str(), "r");
   if (pipe == nullptr) return std::nullopt;
@@ -38,7 +38,7 @@ std::optional<std::string> output_of(const std::string& command) {
   return text;
 }
 
-/// The smallest bucket, of 1 us, that at least `ratio` of all were not longer than.
+/// Returns the smallest class of 1 us that at least `ratio` of all values do not exceed.
 double percentile_us(const std::vector<std::pair<double, double>>& histogram, double ratio) {
   double total = 0.0;
   for (const auto& [us, count] : histogram) total += count;
@@ -58,7 +58,8 @@ std::optional<Lateness> run_cyclictest(int seconds) {
   std::vector<std::pair<double, double>> histogram;
   std::istringstream lines(*text);
   for (std::string line; std::getline(lines, line);) {
-    // "000020 004711"; lines of comment begin with #, those beyond the histogram are in one.
+    // A line reads for example "000020 004711". Comment lines begin with #, and one of them
+    // counts the values beyond the histogram.
     if (line.rfind("# Histogram Overflows:", 0) == 0) {
       histogram.emplace_back(kHistogramUs, std::strtod(line.c_str() + 22, nullptr));
     }
@@ -104,9 +105,10 @@ int seconds_a_round() {
   return std::max(seconds, 1);
 }
 
-/// The loop beside cyclictest, by turns, three rounds of JND_BENCH_SECONDS (default 20): from
-/// when a tick was due until its force was written, and until the thread merely ran. Medians of
-/// the rounds, in microseconds, and their ratios. Anything else that runs moves both.
+/// Measures the loop and cyclictest by turns, in three rounds of JND_BENCH_SECONDS (default
+/// 20). For the loop, the time is from when a tick was due until its force was written. For
+/// cyclictest, it is until the thread ran. It prints the medians of the rounds in microseconds,
+/// and their ratios. Other work of the machine influences both.
 void loop_against_cyclictest(benchmark::State& state) {
   constexpr int kNumRounds = 3;
   const int seconds = seconds_a_round();

@@ -9,8 +9,8 @@
 namespace jnd {
 namespace {
 
-/// `jnd report` on a demo study of 13 participants, with every figure and, where a browser is
-/// there, the PDF: under 10 s.
+/// Measures `jnd report` on a demo study of 13 participants with every figure and, if there is
+/// a browser, the PDF. The goal is less than 10 s.
 void report_of_demo_study(benchmark::State& state, const char* study) {
   const test_support::TemporaryFolder temporary(test_support::memory_folder());
   const test_support::ProgramOptions options{.folder = temporary.path(), .environment = {}};

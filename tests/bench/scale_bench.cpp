@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr int kNumSimulated = 13;
 
-/// The acts of a session, each with the rows that were projected from it.
+/// Returns the acts of a session, each with the rows that were projected from it.
 std::map<std::int64_t, core::Commit> acts_of(const core::StudyStore& store,
                                              std::int64_t session) {
   std::map<std::int64_t, core::Commit> acts;
@@ -64,7 +64,7 @@ void move_by(core::Commit& act, std::int64_t num_acts, std::int64_t num_trials) 
   }
 }
 
-/// Study 2 of the thesis with 13 simulated participants, made once.
+/// Returns study 2 of the thesis with 13 simulated participants, which is made once.
 const fs::path& simulated_study() {
   static const test_support::TemporaryFolder temporary(test_support::memory_folder());
   static const fs::path folder = [] {
@@ -78,7 +78,7 @@ const fs::path& simulated_study() {
   return folder;
 }
 
-/// A copy of it that can be added to.
+/// A copy of the study, to which more can be added.
 class GrownStudy {
  public:
   GrownStudy() { fs::copy(simulated_study(), folder(), fs::copy_options::recursive); }
@@ -86,7 +86,8 @@ class GrownStudy {
   [[nodiscard]] fs::path place() const { return temporary_.path(); }
   [[nodiscard]] fs::path folder() const { return place() / "grown.study"; }
 
-  /// Until there are so many people: the same ones again, under other names.
+  /// Adds people until there are `num_people`. They are the same people again, under other
+  /// names.
   void add_people(int num_people) {
     core::StudyStore store(folder(), core::StudyStore::Mode::kReadWrite,
                            core::Durability::kAtClose);
@@ -103,7 +104,7 @@ class GrownStudy {
     }
   }
 
-  /// One more session, with so many trials: those of the first one again and again.
+  /// Adds a session with `num_trials` trials, which repeat those of the first session.
   void add_long_session(std::int64_t num_trials) {
     core::StudyStore store(folder(), core::StudyStore::Mode::kReadWrite,
                            core::Durability::kAtClose);
@@ -120,7 +121,8 @@ class GrownStudy {
         core::Commit act = original;
         move_to(act, session);
         move_by(act, copy * last, copy * num_in_one);
-        // It ends once; of what else is told again only what is of trials means anything.
+        // Only the last copy ends the session. Among the other repeated events, only those of
+        // trials have a meaning.
         if (act.event.kind == "session_completed" && copy + 1 < num_copies) {
           act.event.kind = "note_added";
           act.event.data = R"({"text": "and so on"})";
@@ -134,7 +136,7 @@ class GrownStudy {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
-/// Processor time of children that have ended.
+/// Returns the processor time of children that have ended.
 double children_s() {
   rusage usage{};
   ::getrusage(RUSAGE_CHILDREN, &usage);
@@ -144,7 +146,8 @@ double children_s() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// Runs `jnd` with these arguments once; its processor time, with that of what it started.
+/// Runs `jnd` with these arguments once, and measures its processor time with that of its
+/// children.
 void time_program(benchmark::State& state, const GrownStudy& study,
                   const std::vector<std::string>& arguments) {
   for (auto _ : state) {
@@ -156,8 +159,8 @@ void time_program(benchmark::State& state, const GrownStudy& study,
   }
 }
 
-/// A command over 13, 100 and 300 people: seconds of processor time, gnuplot's among them. The
-/// shares of a person tell how it grows.
+/// Measures a command with 13, 100 and 300 people, in seconds of processor time, including
+/// gnuplot's. The rate of people shows how the time grows.
 void study_of_people(benchmark::State& state, const std::vector<std::string>& arguments) {
   GrownStudy study;
   study.add_people(static_cast<int>(state.range(0)));
@@ -182,7 +185,7 @@ BENCHMARK_CAPTURE(study_of_people, export_bids,
 BENCHMARK_CAPTURE(study_of_people, verify, std::vector<std::string>{"verify", "grown.study"})
     ->Apply(at_three_sizes);
 
-/// `results` of 13 people and one more, who answers ever more trials.
+/// Measures `results` of 13 people and one more, who answers more and more trials.
 void results_of_long_session(benchmark::State& state) {
   GrownStudy study;
   study.add_long_session(state.range(0));

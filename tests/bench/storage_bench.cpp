@@ -14,7 +14,7 @@
 namespace jnd::core {
 namespace {
 
-/// An answer with its event, synced to disk.
+/// Measures an answer with its event, which is synced to disk.
 void durable_commit(benchmark::State& state) {
   const test_support::TemporaryFolder folder;
   StudyStore store(folder.path() / "bench.study", StudyStore::Mode::kCreate);
@@ -29,7 +29,8 @@ void durable_commit(benchmark::State& state) {
 }
 BENCHMARK(durable_commit)->Unit(benchmark::kMicrosecond);
 
-/// The reference of the same run: a bare fdatasync of one page on the same file system.
+/// Measures the reference in the same run: a bare fdatasync of one page on the same file
+/// system.
 void reference_fdatasync(benchmark::State& state) {
   const test_support::TemporaryFolder folder;
   const int file = ::open((folder.path() / "page").c_str(), O_CREAT | O_RDWR, 0600);
@@ -44,8 +45,8 @@ void reference_fdatasync(benchmark::State& state) {
 }
 BENCHMARK(reference_fdatasync)->Unit(benchmark::kMicrosecond);
 
-/// A chunk of what the loop records of the simulated hand stroking through water, with bytes a
-/// sample.
+/// Measures the encoding of a chunk that the loop records of the simulated hand stroking
+/// through water, in bytes per sample.
 void encode_chunk(benchmark::State& state) {
   device::LumpedHandDevice hand({});
   LatestValue<HapticCommand> commands;

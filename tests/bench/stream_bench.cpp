@@ -49,7 +49,7 @@ core::StreamInfo bench_stream() {
           .format = core::ChannelFormat::kFloat32};
 }
 
-/// Carries datagrams between an inlet and the clock of an outlet, each way with a delay of its
+/// Carries datagrams between an inlet and the clock of an outlet. Each way has a delay of its
 /// own: 50 us and an exponential part.
 class JitteringWay {
  public:
@@ -101,9 +101,10 @@ class JitteringWay {
   std::thread thread_;
 };
 
-/// The clock of the other machine is fast by 40 ppm, and every datagram is late by 50 us and
-/// 0.4 ms on average, each way for itself. How far corrected times are off, in every hundredth
-/// of a second of JND_BENCH_SECONDS (default 120). Wanted: p99 of at most 0.2 ms.
+/// The clock of the other machine is 40 ppm fast, and every datagram is late by 50 us and by
+/// 0.4 ms on average, separately on each way. Measures how far corrected times are off, in
+/// every hundredth of a second of JND_BENCH_SECONDS (default 120). The goal is a p99 of at most
+/// 0.2 ms.
 void clock_synchronisation(benchmark::State& state) {
   constexpr double kDrift = 40e-6;
   constexpr double kMeanDelay_s = 0.4e-3;
@@ -147,12 +148,13 @@ void clock_synchronisation(benchmark::State& state) {
 }
 BENCHMARK(clock_synchronisation)->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();
 
-/// An hour at 1 kHz and ten channels from an outlet to an inlet of this machine, as fast as it
-/// goes. Wanted: nothing lost, nothing out of order.
+/// Measures an hour at 1 kHz and ten channels from an outlet to an inlet of this machine, as
+/// fast as possible. The goal is that nothing is lost or out of order.
 void an_hour_of_samples(benchmark::State& state) {
   constexpr std::int64_t kNumSamples = 3'600'000;
   constexpr std::int64_t kBatch = 100;
-  constexpr std::int64_t kAhead = 20'000;  // Less than what is kept for a slow consumer.
+  // This is less than what is kept for a slow consumer.
+  constexpr std::int64_t kAhead = 20'000;
   const core::StreamNetwork network = core::loopback_network();
   for (auto _ : state) {
     const auto outlet = core::open_own_outlet(bench_stream(), network);
@@ -196,11 +198,12 @@ void an_hour_of_samples(benchmark::State& state) {
 BENCHMARK(an_hour_of_samples)->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();
 
 struct SessionLateness {
-  std::vector<std::pair<double, double>> buckets_us;  ///< Up to, and how many.
+  std::vector<std::pair<double, double>> buckets_us;  ///< The upper end of each class, and the
+                                                      ///< number of values in it.
   double missed = 0.0;
 };
 
-/// A session of so many seconds, as the program keeps its punctuality.
+/// Runs a session for this time. Returns how late its ticks were, as the program stores it.
 std::optional<SessionLateness> run_session(int seconds, bool has_streams) {
   const test_support::TemporaryFolder folder;
   std::ofstream(folder.path() / "move.json")
@@ -257,8 +260,9 @@ double bucket_percentile_us(const SessionLateness& run, double ratio) {
   return 0.0;
 }
 
-/// How late the loop is in a session without streams and with markers and samples that somebody
-/// records, by turns, three rounds of JND_BENCH_SECONDS (default 20): medians of the rounds.
+/// Compares how late the loop is in a session without streams and in one whose markers and
+/// samples somebody records. The sessions run by turns, in three rounds of JND_BENCH_SECONDS
+/// (default 20), and the medians of the rounds are printed.
 void loop_with_and_without_streams(benchmark::State& state) {
   constexpr int kNumRounds = 3;
   const int seconds = stream_seconds(20);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kNumLines = 1000;
 
-/// A study of that many lines as an author indents it, in two languages: blocks of every
-/// length up to the last, which `broken` gives a misspelt key each.
+/// Returns a study of 1000 lines as an author indents it, in two languages. If `broken`, each
+/// block has a misspelt key.
 std::string study_of_lines(bool broken) {
   std::string text = R"({
   "$schema": "./study.schema.json",
@@ -47,7 +47,7 @@ std::string study_of_lines(bool broken) {
   return text + "\n  ]\n}\n";
 }
 
-/// What `jnd validate` does with a file that is read. The goal is 20 ms.
+/// Measures what `jnd validate` does with a file that has been read. The goal is 20 ms.
 void validate_study_of_1000_lines(benchmark::State& state) {
   const bool broken = state.range(0) == 1;
   const std::string text = study_of_lines(broken);
@@ -62,7 +62,7 @@ void validate_study_of_1000_lines(benchmark::State& state) {
 }
 BENCHMARK(validate_study_of_1000_lines)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
-/// The same and made into a study, as every command that takes one does.
+/// Measures the same and the making of a study, as in every command that takes one.
 void read_study_of_1000_lines(benchmark::State& state) {
   const std::string text = study_of_lines(false);
   for (auto _ : state) {
@@ -72,7 +72,8 @@ void read_study_of_1000_lines(benchmark::State& state) {
 }
 BENCHMARK(read_study_of_1000_lines)->Unit(benchmark::kMillisecond);
 
-/// The largest list that the reader looks at: 4 MiB of numbers. Bounded, not fast.
+/// Measures the largest list that the reader accepts: 4 MiB of numbers. The time has to be
+/// bounded, not short.
 void refuse_four_mebibytes_of_numbers(benchmark::State& state) {
   std::string text = "{\"stages\": [0";
   while (text.size() < (std::size_t{4} << 20) - 10) text += ",0";
@@ -83,7 +84,7 @@ void refuse_four_mebibytes_of_numbers(benchmark::State& state) {
 }
 BENCHMARK(refuse_four_mebibytes_of_numbers)->Unit(benchmark::kMillisecond);
 
-/// As many unknown keys as fit into a file.
+/// Measures as many unknown keys as fit into a file.
 void refuse_four_mebibytes_of_keys(benchmark::State& state) {
   std::string text = "{\"format\": 1";
   for (int i = 0; text.size() < (std::size_t{4} << 20) - 40; ++i) {

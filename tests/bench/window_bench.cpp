@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A study of the thesis with its thirteen participants, simulated once for all views.
+/// Returns a study of the thesis with its thirteen participants, which is simulated once for
+/// all views.
 fs::path thirteen_participants() {
   static const test_support::TemporaryFolder folder(test_support::memory_folder());
   static const test_support::ProgramOutcome outcome = test_support::run_program(
@@ -25,7 +26,7 @@ fs::path thirteen_participants() {
   return folder.path() / "thirteen.study";
 }
 
-/// Stands before a view as somebody who works gets there.
+/// Goes to a view as a person does.
 class Walk {
  public:
   explicit Walk(MeasuredWindow& window) : window_(window), person_(window.person()) {}
@@ -45,7 +46,7 @@ class Walk {
     person_.wait_for_view("prepare");
     window_.wait_for_rest();
     if (view == "prepare") return;
-    // What was opened once can be gone to from the start.
+    // After a study was opened once, it can be opened from the start.
     person_.kill();
     person_.start();
     window_.wait_for_rest();
@@ -58,7 +59,7 @@ class Walk {
   }
 
  private:
-  /// The second presentation of a trial, the hand going to and fro.
+  /// Goes to the second presentation of a trial, in which the hand moves to and fro.
   void to_session(const std::string& device) {
     write_file(window_.path("study.json"), study_of(kComparison));
     person_.start({"run", window_.path("study.json").string(), "--study",
@@ -78,9 +79,10 @@ class Walk {
   WindowDriver& person_;
 };
 
-/// One frame of a view while the mouse moves over it: the median of three seconds of them. Its
-/// parts are the view's own work, OpenGL until it is through, and the way to the display;
-/// beside them what all threads computed, which another program that runs moves less.
+/// Measures one frame of a view while the mouse moves over it, as the median over three
+/// seconds. Its parts are the view's own work, OpenGL until it is done, and the way to the
+/// display. The processor time of all threads is printed beside them, because other programs
+/// influence it less.
 void window_frame(benchmark::State& state, const std::string& view) {
   measure(state, [&] {
     MeasuredWindow window(true);
@@ -107,9 +109,9 @@ void window_frame(benchmark::State& state, const std::string& view) {
   });
 }
 
-/// The apparatus is looked at for the first time: the longest frame from then on, for which the
-/// heartbeat waits, and how long it takes until its picture is there. `stopped` is 1 where the
-/// force was cut for it.
+/// Looks at the apparatus for the first time. Measures the longest frame from then on, for
+/// which the heartbeat waits, and the time until the picture is there. `stopped` is 1 if the
+/// force was cut because of it.
 void window_first_3d(benchmark::State& state) {
   measure(state, [&] {
     MeasuredWindow window(true);
@@ -132,7 +134,8 @@ void window_first_3d(benchmark::State& state) {
   });
 }
 
-/// A view that nobody touches: percent of one core, and frames that were drawn for nothing.
+/// Measures a view that nobody touches: percent of one core, and frames that were drawn without
+/// need.
 void window_idle(benchmark::State& state, const std::string& view) {
   constexpr double kSeconds = 8.0;
   measure(state, [&] {
@@ -158,7 +161,7 @@ int register_views() {
         ->Iterations(1)
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
-    if (view == "session" || view == "apparatus") continue;  // They are never idle.
+    if (view == "session" || view == "apparatus") continue;  // These views are never idle.
     benchmark::RegisterBenchmark(("window_idle/" + view).c_str(), window_idle, view)
         ->Iterations(1)
         ->UseManualTime()

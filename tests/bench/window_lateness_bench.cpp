@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One medium, felt for that long by the simulated hand.
+/// Returns a study with one medium, which the simulated hand feels for this time.
 std::string study_of_one_medium(int seconds) {
   return study_of(R"json({
     "kind": "explore", "name": "feel", "instruction": {"en": "Move."},
@@ -30,7 +30,7 @@ struct StoredLateness {
   double missed_ticks = 0.0;
 };
 
-/// Of the whole session, as it was stored with it.
+/// Returns the lateness of the whole session, as the study stores it.
 StoredLateness stored_lateness(const fs::path& study) {
   const core::StudyStore store(study, core::StudyStore::Mode::kReadOnly);
   std::optional<nlohmann::json> measured;
@@ -67,7 +67,7 @@ StoredLateness without_window(int seconds) {
   return stored_lateness(folder.path() / "a.study");
 }
 
-/// Thirty frames a second, with live plots.
+/// Runs the session with the window, which draws thirty frames a second with live plots.
 StoredLateness with_window(int seconds) {
   MeasuredWindow window(false);
   write_file(window.path("study.json"), study_of_one_medium(seconds));
@@ -89,9 +89,9 @@ int session_seconds() {
   return std::max(text == nullptr ? 20 : std::atoi(text), 1);
 }
 
-/// A real-time session with the simulated hand, by turns with the window and without, three
-/// rounds of JND_BENCH_SECONDS (default 20) each: from when a tick was due until its force was
-/// written. Medians of the rounds, and their ratios.
+/// Measures a real-time session with the simulated hand, by turns with the window and without
+/// it, in three rounds of JND_BENCH_SECONDS (default 20) each. The time is from when a tick was
+/// due until its force was written. It prints the medians of the rounds and their ratios.
 void loop_beside_window(benchmark::State& state) {
   constexpr int kNumRounds = 3;
   const int seconds = session_seconds();
