@@ -29,7 +29,7 @@ namespace corpus_test {
 namespace fs = std::filesystem;
 using Input = int (*)(const std::uint8_t*, std::size_t);
 
-/// Feeds a fuzz target with every file of a folder: seeds, and what fuzzing once found.
+/// Feeds a fuzz target with every file of a folder, which holds seeds and earlier findings.
 void expect_sound(Input input, const std::string& folder) {
   int num_files = 0;
   for (const auto& entry :

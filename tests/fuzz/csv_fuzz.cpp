@@ -23,7 +23,7 @@ std::string quoted_row(const std::vector<std::string>& cells) {
   return row + '\n';
 }
 
-/// The table written with every cell in quotes is the same table.
+/// If every cell of the table is written in quotes, the result must be the same table.
 void check_round_trip(const CsvTable& table) {
   std::string text = quoted_row(table.columns());
   for (std::size_t row = 0; row < table.num_rows(); ++row) {

@@ -56,7 +56,8 @@ void check(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-/// What came as it is, and with size and checksum as they should be: nobody guesses a checksum.
+/// Checks the input as it is, and then with a correct size and checksum, because a fuzzer
+/// cannot guess a checksum.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::span<const std::byte> bytes = std::as_bytes(std::span(data, size));
   check(bytes);

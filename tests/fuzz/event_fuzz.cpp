@@ -16,7 +16,8 @@ namespace {
 using namespace jnd;
 using namespace jnd::experiments;
 
-/// An input is a session, an event a line, the columns of its row with semicolons between them:
+/// Reads one line. An input is a session with an event in each line, whose columns are
+/// separated by semicolons:
 /// kind;stage;trial;attempt;first_tick;last_tick;intensity;supersedes;data
 class RowText {
  public:
@@ -58,7 +59,7 @@ core::EventRow row_of(std::string_view line, std::int64_t sequence) {
 }
 
 auto columns_of(const core::EventRow& row) {
-  // Bits, so that a number that is none is itself.
+  // The bits are compared, so that NaN equals itself.
   const auto intensity = row.intensity
                              ? std::optional(std::bit_cast<std::uint64_t>(*row.intensity))
                              : std::nullopt;
@@ -67,7 +68,8 @@ auto columns_of(const core::EventRow& row) {
                     row.supersedes, row.data);
 }
 
-/// Only what the log may not hold is refused, with a sentence; nothing of the rest is lost.
+/// Expects that an event is refused with a sentence only if the log may not hold it, and that
+/// nothing else is lost.
 void check_event(const core::EventRow& row, SessionState& state) {
   const Event event = event_from_row(row);
   const core::EventRow stored = row_from_event(row.session, event);
@@ -94,7 +96,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::property(state.last_sequence == sequence, "the fold counts its events");
     } catch (const core::Error& error) {
       fuzz::check_sentence(error.what());
-      ++num_refused;  // A session ends at the first; a few more make a seed worth its while.
+      // A session would end at the first refusal. A few more make a seed more useful.
+      ++num_refused;
     }
   }
   static_cast<void>(state.current_trial());

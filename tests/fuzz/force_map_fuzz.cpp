@@ -10,7 +10,7 @@ namespace {
 
 using namespace jnd;
 
-/// Whatever was taken gives numbers everywhere, and drag that never pushes.
+/// Expects that an accepted map gives numbers everywhere, and drag that never pushes.
 void check_map(const core::ForceMap& map) {
   for (double angle_rad = -0.1; angle_rad < 1.7; angle_rad += 0.05) {
     for (const double speed_m_per_s : {0.0, 0.3, 1.0, 7.0, 1e300}) {

@@ -41,7 +41,8 @@ bool is_utf8(const std::string& text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text = fuzz::text_of(data, std::min<std::size_t>(size, 2000));
   if (!is_utf8(text)) return 0;
-  constexpr std::size_t kMost = 5000;  // A name that is found may be as long as the formula.
+  // A sentence may contain a name that is as long as the formula.
+  constexpr std::size_t kMost = 5000;
   try {
     check_effects(parse_formula(text));
   } catch (const FormulaError& error) {

@@ -8,8 +8,9 @@
 #include <string>
 #include <string_view>
 
-// One input, as libFuzzer gives it; returns 0. Throws what a reader must not throw, and
-// `std::logic_error` for a property that does not hold. Each fuzz target defines it once.
+// Takes one input, as libFuzzer gives it, and returns 0. Throws what a reader must not throw,
+// and `std::logic_error` for a property that does not hold. Each fuzz target defines this
+// function once.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace jnd::fuzz {
@@ -24,9 +25,10 @@ inline void property(bool holds, std::string_view sentence) {
   if (!holds) throw std::logic_error("property broken: " + std::string(sentence));
 }
 
-/// A sentence for a person: UTF-8, on one line, nothing that a terminal obeys, and not long.
+/// Expects a sentence for a person: UTF-8, on one line, without control characters, and not too
+/// long.
 inline void check_sentence(const std::string& sentence, std::size_t most_characters = 300) {
-  static_cast<void>(nlohmann::json(sentence).dump());  // Throws on what is not UTF-8.
+  static_cast<void>(nlohmann::json(sentence).dump());  // This throws if the text is not UTF-8.
   std::size_t num_characters = 0;
   for (std::size_t i = 0; i < sentence.size(); ++i) {
     const auto byte = static_cast<unsigned char>(sentence[i]);
@@ -40,7 +42,7 @@ inline void check_sentence(const std::string& sentence, std::size_t most_charact
            "a message is of moderate length: " + sentence.substr(0, 400));
 }
 
-/// A message with a problem on each of its lines.
+/// Expects a message with one problem on each of its lines.
 inline void check_lines(const std::string& message) {
   std::istringstream lines(message);
   for (std::string line; std::getline(lines, line);) check_sentence(line);

@@ -42,7 +42,7 @@ void check_same(const Sample& a, const Sample& b) {
   }
 }
 
-/// What decodes is samples: encoded and decoded again they are the same.
+/// Expects that decoded samples are the same after they were encoded and decoded again.
 void check_chunk(std::string_view bytes, std::int64_t num_samples) {
   try {
     const std::vector<Sample> samples = core::decode_samples(bytes, 1000, num_samples, "chunk");
@@ -66,8 +66,9 @@ std::string compressed(std::string_view bytes) {
 
 }  // namespace
 
-/// Two bytes: how many samples the row says, the lower byte first; then a chunk, and, as few
-/// changed bytes are still zstd, the same bytes as what the chunk holds.
+/// The first two bytes say how many samples the row claims, with the lower byte first. The rest
+/// is a chunk. Few changed bytes are still zstd, so the same bytes are also taken as the
+/// content of a chunk.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2) return 0;
   const std::int64_t num_samples = data[0] + 256 * (data[1] % 17) - 1;

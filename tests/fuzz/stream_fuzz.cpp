@@ -44,7 +44,7 @@ void check_description(const std::string& text) {
   });
 }
 
-/// The text as a question to a stream that is there.
+/// Takes the text as a query to an existing stream.
 void check_question(const std::string& text) {
   const core::XmlElement xml =
       core::stream_xml({.name = "a", .type = "EEG", .uid = "1"}, false);
@@ -78,7 +78,7 @@ void check_question(const std::string& text) {
   }
 }
 
-/// The text as what an outlet sends after the beginning of a feed, and as all of a feed.
+/// Takes the text as what an outlet sends after the beginning of a feed, and as a whole feed.
 void check_feed(const std::string& text) {
   for (const ChannelFormat format :
        {ChannelFormat::kFloat32, ChannelFormat::kString, ChannelFormat::kInt8}) {
@@ -112,7 +112,7 @@ void check_feed(const std::string& text) {
             }
           });
         } catch (const core::StreamGone&) {
-          // It says that the stream is not there.
+          // The outlet says that the stream does not exist.
         }
       }
     }

@@ -54,7 +54,7 @@ void check_plan(const Study& study) {
   }
 }
 
-/// The one thing that writes a study: its text under another name.
+/// Checks the only function that writes a study, which puts its text under another name.
 void check_renamed(const std::string& text, const Study& study) {
   const std::string renamed = renamed_study(text, "x", "renamed");
   const Study again = read_study_text(renamed, "x");
