@@ -1,7 +1,7 @@
-// How often the loop's guards disturb healthy people: counts faults, warnings and repeated
-// trials of simulated hands on devices with friction, noise and loss, watched as real ones are.
-// `./dev false-faults` writes data/reference/false_faults/README.md. The same seed gives the
-// same page.
+// Measures how often the loop's guards disturb healthy people. It counts faults, warnings and
+// repeated trials of simulated hands on devices with friction, noise and loss, which are
+// watched as real ones. `./dev false-faults` writes data/reference/false_faults/README.md. The
+// same seed gives the same page.
 
 #include <array>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -25,7 +25,7 @@ namespace {
 constexpr double kHome_m = -0.15;
 constexpr int kNumFaults = static_cast<int>(core::kLastFault) + 1;
 
-/// What the hand does in it.
+/// What the hand does in the stimulus.
 enum class Act { kStrokes, kRests, kPresses };
 
 struct Stimulus {
@@ -35,10 +35,10 @@ struct Stimulus {
   bool is_solid = false;
 };
 
-/// Those of the shipped studies, and what else a study may ask for.
+/// Returns the stimuli of the shipped studies, and others that a study may ask for.
 std::vector<Stimulus> stimuli() {
   const core::Immersion endless{.origin_z_m = 1.0};
-  // The palm's outer point rests a centimetre deep in it.
+  // The palm's outer point rests a centimetre deep in the table.
   const core::Immersion table{.origin_z_m = kHome_m - 0.033};
   const core::Immersion bucket{.radius_m = 0.25, .depth_m = 1.0, .origin_z_m = kHome_m + 0.3};
   return {{"water, scale 0.25", core::water({.scale = 0.25}), endless},
@@ -59,15 +59,15 @@ std::vector<Stimulus> stimuli() {
           {"float of 8 N in water", core::water({}) + core::buoyant(8.0), endless}};
 }
 
-/// What one person's sessions came to.
+/// Counts what happened in one person's sessions.
 struct Tally {
   std::int64_t num_ticks = 0;
   std::array<std::int64_t, kNumFaults> num_faults{};
   std::array<std::int64_t, core::kGuards.size()> num_warnings{};
   struct OfStimulus {
     std::int64_t num_trials = 0;
-    std::int64_t num_faulted = 0;   ///< Repeated for a fault.
-    std::int64_t num_detached = 0;  ///< Repeated for a finger that came off.
+    std::int64_t num_faulted = 0;   ///< Trials that were repeated because of a fault.
+    std::int64_t num_detached = 0;  ///< Trials that were repeated because a finger came off.
   };
   std::vector<OfStimulus> by_stimulus;
 
@@ -86,7 +86,8 @@ struct Tally {
   }
 };
 
-/// One person, for an hour: a trial is a stimulus of some seconds and a rest without any.
+/// Simulates one person for an hour. A trial is a stimulus of some seconds, and a rest without
+/// one.
 class Hour {
  public:
   Hour(std::uint64_t seed, std::int64_t person, const std::vector<Stimulus>& stimuli)
@@ -131,7 +132,7 @@ class Hour {
     }
   }
 
-  /// A hand enters what is solid from above.
+  /// Begins what the hand does. It enters a solid from above.
   void begin_act(const Stimulus& stimulus, std::int64_t trial) {
     const core::RandomStream stream(seed_, "strokes", {person_, trial});
     const double draw = random_.uniform();
@@ -150,7 +151,8 @@ class Hour {
     commands_.publish({.sequence = ++sequence_, .medium = medium, .immersion = immersion});
   }
 
-  /// False: a fault came, and the rest of the time was not lived.
+  /// Runs the loop for these ticks. Returns false if a fault came, after which the remaining
+  /// time is not simulated.
   bool run(int num_ticks) {
     for (int i = 0; i < num_ticks; ++i) {
       loop_.tick();
@@ -167,7 +169,8 @@ class Hour {
     return true;
   }
 
-  /// The experimenter reads it in the window, and the person moves the hand a second later.
+  /// The experimenter reads the warning in the window, and the person moves the hand a second
+  /// later.
   void move_where_asked() {
     constexpr int kReaction_ms = 1000;
     const bool is_asked = telemetry_.value().warning == core::Fault::kPositionFrozen;
@@ -199,7 +202,7 @@ class Hour {
   Tally tally_;
 };
 
-/// Of all stimuli having the same share.
+/// Returns the p value of the hypothesis that all stimuli have the same share.
 double p_of_equal_shares(const Tally& tally, std::int64_t Tally::OfStimulus::*counted) {
   std::int64_t all = 0, trials = 0;
   for (const Tally::OfStimulus& of : tally.by_stimulus) {
@@ -219,7 +222,7 @@ double p_of_equal_shares(const Tally& tally, std::int64_t Tally::OfStimulus::*co
   return boost::math::cdf(boost::math::complement(distribution, chi_squared));
 }
 
-/// Of so many events that happen by chance.
+/// Returns the upper end of the 95 % interval of a Poisson mean, after `count` events.
 double upper_bound(std::int64_t count) {
   const boost::math::chi_squared distribution(2.0 * static_cast<double>(count + 1));
   return 0.5 * boost::math::quantile(distribution, 0.975);
@@ -308,7 +311,7 @@ int main(int argc, char** argv) {
   Tally sum;
   for (const Tally& tally : tallies) sum.add(tally);
   print(sum, all, num_people, seed);
-  // Said so, one exits as a test that failed.
+  // After the faults are printed, the program exits like a failed test if there were any.
   std::int64_t num_faults = 0;
   for (const std::int64_t count : sum.num_faults) num_faults += count;
   return num_faults == 0 ? 0 : 1;

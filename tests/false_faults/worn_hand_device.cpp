@@ -27,7 +27,8 @@ Wear Wear::of_person(std::uint64_t seed, std::int64_t person) {
   wear.mass_kg = random.uniform(0.6, 2.5);
   wear.stiction_n = random.uniform(0.1, 0.8);
   wear.resolution_m = between_in_ratio(random, 1e-6, 100e-6);
-  // As whoever writes a driver does: a step of an encoder is no more than 3 cm/s.
+  // The filter is one that a careful author of a driver chooses: one step of an encoder is no
+  // more than 3 cm/s.
   wear.filter_hz =
       std::min(between_in_ratio(random, 40.0, 200.0), 0.03 / (kTurn * wear.resolution_m));
   wear.tremor_m = between_in_ratio(random, 20e-6, 500e-6);
@@ -50,7 +51,8 @@ WornHandDevice::WornHandDevice(const Wear& wear, std::uint64_t seed, std::int64_
   measure();
 }
 
-/// A force that shakes a free mass by the tremor's amplitude, another one on each axis.
+/// Returns a force that shakes a free mass by the amplitude of the tremor, with another phase
+/// on each axis.
 Eigen::Vector3d WornHandDevice::tremor_n() const noexcept {
   const double turn_rad_per_s = kTurn * wear_.tremor_hz;
   const double force_n = wear_.mass_kg * turn_rad_per_s * turn_rad_per_s * wear_.tremor_m;
@@ -59,7 +61,8 @@ Eigen::Vector3d WornHandDevice::tremor_n() const noexcept {
                                    std::sin(0.93 * phase_rad + 2.0));
 }
 
-/// Friction holds a mass at rest, exactly, and never turns it about (Karnopp 1985).
+/// Moves the mass. Friction holds it exactly at rest, and never reverses its motion (Karnopp
+/// 1985).
 void WornHandDevice::move(const Eigen::Vector3d& force_n) noexcept {
   velocity_m_per_s_ += kPeriod_s / wear_.mass_kg * force_n;
   const double speed_m_per_s = velocity_m_per_s_.norm();
@@ -94,8 +97,8 @@ void WornHandDevice::slide_fingers() noexcept {
   }
 }
 
-/// At its jittered time, on the grid of the encoders, with the velocity that a driver makes of
-/// the last two positions and their times.
+/// Measures at a jittered time, on the grid of the encoders. The velocity is that of a driver,
+/// which computes it from the last two positions and their times.
 void WornHandDevice::measure() noexcept {
   const double late_s = random_.uniform(-wear_.jitter_s, wear_.jitter_s);
   const std::int64_t time_ns =
@@ -118,7 +121,7 @@ void WornHandDevice::measure() noexcept {
 }
 
 bool WornHandDevice::read(core::HapticState& state) noexcept {
-  // A measurement that does not come: the last one stands in, and the next one tells the force
+  // If a measurement is lost, the last one takes its place, and the next one reports the force
   // of both.
   core::HapticState now = state_;
   const bool is_lost = random_.with_probability(wear_.lost_ratio);

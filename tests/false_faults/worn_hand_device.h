@@ -12,29 +12,31 @@
 
 namespace jnd::false_faults {
 
-/// How one person's hand and the device on it are. Everything here is within what a laboratory
-/// has every day: nothing is wrong with it.
+/// The properties of one person's hand and of the device on it. All of them are usual in a
+/// laboratory, and none of them is a defect.
 struct Wear {
-  double mass_kg = 1.0;         ///< Of hand and device.
+  double mass_kg = 1.0;         ///< The mass of hand and device.
   double stiction_n = 0.6;      ///< Coulomb's friction, which also holds a hand at rest.
-  double resolution_m = 20e-6;  ///< Of the positions, as encoders give them.
-  double filter_hz = 40.0;      ///< Of the velocity, of first order.
-  double tremor_m = 100e-6;     ///< Amplitude about which a free hand would shake.
+  double resolution_m = 20e-6;  ///< The resolution of the positions, as encoders have it.
+  double filter_hz = 40.0;      ///< The cut-off frequency of the velocity's first-order filter.
+  double tremor_m = 100e-6;     ///< The amplitude by which a free hand would shake.
   double tremor_hz = 10.0;
-  double jitter_s = 100e-6;         ///< Of the time of a measurement, either way.
-  double lost_ratio = 0.01;         ///< Measurements that do not come.
-  int delay_ticks = 1;              ///< From a command to its force.
-  double slips_per_s = 1.0 / 20.0;  ///< A finger slides some millimetres in its holder.
+  double jitter_s = 100e-6;         ///< The largest deviation of a measurement's time in either
+                                    ///< direction.
+  double lost_ratio = 0.01;         ///< The share of measurements that are lost.
+  int delay_ticks = 1;              ///< The delay from a command to its force.
+  double slips_per_s = 1.0 / 20.0;  ///< How often a finger slides by some millimetres in its
+                                    ///< holder.
   double comes_off_per_s = 1.0 / 1200.0;
 
-  /// Drawn evenly over what is met in laboratories, for person number `person`.
+  /// Draws the properties of person number `person`, evenly over what occurs in laboratories.
   [[nodiscard]] static Wear of_person(std::uint64_t seed, std::int64_t person);
 };
 
-/// A healthy hand on a healthy device, as a real one measures it: quantised, filtered, late,
-/// jittered and now and then lost; held by friction, trembling, sliding in its holders. It says
-/// that somebody can be hurt by it, so that everything that watches over a real hand watches
-/// over this one.
+/// A healthy hand on a healthy device, measured as a real one. The measurements are quantised,
+/// filtered, late, jittered and sometimes lost. Friction holds the hand, which trembles and
+/// slides in its holders. The device says that it can hurt somebody, so everything that watches
+/// over a real hand watches over this one.
 class WornHandDevice final : public device::HapticDevice {
  public:
   WornHandDevice(const Wear& wear, std::uint64_t seed, std::int64_t person);
@@ -49,9 +51,9 @@ class WornHandDevice final : public device::HapticDevice {
   void close() noexcept override {}
   void halt() noexcept override { halt_.halt(); }
 
-  /// What the person does.
+  /// Returns the arm, which does what the person does.
   [[nodiscard]] device::StrokingArm& arm() noexcept { return arm_; }
-  /// How often a point came off so far.
+  /// Returns how often a point has come off so far.
   [[nodiscard]] int num_detachments() const noexcept { return num_detachments_; }
   [[nodiscard]] const Eigen::Vector3d& position_m() const noexcept { return position_m_; }
 
@@ -75,18 +77,20 @@ class WornHandDevice final : public device::HapticDevice {
   std::array<core::PointVectors, kMostDelayTicks> sent_;
 
   struct Finger {
-    Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();  ///< From where it is on a stiff hand.
-    Eigen::Vector3d slide_m = Eigen::Vector3d::Zero();   ///< Way left in its holder.
+    Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();  ///< The distance from its place on a
+                                                         ///< stiff hand.
+    Eigen::Vector3d slide_m = Eigen::Vector3d::Zero();   ///< The remaining way in its holder.
     int sliding_ticks = 0;
     int loose_ticks = 0;
   };
   std::array<Finger, core::kNumContactPoints> fingers_;
   int num_detachments_ = 0;
 
-  core::PointVectors acted_sum_n_ = core::zero_vectors();  ///< Since the last measurement.
+  core::PointVectors acted_sum_n_ = core::zero_vectors();  ///< The sum since the last
+                                                           ///< measurement.
   int num_acted_ = 0;
-  core::HapticState state_;           ///< As measured in the last tick.
-  core::HapticState last_delivered_;  ///< As read last.
+  core::HapticState state_;           ///< The state that was measured in the last tick.
+  core::HapticState last_delivered_;  ///< The state that was read last.
   bool has_delivered_ = false;
 };
 
