@@ -6,7 +6,8 @@
 
 namespace jnd::test_support {
 
-/// Whether it comes about within ten seconds, which no machine takes that does anything at all.
+/// Returns whether the condition becomes true within ten seconds. This is far longer than any
+/// working machine needs.
 [[nodiscard]] inline bool comes_about(const std::function<bool()>& it) {
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(10);
   while (!it()) {

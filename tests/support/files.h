@@ -8,15 +8,16 @@
 
 namespace jnd::test_support {
 
-/// All bytes of a file. Throws `std::runtime_error` that names it, if it cannot be opened.
+/// Returns all bytes of a file. If the file cannot be opened, throws `std::runtime_error` with
+/// its name.
 inline std::string read_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw std::runtime_error("cannot read " + file.string());
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Makes a file of these bytes, in the place of any other; returns where. Throws
-/// `std::runtime_error` that names it, if that fails.
+/// Writes a file of these bytes in place of any other, and returns its path. If that fails,
+/// throws `std::runtime_error` with its name.
 inline std::filesystem::path write_file(const std::filesystem::path& file,
                                         const std::string& text) {
   std::ofstream stream(file, std::ios::binary);

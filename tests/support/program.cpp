@@ -65,7 +65,8 @@ RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
   if (!options.folder.empty()) {
     posix_spawn_file_actions_addchdir_np(&actions, options.folder.c_str());
   }
-  // Whoever runs the tests may ignore some, a shell those of the keyboard for one.
+  // The process that runs the tests may ignore some signals. A shell, for example, may ignore
+  // those of the keyboard.
   sigset_t every;
   ::sigfillset(&every);
   posix_spawnattr_t attributes;

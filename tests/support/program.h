@@ -10,41 +10,44 @@
 
 namespace jnd::test_support {
 
-/// What became of a run of the program.
+/// The outcome of a run of the program.
 struct ProgramOutcome {
-  int exit_code = -1;  ///< -1 if a signal ended it.
-  int signal = 0;      ///< That signal, or 0.
-  std::string out;     ///< All of stdout that was not read by `read_line`.
-  std::string err;     ///< All of stderr.
+  int exit_code = -1;  ///< The exit code, or -1 if a signal ended the program.
+  int signal = 0;      ///< The signal that ended the program, or 0.
+  std::string out;     ///< Everything on stdout that `read_line` has not read.
+  std::string err;     ///< Everything on stderr.
 };
 
 struct ProgramOptions {
-  std::filesystem::path folder;  ///< To run in; the test's own if empty.
-  /// Added to the test's own environment, from which displays and JND_SHARE are taken out.
+  std::filesystem::path folder;  ///< The folder in which the program runs. If empty, it is the
+                                 ///< test's own.
+  /// Variables that are added to the test's own environment, from which displays and JND_SHARE
+  /// are removed.
   std::vector<std::pair<std::string, std::string>> environment;
-  std::vector<std::string> wrapper = {};  ///< Runs the program: {"strace", "-f"}.
-  std::filesystem::path out_file = {};    ///< Where stdout goes instead of to the test.
-  std::string program = {};  ///< Another one instead of jnd: a path, or a name on PATH.
+  std::vector<std::string> wrapper = {};  ///< A program that runs the program, for example
+                                          ///< {"strace", "-f"}.
+  std::filesystem::path out_file = {};    ///< The file that gets stdout in place of the test.
+  std::string program = {};  ///< Another program in place of jnd: a path, or a name on PATH.
 };
 
-/// The jnd program as a child of the test, every signal at its default. Throws
+/// Runs the program jnd as a child of the test, with every signal at its default. Throws
 /// `std::runtime_error` if the system refuses.
 class RunningProgram {
  public:
   explicit RunningProgram(const std::vector<std::string>& arguments,
                           const ProgramOptions& options = {});
-  /// Kills what still runs.
+  /// Kills the program if it still runs.
   ~RunningProgram();
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
 
-  /// The next line of stdout without its end; none at the end of the stream.
+  /// Returns the next line of stdout without its line end, or nothing at the end of the stream.
   [[nodiscard]] std::optional<std::string> read_line();
   void send_signal(int number) const;
   [[nodiscard]] pid_t process() const noexcept { return pid_; }
-  /// It needs no waiting for any more.
+  /// Returns whether the program has ended, so that `wait` returns at once.
   [[nodiscard]] bool has_ended() const;
-  /// Closes the reading end of its stdout, as `head` does.
+  /// Closes the reading end of the program's stdout, as `head` does.
   void stop_reading();
   [[nodiscard]] ProgramOutcome wait();
 
@@ -52,15 +55,15 @@ class RunningProgram {
   bool read_more();
 
   pid_t pid_ = -1;
-  int out_ = -1;  ///< Read end of its stdout; -1 once closed.
-  int err_ = -1;  ///< File that takes its stderr.
+  int out_ = -1;  ///< The reading end of the program's stdout, or -1 after it was closed.
+  int err_ = -1;  ///< The file that gets the program's stderr.
   std::string buffer_;
 };
 
-/// Where a program of this machine is; "" where it is not installed.
+/// Returns the path of a program of this machine, or "" if it is not installed.
 [[nodiscard]] std::string installed_program(const std::string& name);
 
-/// Runs the program to its end.
+/// Runs the program and waits for its end.
 [[nodiscard]] ProgramOutcome run_program(const std::vector<std::string>& arguments,
                                          const ProgramOptions& options = {});
 

@@ -12,7 +12,7 @@
 
 namespace jnd::test_support {
 
-/// A serial port without hardware: the program opens `path`, the test has the other end.
+/// A serial port without hardware: the program opens `path`, and the test has the other end.
 class PseudoTerminal {
  public:
   PseudoTerminal() : descriptor_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
@@ -28,14 +28,14 @@ class PseudoTerminal {
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
-  /// As a box that sends bytes.
+  /// Sends bytes, as a box does.
   void send(const std::vector<unsigned char>& bytes) const {
     if (::write(descriptor_, bytes.data(), bytes.size()) !=
         static_cast<ssize_t>(bytes.size())) {
       throw std::runtime_error("the pseudo-terminal takes no bytes");
     }
   }
-  /// What the program has written, `count` bytes or as many as come within the patience.
+  /// Returns what the program has written: `count` bytes, or those that arrive within the time.
   [[nodiscard]] std::vector<unsigned char> received(std::size_t count,
                                                     int patience_ms = 5000) const {
     std::vector<unsigned char> bytes;
@@ -48,7 +48,7 @@ class PseudoTerminal {
     }
     return bytes;
   }
-  /// As a plug that is pulled.
+  /// Closes the port, as if its plug were pulled.
   void unplug() {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;

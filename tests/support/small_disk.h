@@ -8,8 +8,8 @@
 
 namespace jnd::test_support {
 
-/// A disk in memory of a size of its own, over an empty folder; gone with the test. Needs the
-/// right to mount: `mounted` tells whether there was any.
+/// Mounts a disk in memory with a limited size over an empty folder, and unmounts it after the
+/// test. This needs the right to mount, and `mounted` says whether there was one.
 class SmallDisk {
  public:
   SmallDisk(const std::filesystem::path& folder, int size_kib) : folder_(folder) {

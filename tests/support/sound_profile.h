@@ -6,7 +6,8 @@
 
 namespace jnd::test_support {
 
-/// A profile of this device with every field that there is, wide limits, and for many years.
+/// Returns a profile of this device with every field that exists, with wide limits, which is
+/// valid for many years.
 inline experiments::DeviceProfile sound_profile(const std::string& model = "wam",
                                                 const std::string& serial = "17") {
   using experiments::MeasuredValue;

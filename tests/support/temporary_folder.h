@@ -9,15 +9,15 @@
 
 namespace jnd::test_support {
 
-/// Where syncing costs nothing: memory where the system has it, else the usual place. For tests
-/// of processes that die, not of power cuts.
+/// Returns a folder in memory, where syncing costs nothing, or the usual folder if the system
+/// has none. It is for tests of processes that die, and not of power cuts.
 inline std::filesystem::path memory_folder() {
   const std::filesystem::path memory = "/dev/shm";
   return ::access(memory.c_str(), W_OK | X_OK) == 0 ? memory
                                                     : std::filesystem::temp_directory_path();
 }
 
-/// A fresh folder that goes with the test.
+/// Makes a new folder, and deletes it after the test.
 class TemporaryFolder {
  public:
   TemporaryFolder() : TemporaryFolder(std::filesystem::temp_directory_path()) {}

@@ -8,9 +8,9 @@
 
 namespace jnd::test_support {
 
-/// A profile of this device that changes nothing: its frame is the workspace, its limits are
-/// those of the loop, and whatever is asked for was stable. For tests of something else, on a
-/// device that can hurt somebody.
+/// Returns a profile of this device that changes nothing. Its frame is the workspace, its
+/// limits are those of the loop, and every stimulus was stable. It is for tests of other things
+/// on a device that can hurt somebody.
 inline experiments::DeviceProfile wide_profile(const std::string& model,
                                                const std::string& serial = "") {
   experiments::DeviceProfile profile = sound_profile(model, serial);
@@ -24,7 +24,7 @@ inline experiments::DeviceProfile wide_profile(const std::string& model,
   return profile;
 }
 
-/// Writes it into a folder for JND_PROFILE_PATH; returns its file.
+/// Writes this profile into a folder for JND_PROFILE_PATH, and returns its file.
 inline std::filesystem::path write_wide_profile(const std::filesystem::path& folder,
                                                 const std::string& model,
                                                 const std::string& serial = "") {
