@@ -8,14 +8,14 @@
 #include "support/files.h"
 #include "support/places.h"
 
-// `./dev guards` and `./dev chaos --mutants` take hours, so that nobody runs them for a change
-// that only moves a line. Until then a guard that is no longer found would go untried.
+// `./dev guards` and `./dev chaos --mutants` take hours, so nobody runs them after a change
+// that only moves a line. This test finds at once a guard that the lists no longer match.
 
 namespace jnd::architecture {
 namespace guard_lists_test {
 
 struct Guard {
-  std::string head;  ///< "device/haptic_loop.cpp: the heartbeat"
+  std::string head;  ///< For example "device/haptic_loop.cpp: the heartbeat".
   std::string code;
 };
 

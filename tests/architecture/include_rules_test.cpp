@@ -16,8 +16,9 @@ namespace include_rules_test {
 
 namespace fs = std::filesystem;
 
-// The architecture, as data: the folders from the innermost to the outermost, and what each may
-// include besides itself. What it may include stands above it, so there is no circle.
+// The architecture as data: the folders from the innermost to the outermost, and what each may
+// include besides itself. A folder may include only folders above it in this list, so there is
+// no circle.
 const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"core", {}},
     {"core/safety", {"core"}},
@@ -32,7 +33,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> kFolders = {
     {"device/exoskeleton", {"core", "core/safety", "device"}},
     {"device/network", {"core", "core/safety", "core/exchange", "device"}},
     {"device/plugin", {"core", "core/safety", "device"}},
-    // A driver over jnd_device.h alone, in C.
+    // This is a driver in C, which uses jnd_device.h alone.
     {"device/plugin/force_dimension", {}},
     {"device/sound", {"core", "core/sound", "device"}},
     {"device/twin", {"core", "device"}},
@@ -240,9 +241,9 @@ const std::map<std::string, std::set<std::string>> kLibraryHomes = {
 };
 
 struct Include {
-  std::string file;  // "core/viscous_drag.cpp"
+  std::string file;  // For example "core/viscous_drag.cpp".
   int line = 0;
-  std::string target;  // "core/storage/database", "nlohmann/json", "sqlite3"
+  std::string target;  // For example "core/storage/database", "nlohmann/json" or "sqlite3".
 };
 
 std::vector<Include> includes_of(const fs::path& root, const fs::path& file) {
@@ -265,7 +266,8 @@ bool is_inside(const std::string& file, const std::set<std::string>& homes) {
                              [&](const std::string& home) { return file.starts_with(home); });
 }
 
-/// The place of this folder in `kFolders`; one past the end of those that are none of it.
+/// Returns the place of this folder in `kFolders`, or the size of `kFolders` if it is not
+/// listed.
 std::size_t place_of(const std::string& folder) {
   const auto found =
       std::ranges::find(kFolders, folder, [](const auto& row) { return row.first; });
@@ -274,7 +276,7 @@ std::size_t place_of(const std::string& folder) {
 
 std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
 
-/// Every source file of the product.
+/// Returns every source file of the product.
 std::vector<fs::path> sources(const fs::path& root) {
   std::vector<fs::path> found;
   for (const std::string room : {"core", "device", "experiments", "analysis", "app"}) {
@@ -317,7 +319,7 @@ TEST(IncludeRules, NoCircleOfFolders) {
   }
 }
 
-// What is allowed and not used is an entrance that nobody watches.
+// An allowance that nobody uses is a way in that nobody watches.
 TEST(IncludeRules, EveryAllowanceIsUsed) {
   const fs::path root = jnd::test_support::source_folder();
   std::map<std::string, std::set<std::string>> used;
@@ -334,7 +336,8 @@ TEST(IncludeRules, EveryAllowanceIsUsed) {
   }
 }
 
-// A folder of tests that no program names would be compiled into none, and nobody would notice.
+// If no test program named a folder of tests, the tests in it would not be compiled, and nobody
+// would notice.
 TEST(IncludeRules, EveryFolderOfTestsIsInAProgram) {
   const fs::path tests = jnd::test_support::source_folder() / "tests";
   std::ifstream file(tests / "CMakeLists.txt");
@@ -354,13 +357,13 @@ TEST(IncludeRules, EveryFolderOfTestsIsInAProgram) {
   }
 }
 
-// Files are compiled in units of one folder, so a name that two of them give to different
-// things would be the same thing twice, or hide one behind the other.
+// Files are compiled together in units of one folder. If two files give the same name to
+// different things, the names would collide, or one would hide the other.
 TEST(IncludeRules, NamesOfAFolderAreUniqueInItsUnits) {
   static const std::regex kName(
       R"re(^(?:(?:struct|class|enum class) (\w+)|(?:inline |static )?(?:constexpr|const) [^=;(]*?\b(k[A-Z]\w*)\b).*)re");
   const fs::path root = jnd::test_support::source_folder();
-  std::map<std::string, std::string> files;  // By folder and name.
+  std::map<std::string, std::string> files;  // The file of each name, by folder and name.
   for (const fs::path& file : sources(root)) {
     if (file.extension() != ".cpp") continue;
     std::ifstream source(file);
@@ -380,7 +383,7 @@ TEST(IncludeRules, NamesOfAFolderAreUniqueInItsUnits) {
   EXPECT_GT(files.size(), 100U);
 }
 
-// A device opened any other way would have no watchdog, no heartbeat or no stop.
+// A device that is opened in any other way would lack the watchdog, the heartbeat or the stop.
 TEST(IncludeRules, ADeviceIsOpenedInRealTimeInOnePlace) {
   const fs::path root = jnd::test_support::source_folder();
   const std::set<std::string> allowed = {
@@ -397,7 +400,7 @@ TEST(IncludeRules, ADeviceIsOpenedInRealTimeInOnePlace) {
   EXPECT_EQ(found, allowed);
 }
 
-// Whoever moves a device by a force of its own does so while nobody's hand is in it.
+// Code that moves a device by its own force may do so only while no hand is in the device.
 TEST(IncludeRules, ALoopGetsAGuideInOnePlace) {
   const fs::path root = jnd::test_support::source_folder();
   std::set<std::string> found;

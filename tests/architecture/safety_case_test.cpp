@@ -15,7 +15,7 @@ namespace safety_case_test {
 
 namespace fs = std::filesystem;
 
-/// The rows of the table of hazards in SAFETY.md, without its head.
+/// Returns the rows of the table of hazards in SAFETY.md, without its head.
 std::vector<std::string> hazards() {
   std::vector<std::string> rows;
   std::ifstream stream(jnd::test_support::source_folder() / "SAFETY.md");
@@ -27,7 +27,7 @@ std::vector<std::string> hazards() {
   return rows;
 }
 
-/// "Suite.Name" of every test in the tree, whatever its instance.
+/// Returns "Suite.Name" of every test in the tree, whatever its instance.
 std::set<std::string> tests_there_are() {
   static const std::regex kPattern(R"re(\bTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\))re");
   std::set<std::string> names;

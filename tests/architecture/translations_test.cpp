@@ -13,27 +13,27 @@
 #include "support/files.h"
 #include "support/places.h"
 
-// Every sentence of the window is there in every language, and fits what is filled in.
+// Tests that every language has every sentence of the window, with the same values to fill in.
 
 namespace translations_test {
 
 namespace fs = std::filesystem;
 
-/// A sentence of a catalogue, with as many forms as it has.
+/// A sentence of a catalogue, in all of its forms.
 struct Message {
-  std::string english, plural;     ///< "" without a plural.
-  std::vector<std::string> words;  ///< The translation, in each of its forms.
-  bool is_fuzzy = false;           ///< Guessed by a program.
+  std::string english, plural;     ///< It is "" if the sentence has no plural.
+  std::vector<std::string> words;  ///< The translation in each of its forms.
+  bool is_fuzzy = false;           ///< Whether a program guessed the translation.
 };
 
-/// "text" in a line that ends with it, without its quotes.
+/// Returns the quoted text at the end of a line, without its quotes.
 std::string quoted_in(const std::string& line) {
   const std::size_t from = line.find('"'), to = line.rfind('"');
   return from == to ? "" : line.substr(from + 1, to - from - 1);
 }
 
-/// gettext's manual, "The Format of PO Files". The description of the catalogue is the message
-/// of "".
+/// Reads a catalogue in the format of gettext's manual, "The Format of PO Files". The
+/// description of the catalogue is the message of "".
 std::vector<Message> read_catalogue(const std::string& text) {
   std::vector<Message> all;
   std::string* target = nullptr;
@@ -58,7 +58,7 @@ std::vector<Message> read_catalogue(const std::string& text) {
   return all;
 }
 
-/// What fmt fills in, each by its number: "{} of {:.1f}" has 0 and 1.
+/// Returns what fmt fills in, each with its number: "{} of {:.1f}" has 0 and 1.
 std::multimap<std::size_t, std::string> holes_of(const std::string& sentence) {
   static const std::regex kHole(R"(\{(\d*)(:[^}]*)?\})");
   std::multimap<std::size_t, std::string> holes;
@@ -70,14 +70,15 @@ std::multimap<std::size_t, std::string> holes_of(const std::string& sentence) {
   return holes;
 }
 
-/// Blanks at the beginning and the end, where the sentence is put together with others.
+/// Returns the number of blanks at the beginning and at the end, where the sentence is joined
+/// with others.
 std::pair<std::size_t, std::size_t> blanks_around(const std::string& sentence) {
   const std::size_t first = sentence.find_first_not_of(' ');
   if (first == sentence.npos) return {sentence.size(), 0};
   return {first, sentence.size() - 1 - sentence.find_last_not_of(' ')};
 }
 
-/// What is wrong with one form of a translation; "" for nothing.
+/// Returns what is wrong with one form of a translation, or "" if nothing is.
 std::string problem_of(const std::string& english, const std::string& words) {
   if (words.empty()) return "it is not translated";
   if (holes_of(english) != holes_of(words)) return "what is filled in is not the same";
@@ -88,7 +89,7 @@ std::string problem_of(const std::string& english, const std::string& words) {
   return "";
 }
 
-/// Every problem of a catalogue, against the English one.
+/// Returns every problem of a catalogue, compared with the English one.
 std::vector<std::string> problems_of(const std::vector<Message>& english,
                                      const std::vector<Message>& translated) {
   std::map<std::string, Message> known;

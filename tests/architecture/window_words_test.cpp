@@ -22,11 +22,12 @@ namespace window_words_test {
 
 namespace fs = std::filesystem;
 
-// Where the window's words are made. Here every sentence goes through `tr` and its like
-// (app/language/words.h), or a translator would never see it.
+// The folders in which the window's words are made. There, every sentence goes through `tr` or
+// a similar function (app/language/words.h). Otherwise a translator would never see it.
 const std::vector<std::string> kFolders = {"app/gui", "app/operator"};
 
-// Files, as beginnings of paths, that show no words of their own or are not there yet, and why.
+// Files, as beginnings of paths, that show no words of their own or are not translated yet,
+// with the reason.
 const std::map<std::string, std::string> kWithout = {
     {"app/gui/frame_times.", "a log for tests, and what is said on the terminal of it"},
     {"app/gui/hand_sign.", "names of signs, for the log of tests"},
@@ -37,16 +38,16 @@ const std::map<std::string, std::string> kWithout = {
     {"app/gui/application/open_window.", "said on the terminal, for there is no window"},
 };
 
-// What looks like words and is none, in whole.
+// Whole literals that look like words for people and are none.
 const std::vector<std::regex> kNoWords = {
     std::regex(R"(((Ctrl|Shift|Esc|Enter|F\d+|[A-Z+-]) *)+)"),  // Keys, as printed on them.
-    std::regex("jnd"),                                          // The name of the program.
-    std::regex(R"(N m|\{:g\} Hz)"),                             // Units.
-    std::regex("Software"),                                     // As OpenGL calls a renderer.
+    std::regex("jnd"),               // This is the name of the program.
+    std::regex(R"(N m|\{:g\} Hz)"),  // Units.
+    std::regex("Software"),          // OpenGL names a renderer so.
 };
 
 const std::set<std::string> kMarks = {"tr", "trn", "tr_later", "as_is"};
-/// What is said in these is shown, be it a single small word.
+/// What is passed to these functions is drawn, even if it is a single short word.
 const std::set<std::string> kDrawing = {"text",    "heading",     "chip",
                                         "tooltip", "draw_notice", "draw_card"};
 
@@ -58,7 +59,8 @@ struct Token {
   }
 };
 
-/// Without comments and the preprocessor's lines; neighbouring literals are one.
+/// Returns the tokens without comments and preprocessor lines. Neighbouring literals are one
+/// token.
 std::vector<Token> tokens_of(const std::string& source) {
   static const std::regex kToken(
       R"re(//[^\n]*|/\*[^]*?\*/|#[^\n]*|R"\(([^]*?)\)"|R"(\w+)\([^]*?\)\2"|"(\\.|[^"\\\n])*"|'(\\.|[^'\\\n])+'|[A-Za-z_]\w*|\d[\w'.]*|\s+|.)re");
@@ -83,7 +85,8 @@ std::vector<Token> tokens_of(const std::string& source) {
   return tokens;
 }
 
-/// A literal without its quotes, escapes, and what is filled in by fmt ("{:.1f}") or printf.
+/// Returns a literal without its quotes, its escapes, and what fmt ("{:.1f}") or printf fills
+/// in.
 std::string words_in(const std::string& literal) {
   static const std::regex kFilledIn(R"(\{[^}]*\}|%[-+ #0-9.*l]*[a-z])");
   static const std::regex kEscape(R"(\\.)");
@@ -91,9 +94,9 @@ std::string words_in(const std::string& literal) {
   return std::regex_replace(std::regex_replace(inside, kEscape, " "), kFilledIn, " # ");
 }
 
-/// Whether people would read it: two words, one that begins with a capital, or one beside a
-/// blank or something that is filled in. Names of controls and of files have underscores or
-/// dots.
+/// Returns whether people would read the literal: it has two words, one that begins with a
+/// capital, or one beside a blank or a filled-in value. Names of controls and of files have
+/// underscores or dots.
 bool is_for_people(const std::string& literal) {
   static const std::regex kWord(R"([“(]*[A-Za-z][a-z]+([-'’][A-Za-z]+)*[,.:;?!…)”]*)");
   static const std::regex kTitle(R"([“(]*[A-Z][a-z]+.*)");
@@ -119,12 +122,13 @@ struct Finding {
   std::string literal;
 };
 
-/// Literals for people that no translator would see.
+/// Returns the literals for people that no translator would see.
 std::vector<Finding> unmarked(const std::string& source) {
   const std::vector<Token> tokens = tokens_of(source);
   std::vector<Finding> found;
-  std::vector<std::string> calls;  // Open parentheses, by the word before each.
-  bool is_marked = false;          // The literal before this one was, as trn's first.
+  std::vector<std::string> calls;  // The open parentheses, each with the word before it.
+  // Whether the literal before this one was marked, as the first one of trn is.
+  bool is_marked = false;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const Token& token = tokens[i];
     if (token.text == "(") calls.push_back(i > 0 ? tokens[i - 1].text : "");
