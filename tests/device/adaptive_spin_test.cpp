@@ -11,7 +11,7 @@ namespace adaptive_spin_test {
 
 constexpr std::int64_t kPeriodNs = 1'000'000;
 
-/// Wakes up with latencies drawn by `draw_ns`; returns the ratio of those that came too late in
+/// Wakes up with latencies drawn by `draw_ns`. Returns the ratio of those that came too late in
 /// the second half.
 template <typename Draw>
 double late_ratio(AdaptiveSpin& spin, int num_ticks, Draw&& draw_ns) {
@@ -34,7 +34,7 @@ TEST(AdaptiveSpin, BeginsAtTheLongestAndEndsAtWhatAPunctualMachineNeeds) {
 TEST(AdaptiveSpin, LetsOneWakeUpInTwoThousandComeTooLate) {
   AdaptiveSpin spin(400'000, kPeriodNs);
   core::RandomStream random(3, "wake-ups");
-  // Exponential with a mean of 20 us: a ratio of 1/2000 is beyond 152 us.
+  // The latency is exponential with a mean of 20 us, so a ratio of 1/2000 is beyond 152 us.
   const double ratio = late_ratio(spin, 2'000'000, [&random] {
     return static_cast<std::int64_t>(-20'000.0 * std::log(1.0 - random.uniform(0.0, 1.0)));
   });

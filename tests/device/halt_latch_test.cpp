@@ -27,7 +27,7 @@ TEST(HaltLatch, WithholdsUntilNothingIsAskedFor) {
   EXPECT_FALSE(latch.withholds(pushed(1.0)));
 }
 
-/// Every device that computes its forces here.
+/// Tests every device whose forces this program computes.
 class HaltedDevice : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(HaltedDevice, FeelsNothingUntilZerosAreWritten) {
@@ -42,7 +42,7 @@ TEST_P(HaltedDevice, FeelsNothingUntilZerosAreWritten) {
     }
     return (device->contact_sums() - before).rendered_opposing_n;
   };
-  // The force pushes the hand along, so it opposes by less than nothing.
+  // The force pushes the hand along, so the opposing force is negative.
   EXPECT_LT(felt_after(200), 0.0);
   device->halt();
   EXPECT_EQ(felt_after(200), 0.0);

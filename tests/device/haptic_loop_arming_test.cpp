@@ -182,8 +182,8 @@ TEST_F(LoopArmingTest, ADeviceThatWasHaltedGetsItsZerosFirst) {
   EXPECT_GT(device.last_total_n().norm(), 0.5);
 }
 
-/// The same measurement again and again: the device's fault, unless the loop itself stood
-/// still.
+/// If the same measurement comes again and again, the device is at fault, unless the loop
+/// itself stood still.
 TEST_F(LoopArmingTest, AnOldMeasurementIsTheMachinesFaultWhereTicksWereMissed) {
   for (const bool missed : {false, true}) {
     device.while_read = nullptr;

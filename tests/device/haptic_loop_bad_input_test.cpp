@@ -1,5 +1,5 @@
-// Every number that comes into the loop, broken in every way, at every phase: what the device
-// received is asserted on.
+// Breaks every number that comes into the loop, in every way and at every phase, and judges
+// what the device received.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ struct StateInput {
   int index;
 };
 
-/// From one input that is broken to the next.
+/// The step from one broken input to the next.
 constexpr std::size_t kStride = test_support::kIsSanitized ? 5 : 1;
 
 std::vector<StateInput> state_inputs() {
@@ -53,7 +53,7 @@ std::vector<StateInput> state_inputs() {
                       },
                       i});
   }
-  // One of the arm, one of a finger in the middle, and the last.
+  // The test takes one joint of the arm, one of a finger in the middle, and the last one.
   for (const int i : {0, 12, core::kNumJoints - 1}) {
     inputs.push_back(
         {"joint position",
@@ -67,7 +67,8 @@ std::vector<StateInput> state_inputs() {
   return inputs;
 }
 
-/// One tick with that value in place of what is measured, then the measurement again.
+/// Runs one tick with this value in place of the measured one, and then restores the
+/// measurement.
 void tick_with(LoopScene& scene, const StateInput& input, double value) {
   const core::HapticState measured = scene.device.state;
   *input.place(scene.device.state, input.index) = value;
@@ -232,7 +233,7 @@ TEST(HapticLoopBadInput, ForceOnAPointThatComesOffIsZeroInTheSameTickAtEveryPhas
         LoopScene scene(attached);
         scene.bring_to(phase);
         scene.device.state.attached[point] = false;
-        // The 30 g of a finger without a hand, thrown about.
+        // The finger has no hand, so its 30 g are thrown about.
         scene.device.state.tip_velocity_m_per_s[point] = {2.0, -1.0, -3.0};
         core::PointVectors last = scene.last_received();
         for (int tick = 0; tick < 20; ++tick) {

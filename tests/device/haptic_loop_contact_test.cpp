@@ -1,4 +1,4 @@
-// Solid surfaces, the workspace and a device that goes away while something is touched.
+// Tests solid surfaces, the workspace, and a device that disappears during a contact.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace haptic_loop_contact_test {
 
 using core::Fault;
 
-/// Runs on and asserts that every tick is safe; returns the greatest step of a point.
+/// Runs and expects that every tick is safe. Returns the largest step of the force at a point.
 double run_safely(LoopScene& scene, int num_ticks) {
   double max_step_n = 0.0;
   core::PointVectors last = scene.last_received();
@@ -41,10 +41,10 @@ TEST(HapticLoopContact, AHandThatBeginsInsideThePlaneIsNotThrownOut) {
     LoopScene scene(attached);
     scene.device.move_all(Eigen::Vector3d::Zero());
     scene.command.medium = hard_plane();
-    scene.command.immersion.origin_z_m = 0.0;  // The hand is 10 cm below.
+    scene.command.immersion.origin_z_m = 0.0;  // The hand is 10 cm below the surface.
     scene.command.ramp_s = 0.0;
     scene.publish();
-    // 5 cm/s at 2000 N/m of the hand, 35 % of it at the palm.
+    // The hand moves at 5 cm/s into 2000 N/m, of which the palm bears 35 %.
     EXPECT_LE(run_safely(scene, 500), 0.35 * 2000.0 * 0.05 * 0.001 + 1e-9);
   }
 }
@@ -108,7 +108,7 @@ TEST(HapticLoopContact, ABucketHoldsTheHandAndItsFluid) {
   scene.command.immersion = {.radius_m = 0.15, .depth_m = 0.2};
   scene.publish();
   scene.device.move_all({0.2, 0.0, 0.0});
-  run_safely(scene, 850);  // 17 cm aside: 2 cm behind the wall.
+  run_safely(scene, 850);  // The hand is 17 cm aside, which is 2 cm behind the wall.
   scene.published_telemetry.fetch();
   EXPECT_EQ(scene.published_telemetry.value().sample.immersed_bits, 0b11111)
       << "still in the fluid";
@@ -124,7 +124,7 @@ TEST(HapticLoopContact, APointOutsideTheWorkspaceLatchesUntilItIsBack) {
       scene.device.state.tip_position_m[point].y() = 0.499;
       scene.device.state.tip_velocity_m_per_s[point] = {0.0, 0.1, 0.0};
       scene.run(1);
-      scene.loop.rearm();  // After the test's own jump.
+      scene.loop.rearm();  // This follows the jump that the test itself made.
       scene.run(5);
       EXPECT_EQ(scene.fault(), Fault::kNone);
       scene.run(10);
@@ -147,7 +147,7 @@ TEST(HapticLoopContact, APointOutsideTheWorkspaceLatchesUntilItIsBack) {
   }
 }
 
-/// The faults of a device that goes away in contact, and what the loop calls them.
+/// The faults of a device that disappears in contact, and what the loop calls them.
 struct Absence {
   const char* name;
   Injection injection;
@@ -170,7 +170,7 @@ TEST_P(HapticLoopAbsenceTest, ComesBackInContactWithoutASpike) {
   run(absence.injection == Injection::kReadFailure ? 50 : 60);
   EXPECT_EQ(max_received_n(300 + absence.ticks_allowed), 0.0);
   EXPECT_EQ(telemetry().fault, absence.fault);
-  // Meanwhile the hand went elsewhere, and deeper.
+  // Meanwhile the hand has moved elsewhere, and deeper.
   for (Eigen::Vector3d& position : device.state.tip_position_m) {
     position += Eigen::Vector3d(0.2, 0.1, -0.05);
   }

@@ -1,4 +1,4 @@
-// A device that can do less than the loop: the loop keeps within it.
+// Tests that the loop keeps within the limits of a device that can do less than the loop.
 #include "haptic_loop_fixture.h"
 
 namespace jnd::device {

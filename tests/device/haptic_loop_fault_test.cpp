@@ -163,7 +163,7 @@ TEST_F(HapticLoopTest, APointThatCameOffGetsNothingAndTheOthersKeepTheirShare) {
   run(200);
   EXPECT_EQ(device.received[100][4], Eigen::Vector3d::Zero());
   EXPECT_NEAR(device.received[150][0].x(), -0.35 * 8.88, 1e-9);
-  // Dangling, it does not change what the others feel either.
+  // A loose finger does not change what the other points feel, either.
   device.state.tip_velocity_m_per_s[4] = {-2.0, 1.0, 0.0};
   run(1);
   EXPECT_NEAR(device.received.back()[0].x(), -0.35 * 8.88, 1e-9);
@@ -235,7 +235,7 @@ TEST_F(HapticLoopTest, AStopOrABiteInTheMiddleOfATickStillCutsItsForce) {
       (in_write ? device.before_write : device.while_read) = strike;
       watched.tick();
       device.before_write = device.while_read = nullptr;
-      // A stop that comes with the write itself is obeyed in the next tick.
+      // A stop that comes during the write is obeyed in the next tick.
       if (by_watchdog || !in_write) {
         EXPECT_EQ(device.standing_n, core::zero_vectors());
       }
@@ -300,7 +300,8 @@ TEST_F(HapticLoopTest, EveryFaultIsCounted) {
 }
 
 TEST_F(HapticLoopTest, AFilteredVelocityAfterAHandHasStoppedIsNotStale) {
-  // 0.5 m/s behind a filter of 40 Hz goes on for 2 mm; a coarse encoder repeats its positions.
+  // After 0.5 m/s, a filter of 40 Hz shows 2 mm of further movement, and a coarse encoder
+  // repeats its positions.
   command(core::viscous({.viscosity_pa_s = 8.0}));
   device.move_all({0.5, 0.0, 0.0});
   run(200);
@@ -329,7 +330,7 @@ struct FaultCase {
   const char* name;
   ScheduledFault injected;
   Fault expected;
-  int ticks_allowed;  ///< Until the device must have received zero.
+  int ticks_allowed;  ///< The number of ticks within which the device must have received zero.
 };
 
 class HapticLoopFaultTest : public HapticLoopTest,

@@ -13,7 +13,8 @@
 
 namespace jnd::device {
 
-/// A loop over a scripted device that may have faults injected, with all that it exchanges.
+/// A loop with a scripted device, into which faults may be injected, and with everything that
+/// the loop exchanges.
 class HapticLoopTest : public ::testing::Test {
  protected:
   HapticLoopTest() { make_loop({}); }
@@ -41,7 +42,7 @@ class HapticLoopTest : public ::testing::Test {
     return published_telemetry.value();
   }
 
-  /// The largest force the device has received at any point since `first_tick`.
+  /// Returns the largest force that the device has received at any point since `first_tick`.
   double max_received_n(std::size_t first_tick) const {
     double max = 0.0;
     for (std::size_t tick = first_tick; tick < device.received.size(); ++tick) {
@@ -61,7 +62,7 @@ class HapticLoopTest : public ::testing::Test {
   std::unique_ptr<FaultInjectingDevice> faulty;
   std::unique_ptr<HapticLoop> loop;
   std::uint64_t sequence = 0;
-  bool starts_armed = true;  ///< Loops made from now on.
+  bool starts_armed = true;  ///< This holds for loops that are made from now on.
 };
 
 }  // namespace jnd::device

@@ -1,4 +1,5 @@
-// What the guards do to the force, before and after they are sure; and what they only count.
+// Tests what the guards do to the force before and after they are certain, and what they only
+// count.
 #include <gtest/gtest.h>
 
 #include "haptic_loop_fixture.h"
@@ -19,7 +20,7 @@ class HapticLoopGuards : public HapticLoopTest {
     parameters.shadows_guards = shadows;
     return parameters;
   }
-  /// Towards the edge in a fluid, as far as its middle is 2.5 cm away.
+  /// Strokes in a fluid towards the edge, until the middle of the hand is 2.5 cm away from it.
   void stroke_towards_the_edge() {
     command(core::viscous({.viscosity_pa_s = 10.0}));
     device.move_all({0.5, 0.0, 0.0});
@@ -50,7 +51,7 @@ TEST_F(HapticLoopGuards, TheEdgeOfTheSpaceWarnsThenFades) {
     run(1);
     EXPECT_NEAR(felt_n(), before_n * (1.0 - tick / 30.0), 0.02 * before_n) << tick << " ms";
   }
-  run(2);  // One more, where a thirtieth thirty times is not quite one.
+  run(2);  // One more tick is needed, because thirty times a thirtieth is not quite one.
   EXPECT_EQ(felt_n(), 0.0);
   run(1000);
   EXPECT_EQ(felt_n(), 0.0) << "it is latched";
@@ -68,8 +69,8 @@ TEST_F(HapticLoopGuards, WhatIsCertainEndsAFadeAtOnce) {
 }
 
 TEST_F(HapticLoopGuards, AFadeDoesNotHideWhatIsCertain) {
-  // A sensor is stuck while the hand moves by 2 m/s: first that is implausible, for more than
-  // one guard, and in the midst of the fade it has stood still for too long.
+  // A sensor is stuck while the hand moves at 2 m/s. At first, more than one guard finds this
+  // implausible. In the middle of the fade, the sensor has stood still for too long.
   device.device_capabilities.max_stale_s = 0.020;
   make_loop({});
   device.move_all({2.0, 0.0, 0.0});
@@ -100,7 +101,7 @@ TEST_F(HapticLoopGuards, ADisarmedDeviceDoesNotFade) {
 TEST_F(HapticLoopGuards, InShadowTheyOnlyCount) {
   make_loop({}, bounded(/*shadows=*/true));
   stroke_towards_the_edge();
-  run(300);  // Far outside.
+  run(300);  // The hand is far outside of the workspace.
   EXPECT_EQ(telemetry().fault, Fault::kNone);
   EXPECT_GT(felt_n(), 1.0);
   EXPECT_EQ(shadowed(Fault::kOutsideWorkspace), 1U) << "once, as long as it lasts";

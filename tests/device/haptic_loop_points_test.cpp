@@ -7,8 +7,8 @@
 namespace jnd::device {
 namespace haptic_loop_points_test {
 
-/// The whole force that a device with so many points is sent, of which so many hold the hand,
-/// in a movement of 0.1 m/s.
+/// Returns the whole force that is sent to a device with `num_points` points, of which
+/// `num_held` hold the hand, in a movement of 0.1 m/s.
 Eigen::Vector3d total_n(const core::MediumAmounts& medium, int num_points, int num_held) {
   ScriptedDevice device;
   device.device_capabilities = {.share_ratio = core::area_shares_of_first(num_points),
@@ -48,7 +48,8 @@ TEST(HapticLoopPoints, FewerPointsRenderTheSameTotal) {
       EXPECT_NEAR((total_n(medium, num_points, num_points) - of_five_n).norm(), 0.0, 1e-9)
           << num_points;
     }
-    // What hangs on how deep the single points are: about.
+    // The force on a solid depends on the depth of the single points, so the tolerance is wide
+    // there.
     EXPECT_NEAR(total_n(medium, 3, 3).norm() / of_five_n.norm(), 1.0,
                 medium.plane_stiffness_n_per_m != 0.0 ? 0.2 : 1e-9);
   }
@@ -56,7 +57,7 @@ TEST(HapticLoopPoints, FewerPointsRenderTheSameTotal) {
   EXPECT_NEAR((total_n(thick, 3, 3) - total_n(thick, 5, 5)).norm(), 0.0, 1e-9);
 }
 
-/// Forces that a device of these shares is sent in a movement of 0.1 m/s.
+/// Returns the forces that are sent to a device with these shares in a movement of 0.1 m/s.
 core::PointVectors forces_n(const core::ShareRatios& shares) {
   ScriptedDevice device;
   device.device_capabilities = {.share_ratio = shares, .simulated = true};
@@ -106,7 +107,8 @@ TEST(HapticLoopPoints, APointThatIsDeclaredAndNotHeldTakesItsShareWithIt) {
 
 TEST(HapticLoopPoints, WhatADeviceSaysOfPointsThatItDoesNotHaveIsNothing) {
   const core::MediumAmounts thick = core::viscous({.viscosity_pa_s = 5.0});
-  // Held, it says, and at rest: neither a force nor a slower mean.
+  // The device says that it holds these points and that they rest. They must neither get a
+  // force nor slow down the mean.
   EXPECT_NEAR((total_n(thick, 2, 5) - total_n(thick, 2, 2)).norm(), 0.0, 1e-12);
 }
 

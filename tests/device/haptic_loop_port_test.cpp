@@ -18,15 +18,17 @@ using core::Fault;
 constexpr double kPeriod_s = 0.001;
 constexpr int kMostLagTicks = 32;
 
-/// A hand of one mass on a device whose velocity is filtered and late, or of the wrong sign,
-/// and whose force may act late. It keeps the book of what the device did to it.
+/// A hand of one mass on a device whose velocity is filtered and late, or has the wrong sign,
+/// and whose force may act late. It counts the energy that the device gave it.
 class LateDevice final : public HapticDevice {
  public:
   struct Parameters {
     double mass_kg = 0.1;
-    double cutoff_hz = 40.0;     ///< Of the velocity's filter of first order; 0: none.
-    int velocity_lag_ticks = 5;  ///< After the filter.
-    int reading_lag_ticks = 0;   ///< Of the whole measurement, its own time stamp included.
+    double cutoff_hz = 40.0;  ///< The cut-off frequency of the velocity's first-order filter,
+                              ///< or 0 for none.
+    int velocity_lag_ticks = 5;  ///< The delay after the filter.
+    int reading_lag_ticks = 0;   ///< The delay of the whole measurement, including its own time
+                                 ///< stamp.
     int force_lag_ticks = 0;
     double velocity_sign = 1.0;
     double begins_m_per_s = 0.3;
@@ -45,7 +47,7 @@ class LateDevice final : public HapticDevice {
   [[nodiscard]] bool read(core::HapticState& state) noexcept override {
     state = states_[static_cast<std::size_t>((tick_ - parameters_.reading_lag_ticks) %
                                              kMostLagTicks)];
-    // A clock of its own that goes on is what a late reading hides behind.
+    // The device's own clock goes on, which hides a late reading.
     state.device_time_ns = 1'000'000 * tick_;
     return true;
   }
@@ -55,7 +57,7 @@ class LateDevice final : public HapticDevice {
     const core::PointVectors acting =
         sent_[static_cast<std::size_t>((tick_ - parameters_.force_lag_ticks) % kMostLagTicks)];
     const double force_n = total_of(acting).x();
-    // Exact under a force that stays for a period.
+    // This step is exact for a force that stays constant for a period.
     const double before_m_per_s = velocity_m_per_s_;
     velocity_m_per_s_ += kPeriod_s / parameters_.mass_kg * force_n;
     const double way_m = 0.5 * kPeriod_s * (before_m_per_s + velocity_m_per_s_);
@@ -71,7 +73,7 @@ class LateDevice final : public HapticDevice {
   void close() noexcept override {}
   void halt() noexcept override {}
 
-  /// The measurements before any force: the hand comes at its speed.
+  /// Fills the measurements before any force, in which the hand arrives at its speed.
   void begin() {
     const double begins_m_per_s = velocity_m_per_s_;
     filtered_m_per_s_ = begins_m_per_s;
@@ -115,7 +117,7 @@ class LateDevice final : public HapticDevice {
   std::array<core::PointVectors, kMostLagTicks> sent_;
 };
 
-/// The loop on such a device, in a fluid.
+/// A loop with such a device in a fluid.
 struct Rig {
   Rig(const LateDevice::Parameters& parameters, const core::MediumAmounts& medium)
       : device(parameters) {
@@ -146,7 +148,7 @@ struct Rig {
 constexpr double kMasses_kg[] = {0.03, 0.1, 0.3, 0.6, 1.0, 2.0};
 constexpr int kLags[] = {0, 1, 2, 5, 10};
 
-/// Where the lag may be.
+/// What may be late.
 enum class Late { kVelocity, kReading, kForce };
 
 LateDevice::Parameters late(Late where, double mass_kg, int lag_ticks) {
@@ -159,8 +161,9 @@ LateDevice::Parameters late(Late where, double mass_kg, int lag_ticks) {
 
 core::MediumAmounts thick() { return core::viscous({.viscosity_pa_s = 21.0}); }
 
-/// Without a fault it has come to rest and given nothing; else the fault came before a hand is
-/// hurt: it got some tens of millijoules, and the speed of them.
+/// Without a fault, the hand has come to rest and was given no energy. With a fault, the fault
+/// came before the hand could be hurt: it got some tens of millijoules, and the speed that
+/// belongs to them.
 void expect_rest_or_an_early_fault(const LateDevice::Parameters& parameters,
                                    const core::MediumAmounts& medium, Fault wanted) {
   Rig rig(parameters, medium);
@@ -173,7 +176,7 @@ void expect_rest_or_an_early_fault(const LateDevice::Parameters& parameters,
     return;
   }
   EXPECT_EQ(fault, wanted);
-  // Seen at once, or as late as the whole reading is.
+  // The energy is seen at once, or as late as the whole reading.
   const double most_j = parameters.reading_lag_ticks < 10 ? 0.15 : 0.3;
   EXPECT_LT(rig.device.top_given_j, most_j);
   EXPECT_LE(rig.device.top_m_per_s, std::sqrt(2.0 * (begins_j + most_j) / parameters.mass_kg));
@@ -193,8 +196,9 @@ TEST(HapticLoopPort, NoLagShakesAHandWhateverItsMass) {
 }
 
 TEST(HapticLoopPort, TheBuzzOfALightHandIsAFault) {
-  // 0.1 kg in 21 Pa s, the velocity filtered at 40 Hz and 5 ms late: without a watch 30 N and
-  // 2.4 m/s to and fro for ever, 31 J every ten seconds.
+  // 0.1 kg moves in 21 Pa s, with a velocity that is filtered at 40 Hz and 5 ms late.
+  // Unwatched, this gives 30 N and 2.4 m/s to and fro for ever, which is 31 J every ten
+  // seconds.
   Rig rig(late(Late::kVelocity, 0.1, 5), thick());
   EXPECT_EQ(rig.run(10.0), Fault::kEnergyGiven);
   EXPECT_EQ(rig.device.last_force_n, 0.0);
@@ -228,7 +232,7 @@ TEST(HapticLoopPort, WhatIsStableAtTwentyOnePascalSecondsNeverFaults) {
   }
 }
 
-/// Tells nothing of the force that acted.
+/// A device that does not report the force that acted.
 class SilentDevice final : public HapticDevice {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "silent"; }
@@ -285,7 +289,7 @@ TEST(HapticLoopPort, ADeviceThatNeverTellsOfTheForceItGivesIsAFault) {
   bool tells = true;
   int num_reads = 0;
   device.while_read = [&] {
-    // To and fro, so that the hand stays in the workspace.
+    // The hand moves to and fro, so that it stays in the workspace.
     if (++num_reads % 200 == 0) device.move_all({num_reads % 400 == 0 ? 0.3 : -0.3, 0.0, 0.0});
     if (!tells) device.state.acted_n = core::zero_vectors();
   };

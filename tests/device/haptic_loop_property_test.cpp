@@ -1,4 +1,4 @@
-// What holds for every input: seeded, so that a failure comes again.
+// Tests what holds for every input. The inputs are seeded, so that a failure can be repeated.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace haptic_loop_property_test {
 using core::Fault;
 using core::RandomStream;
 
-/// Amounts from nothing to far beyond any study, now and then negative.
+/// Returns amounts from nothing to far beyond any study, which are sometimes negative.
 core::MediumAmounts random_medium(RandomStream& random) {
   core::MediumAmounts medium;
   for (const auto amount : core::kAmounts) {
@@ -66,7 +66,7 @@ TEST(HapticLoopProperty, WhateverIsCommandedAndMeasuredTheForceKeepsItsLimits) {
         }
       }
       for (Eigen::Vector3d& position : scene.device.state.tip_position_m) {
-        position *= 0.99;  // So that the hand stays near.
+        position *= 0.99;  // This keeps the hand near.
       }
       if (random.with_probability(0.01)) {
         const auto point = random.below(core::kNumContactPoints);
@@ -109,7 +109,8 @@ TEST(HapticLoopProperty, AThousandStopsAtRandomPhasesCutTheForceInTheirOwnTick) 
   scene.command.ramp_s = 0.05;
   int num_in_force = 0;
   for (int press = 0; press < 1000; ++press) {
-    // Some come into ramps, some into contact, into re-arming, into a fade, or on a fault.
+    // Some presses come during ramps, some in contact, while arming, during a fade, or at a
+    // fault.
     if (random.with_probability(0.5)) scene.publish();
     scene.device.move_all(
         {0.1 * random.normal(), 0.0, random.with_probability(0.5) ? -0.05 : 0.05});
@@ -140,7 +141,8 @@ TEST(HapticLoopProperty, AThousandStopsAtRandomPhasesCutTheForceInTheirOwnTick) 
   EXPECT_GT(num_in_force, 300);
 }
 
-/// A mass that falls on a surface so hard that holding the force for a tick makes it active.
+/// A mass that falls on a very hard surface. The surface is active, because the force is held
+/// for a tick.
 class BouncingDevice final : public HapticDevice {
  public:
   [[nodiscard]] std::string_view name() const noexcept override { return "bouncing"; }
@@ -171,7 +173,7 @@ class BouncingDevice final : public HapticDevice {
   }
   void close() noexcept override {}
   void halt() noexcept override {}
-  /// Above the surface.
+  /// Returns the energy above the surface.
   [[nodiscard]] double energy_j() const {
     return kMassKg * (0.5 * v_m_per_s * v_m_per_s + kGravityMPerS2 * z_m);
   }
@@ -199,8 +201,8 @@ TEST(HapticLoopProperty, AnActiveSurfaceGivesOutNoMoreEnergyThanItGot) {
       {.sequence = 1, .medium = core::solid({.stiffness_n_per_m = kWallNPerM}), .ramp_s = 0.0});
   const double at_first_j = device.energy_j();
   for (int tick = 0; tick < 10'000; ++tick) loop.tick();
-  // The way of the tick to come is foretold from the velocity alone, which errs by less than
-  // one bounce holds; the next bounce pays it back.
+  // The loop predicts the way of the next tick from the velocity alone. The error is less than
+  // the energy of one bounce, and the next bounce pays it back.
   EXPECT_LT(device.top_received_j, 0.25 * at_first_j);
   const double after_ten_seconds_j = device.top_received_j;
   for (int tick = 0; tick < 50'000; ++tick) loop.tick();

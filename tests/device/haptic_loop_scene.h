@@ -12,7 +12,7 @@
 
 namespace jnd::device {
 
-/// Where in its life a loop is struck.
+/// The phase of a loop in which something happens to it.
 enum class Phase { kFirstTick, kInRamp, kInContact, kInFadeOut, kAfterRearm };
 
 inline constexpr std::array kPhases = {Phase::kFirstTick, Phase::kInRamp, Phase::kInContact,
@@ -34,11 +34,12 @@ inline const char* words(Phase phase) {
   return "";
 }
 
-/// With 1, 3 and 5 points attached.
+/// These have 1, 3 and 5 points attached.
 inline const std::array<std::array<bool, 5>, 3> kAttachments = {
     {{true, false, false, false, false}, {true, true, false, true, false}, core::kAllAttached}};
 
-/// A hand that is lowered onto a rough solid plane below a viscous fluid, with a living window.
+/// A hand that is lowered onto a rough solid plane below a viscous fluid, with a window that is
+/// alive.
 struct LoopScene {
   explicit LoopScene(const std::array<bool, 5>& attached = core::kAllAttached,
                      const HapticLoop::Parameters& parameters = {})
@@ -83,7 +84,7 @@ struct LoopScene {
         break;
       case Phase::kInFadeOut:
         run(200);
-        // Until 250 ms of silence and 30 ms of the fading are over.
+        // The 250 ms of silence and 30 ms of the fading must be over.
         for (int i = 0; i < 280; ++i) loop.tick();
         break;
       case Phase::kAfterRearm:
@@ -102,7 +103,7 @@ struct LoopScene {
     return published_telemetry.value().fault;
   }
 
-  /// What the device received last; free of force before the first tick.
+  /// Returns what the device received last, or no force before the first tick.
   [[nodiscard]] core::PointVectors last_received() const {
     return device.received.empty() ? core::zero_vectors() : device.received.back();
   }
@@ -115,7 +116,7 @@ struct LoopScene {
     hand.state.attached = attached;
     hand.move_all({0.1, 0.02, -0.05});
     hand.device_capabilities.num_joints = core::kNumJoints;
-    // What it measures follows from no force: its port is not watched.
+    // The measurements of this device follow from no force, so its port is not watched.
     hand.device_capabilities.simulated = true;
     hand.device_capabilities.tells_acting_force = false;
     return hand;
@@ -130,8 +131,9 @@ struct LoopScene {
   core::HapticCommand command;
 };
 
-/// What every tick has to keep, whatever came in: finite, within the limits, nothing on a point
-/// that is off, and from the last tick no further than the slew, or zero.
+/// Returns whether the force is safe, as every tick must be, whatever came in. It is finite,
+/// within the limits, and zero on a point that is off. It differs from the last tick by no more
+/// than the slew, or it is zero.
 inline ::testing::AssertionResult is_safe(const core::PointVectors& force,
                                           const core::PointVectors& last,
                                           const std::array<bool, 5>& attached,

@@ -1,4 +1,4 @@
-// Time that was lost between two ticks is a fault, whoever lost it.
+// Tests that time which was lost between two ticks is a fault, whatever lost it.
 
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ TEST_F(LoopThatLostTime, TheThreadTellsOfATickThatHeldItUp) {
 }
 
 TEST_F(LoopThatLostTime, TheThreadTellsOfATickThatBeganTooLate) {
-  // No tick begins within a nanosecond of when it is due, and none here misses a whole period.
+  // No tick begins within a nanosecond of its time, and none here misses a whole period.
   RealtimeThread thread({.priority = 0,
                          .lock_memory = false,
                          .max_spin_s = 0.0,

@@ -1,4 +1,4 @@
-// Sensors that die while the hand rests, and the switch in the hand of whoever owns the robot.
+// Tests sensors that fail while the hand rests, and the switch that the robot's operator holds.
 #include <gtest/gtest.h>
 
 #include "haptic_loop_fixture.h"
@@ -10,7 +10,7 @@ using core::Fault;
 
 class HapticLoopStillness : public HapticLoopTest {
  protected:
-  /// The hand presses the outer palm half a centimetre into a plane, and rests there.
+  /// Presses the outer palm half a centimetre into a plane, and lets the hand rest there.
   void press_into_plane() {
     commands.publish({.sequence = 1,
                       .medium = core::solid({.stiffness_n_per_m = 2000.0}),
@@ -46,7 +46,8 @@ TEST_F(HapticLoopStillness, AHandThatGivesWayKeepsItsForce) {
   const double first_n = pressed_n();
   double before_n = first_n;
   for (int i = 0; i < 20'000; ++i) {
-    // Held by friction until the force has changed by half a newton; then it slips a little.
+    // Friction holds the hand until the force has changed by half a newton. Then the hand slips
+    // a little.
     if (before_n - pressed_n() > 0.5) {
       for (Eigen::Vector3d& tip : device.state.tip_position_m) tip.z() -= 1e-4;
       before_n = pressed_n();

@@ -27,7 +27,7 @@ TEST_F(HapticLoopTest, SendsTheForceOfTheThesisForWaterHeadOn) {
   device.move_all({1.0, 0.0, 0.0});
   command(core::water({}));
   run(50);
-  // 6.585 N against the motion, 35 % of it at each half of the palm.
+  // The force is 6.585 N against the motion, of which each half of the palm bears 35 %.
   EXPECT_NEAR(device.last_total_n().x(), -6.58526, 1e-9);
   EXPECT_NEAR(device.received.back()[0].x(), -0.35 * 6.58526, 1e-9);
   EXPECT_EQ(telemetry().fault, Fault::kNone);
@@ -74,8 +74,8 @@ TEST_F(HapticLoopTest, AHandOnTheSolidSurfaceIsPushedUp) {
   for (Eigen::Vector3d& position : device.state.tip_position_m) position.z() = -0.004;
   command(core::solid({.stiffness_n_per_m = 1000.0}));
   run(100);
-  // 4 mm deep at 1000 N/m, once the surface has risen to its place under a hand that began
-  // there.
+  // The hand is 4 mm deep at 1000 N/m, after the surface has risen to its place under a hand
+  // that began there.
   EXPECT_NEAR(device.last_total_n().z(), 4.0, 1e-9);
   EXPECT_NEAR(device.received.back()[0].z(), 0.35 * 4.0, 1e-9);
 }
@@ -104,7 +104,7 @@ TEST_F(HapticLoopTest, ASurfaceThatHardensUnderTheHandGivesBackNoMoreThanItGot) 
   for (Eigen::Vector3d& position : device.state.tip_position_m) position.z() = 0.0;
   command(core::solid({.stiffness_n_per_m = 200.0}));
   device.move_all({0.0, 0.0, -0.1});
-  run(100);  // 10 mm deep: 10 mJ stored.
+  run(100);  // 10 mm deep, 10 mJ are stored.
   device.move_all({0.0, 0.0, 0.0});
   command(core::solid({.stiffness_n_per_m = 1000.0}), 0.050);
   run(100);  // It would now give back 50 mJ.
@@ -154,7 +154,8 @@ TEST_F(HapticLoopTest, MarksWhereTheLimiterChangedTheForce) {
   device.move_all({1.0, 0.0, 0.0});
   command(core::viscous({.viscosity_pa_s = 30.0}), 0.050);
   run(100);
-  // 53 N asked for, 10 N at a point and 30 N in all allowed: 10 + 10 + 3 * 5.328 N, scaled.
+  // The medium asks for 53 N, and the limits are 10 N at a point and 30 N in all: 10 + 10 + 3 *
+  // 5.328 N, scaled.
   EXPECT_NEAR(device.last_total_n().norm(), 30.0, 1e-9);
   EXPECT_TRUE(telemetry().limited);
   EXPECT_EQ(telemetry().sample.limited, 1);

@@ -7,7 +7,7 @@
 namespace jnd::device {
 namespace haptic_loop_warm_test {
 
-/// A hundred ticks of a moving hand in a viscous fluid; what the device received.
+/// Runs a hundred ticks of a moving hand in a viscous fluid. Returns what the device received.
 std::vector<core::PointVectors> forces(bool warmed) {
   ScriptedDevice device;
   device.move_all({0.3, 0.1, 0.0});

@@ -80,7 +80,7 @@ TEST(LoopTimingSummary, HoldsEveryDurationInItsBucket) {
   ASSERT_EQ(summary.lateness.buckets.size(), 2U);
   EXPECT_EQ(summary.lateness.buckets[0].end_ns, 3);
   EXPECT_EQ(summary.lateness.buckets[0].count, 2U);
-  // 1000 lies in [992, 1024): the power of two from 512 in 16 parts of 32.
+  // 1000 lies in [992, 1024), because the range from 512 to 1024 has 16 classes of 32.
   EXPECT_EQ(summary.lateness.buckets[1].end_ns, 1023);
   EXPECT_EQ(summary.lateness.buckets[1].count, 1U);
   EXPECT_EQ(summary.lateness.max_ns, 1'000);

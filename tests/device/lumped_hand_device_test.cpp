@@ -16,7 +16,7 @@ namespace lumped_hand_device_test {
 
 core::PointVectors no_force() { return core::zero_vectors(); }
 
-/// The hand, driven by a loop through a medium.
+/// The hand, which a loop drives through a medium.
 struct Laboratory {
   explicit Laboratory(const LumpedHandDevice::Parameters& parameters = {}) : hand(parameters) {
     hand.open();
@@ -27,7 +27,7 @@ struct Laboratory {
     for (int i = 0; i < 20; ++i) loop.tick();
   }
 
-  /// What was felt over these strokes.
+  /// Makes these strokes. Returns what was felt over them.
   core::ContactSums stroke(const StrokePlan& plan, std::int64_t trial = 1) {
     const core::ContactSums from = hand.contact_sums();
     hand.simulated_hand()->begin_strokes(plan, core::RandomStream(5, "stroke", {trial}));
@@ -87,7 +87,7 @@ TEST(LumpedHandDevice, AFreeMassObeysNewton) {
   for (int tick = 0; tick < 100; ++tick) ASSERT_TRUE(hand.write(force));
   core::HapticState state;
   ASSERT_TRUE(hand.read(state));
-  // 4 N on 2 kg for 0.1 s.
+  // 4 N act on 2 kg for 0.1 s.
   EXPECT_NEAR(state.tip_velocity_m_per_s[2].x(), 0.2, 1e-12);
   EXPECT_NEAR(state.tip_position_m[2].x(), 0.5 * 2.0 * 0.01, 1.1e-4);
 }
@@ -108,7 +108,7 @@ TEST(LumpedHandDevice, MechanicalViscosityAndFrictionSlowAFreeHandDown) {
   EXPECT_NEAR(start, 0.5, 1e-12);
   ASSERT_TRUE(hand.write(no_force()));
   ASSERT_TRUE(hand.read(state));
-  // One step of 1 ms at 5 * 0.5 + 0.4 * 0.5 / sqrt(0.25 + 0.0001) N.
+  // One step of 1 ms has 5 * 0.5 + 0.4 * 0.5 / sqrt(0.25 + 0.0001) N.
   EXPECT_NEAR(state.tip_velocity_m_per_s[0].x(), 0.5 - 0.001 * (2.5 + 0.4 * 0.9998000600),
               1e-9);
   for (int tick = 0; tick < 5000; ++tick) ASSERT_TRUE(hand.write(no_force()));
@@ -121,7 +121,8 @@ TEST(LumpedHandDevice, WhatWasFeltIsTheMediumPlusTheDevice) {
   for (const double viscosity : {1.093, 1.853, 3.883, 10.1, 16.06}) {
     laboratory.feel(core::viscous({.viscosity_pa_s = viscosity}));
     const core::ContactSums felt = laboratory.stroke({.num_strokes = 2});
-    // Slow turning points, where each tip's share fades, take a hair off the rendered force.
+    // At slow turning points, each tip's share fades, which reduces the rendered force very
+    // slightly.
     EXPECT_NEAR(felt.delivered_damping_n_s_per_m(), 1.776 * viscosity, 1e-3 * viscosity);
     EXPECT_NEAR((felt.opposing_n - felt.rendered_opposing_n) / felt.speed_m_per_s, 4.83, 1e-9);
   }
@@ -242,7 +243,7 @@ TEST(LumpedHandDevice, NamesTheParameterItRejects) {
   EXPECT_THROW(LumpedHandDevice(Parameters{.dry_friction_n = nan}), core::Error);
   EXPECT_THROW(LumpedHandDevice(Parameters{.friction_speed_m_per_s = 0.0}), core::Error);
   EXPECT_THROW(LumpedHandDevice(Parameters{.max_total_force_n = nan}), core::Error);
-  // 20 N s/m of arm damping would throw 10 g about within two periods.
+  // With 20 N s/m of arm damping, 10 g would become unstable within two periods.
   EXPECT_THROW(LumpedHandDevice(Parameters{.mass_kg = 0.01}), core::Error);
   Laboratory laboratory;
   EXPECT_THROW(laboratory.hand.simulated_hand()->begin_strokes({.amplitude_m = nan},

@@ -33,7 +33,7 @@ TEST(Sweep, HasEveryFrequencyMuchAlikeAndNoStep) {
     }
     EXPECT_GT(least, 0.6 * mean_amplitude) << num_ticks;
     EXPECT_LT(most, 1.5 * mean_amplitude) << num_ticks;
-    // From the end of one into the next, as it would go on by itself.
+    // One sweep continues into the next at its end.
     const double end = 0.5 * std::numbers::pi * num_ticks;
     EXPECT_NEAR(sweep_at(num_ticks, num_ticks), std::cos(end), 1e-9);
   }
@@ -81,7 +81,8 @@ TEST(MotionGuide, ASweepOfNoTicksIsNone) {
 TEST(MotionGuide, ASmoothWayBeginsAndEndsAtRestAndIsHalfDoneAtHalfTime) {
   MotionGuide guide(core::kAreaShareRatio);
   const core::HapticState state = at_rest();
-  // A spring alone, then a damper alone: where the reference is, and how fast. 0.1 m in 0.5 s.
+  // A spring alone shows where the reference is, and a damper alone how fast it moves: 0.1 m in
+  // 0.5 s.
   for (const bool is_spring : {true, false}) {
     guide.order({.is_on = true});
     (void)guide.force_n(state, kPeriod_s);
@@ -116,12 +117,12 @@ TEST(MotionGuide, WhatPushesWithoutASpringForgetsWhereItWas) {
   core::HapticState state = at_rest();
   guide.order({.stiffness_n_per_m = 100.0, .is_on = true});
   (void)guide.force_n(state, kPeriod_s);
-  // Pushed for a while, and carried away by it.
+  // A force pushes the hand for a while and carries it away.
   guide.order({.pulse_n = {1.0, 0.0, 0.0}, .pulse_period_s = 1e6, .is_on = true});
   (void)guide.force_n(state, kPeriod_s);
   for (Eigen::Vector3d& place_m : state.tip_position_m) place_m.x() += 0.3;
   (void)guide.force_n(state, kPeriod_s);
-  // Held again: from where it is now, so nothing pulls it back at once.
+  // The guide now holds the hand where it is, so nothing pulls it back at once.
   guide.order({.speed_m_per_s = 0.1, .stiffness_n_per_m = 100.0, .is_on = true});
   for (const Eigen::Vector3d& force_n : guide.force_n(state, kPeriod_s)) {
     EXPECT_LT(force_n.norm(), 0.01);

@@ -22,12 +22,12 @@ namespace mouse_device_test {
 /// Where the person's mouse is at each time.
 using Way = std::function<double(double time_s)>;
 
-/// 0.3 m wide, one stroke a second.
+/// Returns strokes that are 0.3 m wide, one in each second.
 double ordinary_strokes(double time_s) {
   return 0.15 * std::sin(2.0 * std::numbers::pi * time_s);
 }
 
-/// A person at a mouse whose window tells of it sixty times a second.
+/// A person at a mouse, whose window reports it sixty times a second.
 struct Person {
   explicit Person(const core::MediumAmounts& medium = {}, double rate_hz = 1000.0)
       : mouse(MouseDevice::Parameters{.rate_hz = rate_hz}),
@@ -61,7 +61,7 @@ struct Person {
       fastest_m_per_s = std::max(fastest_m_per_s, speed_m_per_s());
     }
   }
-  /// After the hand has got into the swing.
+  /// Strokes, and measures after the first two seconds, when the strokes have become regular.
   void stroke(double duration_s = 3.0) {
     move(ordinary_strokes, 2.0);
     forget();
@@ -154,7 +154,7 @@ core::MediumAmounts everything() {
   return medium;
 }
 
-/// From thin to the most that a study may ask for.
+/// Returns media from thin to the strongest that a study may ask for.
 std::vector<core::MediumAmounts> media() {
   return {core::free_space(),
           core::water({.scale = 0.5}),
@@ -175,7 +175,8 @@ TEST(MouseDevice, ComesToRestInEveryMediumAtEveryRate) {
       person.move([](double time_s) { return 0.3 * std::sin(15.0 * time_s); }, 2.0);
       EXPECT_LE(person.fastest_m_per_s, 2.5 + 1e-12);
       person.move([last_m](double) { return last_m; }, 1.0);
-      // Nothing but the way to the pointer is left: slower and slower, and never back.
+      // Only the way to the pointer is left. The hand becomes slower and slower, and never
+      // turns back.
       int num_turns = 0;
       double last_speed_m_per_s = person.telemetry.value().hand_velocity_m_per_s[0];
       const double speed_before_m_per_s = person.speed_m_per_s();
@@ -243,7 +244,7 @@ TEST(MouseDevice, TheContactSumsTellTheMediumThatWasRendered) {
   Person person;
   person.move(ordinary_strokes, 1.0);
   person.feel(core::viscous({.viscosity_pa_s = 8.0}));
-  person.move(ordinary_strokes, 0.2);  // The ramp.
+  person.move(ordinary_strokes, 0.2);  // This is the time of the ramp.
   const core::ContactSums from = person.mouse.contact_sums();
   person.move(ordinary_strokes, 2.0);
   const core::ContactSums felt = person.mouse.contact_sums() - from;
@@ -319,7 +320,7 @@ TEST(MouseDevice, NamesTheParameterItRejects) {
   EXPECT_THROW(MouseDevice(Parameters{.max_speed_m_per_s = 0.0}), core::Error);
   EXPECT_THROW(MouseDevice(Parameters{.guide = {.reach_m = nan}}), core::Error);
   EXPECT_THROW(MouseDevice(Parameters{.max_total_force_n = nan}), core::Error);
-  // A hundredth of a gram on that damper would be thrown about within two periods.
+  // A hundredth of a gram on that damper would become unstable within two periods.
   EXPECT_THROW(MouseDevice(Parameters{.mass_kg = 1e-5}), core::Error);
 }
 

@@ -14,7 +14,7 @@ namespace pointer_guide_test {
 
 constexpr double kPeriodS = 0.001;
 
-/// A guide and a pointer that tells where it is now and then.
+/// A guide, and a pointer that reports its place from time to time.
 struct Scene {
   explicit Scene(const PointerGuide::Parameters& parameters = {})
       : guide(parameters, kPeriodS) {}
@@ -72,7 +72,7 @@ TEST(PointerGuide, StepsAtSixtyHertzLeaveNoRipple) {
   Scene scene;
   double slowest_m_per_s = 1.0, fastest_m_per_s = 0.0, lag_m = 0.0;
   for (int tick = 0; tick < 1500; ++tick) {
-    // 16, 17, 17 ms, as a monitor goes.
+    // The reports come after 16, 17 and 17 ms, as with a monitor.
     if (tick % 50 == 0 || tick % 50 == 16 || tick % 50 == 33) {
       scene.point(-0.4 + 0.5e-3 * tick);
     }
@@ -110,7 +110,8 @@ TEST(PointerGuide, NeitherPositionNorVelocityJumpsHoweverWildThePointer) {
     EXPECT_LE(scene.speed_m_per_s(), 2.5);
   }
   EXPECT_LE(scene.farthest_step_m, 2.5e-3);
-  // Turned round at full speed, the filter's hardest: 2 * 2.5 m/s * 150 / s / e in one tick.
+  // A reversal at full speed gives the largest jerk of the filter: 2 * 2.5 m/s * 150 / s / e in
+  // one tick.
   EXPECT_LE(scene.hardest_kick_m_per_s, 0.28);
 }
 

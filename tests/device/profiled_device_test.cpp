@@ -31,7 +31,7 @@ namespace profiled_device_test {
 
 using Eigen::Vector3d;
 
-/// A quarter turn about z: the robot's x is the workspace's y, its y is -x.
+/// Returns a quarter turn about z: the robot's x is the workspace's y, and its y is -x.
 Eigen::Matrix3d quarter_turn() {
   Eigen::Matrix3d rotation;
   rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
@@ -41,7 +41,7 @@ Eigen::Matrix3d quarter_turn() {
 const ProfiledDevice::Parameters kTurned = {.rotation = quarter_turn(),
                                             .offset_m = Vector3d(0.1, 0.2, -0.7)};
 
-/// Everything that a device can measure, each number another one.
+/// Returns everything that a device can measure, each with a different number.
 core::HapticState full_state() {
   core::HapticState state;
   for (std::size_t i = 0; i < state.tip_position_m.size(); ++i) {
@@ -66,7 +66,8 @@ TEST(ProfiledDevice, WhatIsMeasuredComesInTheWorkspaceFrame) {
   ProfiledDevice device(robot, kTurned);
   core::HapticState seen;
   ASSERT_TRUE(device.read(seen));
-  // x is -y of the robot, y its x; positions are moved by the offset besides. By hand.
+  // Worked by hand: x is -y of the robot, and y is its x. Positions are also moved by the
+  // offset.
   EXPECT_TRUE(seen.tip_position_m[0].isApprox(Vector3d(-1.9, 1.2, 2.3), 1e-15));
   EXPECT_TRUE(seen.tip_position_m[4].isApprox(Vector3d(-1.9, 5.2, 2.3), 1e-15));
   EXPECT_EQ(seen.tip_velocity_m_per_s[1], Vector3d(-1.2, 0.1, 0.3));
@@ -82,7 +83,8 @@ TEST(ProfiledDevice, WhatIsMeasuredComesInTheWorkspaceFrame) {
 TEST(ProfiledDevice, AnOrientationIsTurnedAndOneThatIsNotThereStaysAway) {
   ScriptedDevice robot;
   robot.state = full_state();
-  // The end effector is turned by a quarter about the robot's x, which is the workspace's y.
+  // The end effector is turned by a quarter about the robot's x axis, which is the workspace's
+  // y axis.
   const double half = std::numbers::sqrt2 / 2.0;
   robot.state.channels.orientation_wxyz = {half, half, 0.0, 0.0};
   ProfiledDevice device(robot, kTurned);
@@ -91,7 +93,8 @@ TEST(ProfiledDevice, AnOrientationIsTurnedAndOneThatIsNotThereStaysAway) {
   const Eigen::Quaterniond turn(
       seen.channels.orientation_wxyz[0], seen.channels.orientation_wxyz[1],
       seen.channels.orientation_wxyz[2], seen.channels.orientation_wxyz[3]);
-  // Its own x axis: along the robot's x, the workspace's y. Its y axis: along z of both.
+  // Its own x axis is along the robot's x, which is the workspace's y. Its y axis is along z of
+  // both frames.
   EXPECT_TRUE((turn * Vector3d::UnitX()).isApprox(Vector3d::UnitY(), 1e-12));
   EXPECT_TRUE((turn * Vector3d::UnitY()).isApprox(Vector3d::UnitZ(), 1e-12));
 
@@ -107,10 +110,10 @@ TEST(ProfiledDevice, AForceGoesToTheRobotInItsOwnFrame) {
   core::PointVectors force_n = core::zero_vectors();
   force_n[3] = Vector3d(1.0, 2.0, 3.0);
   ASSERT_TRUE(device.write(force_n));
-  // To the right is -y of the robot, away is its x.
+  // To the right is the robot's -y, and away is its x.
   EXPECT_EQ(robot.received.back()[3], Vector3d(2.0, -1.0, 3.0));
   EXPECT_EQ(robot.received.back()[0], Vector3d::Zero());
-  // A force and its work are the same in both frames: what is sent comes back as what acted.
+  // A force and its work are the same in both frames, so what is sent comes back as what acted.
   core::HapticState seen;
   ASSERT_TRUE(device.read(seen));
   EXPECT_EQ(seen.acted_n[3], force_n[3]);
@@ -183,7 +186,7 @@ TEST(ProfiledDevice, TheRobotsOwnSpaceIsSeenFromTheWorkspace) {
   robot.device_capabilities.workspace = {0.2, core::kInfinity, 0.1};
   const ProfiledDevice device(robot, kTurned);
   const core::Workspace seen = device.capabilities().workspace;
-  // Its x is y here; z goes 0.1 to either side of -0.7.
+  // The device's x is y here. z reaches 0.1 to either side of -0.7.
   EXPECT_EQ(seen.half_width_x_m, core::kInfinity);
   EXPECT_DOUBLE_EQ(seen.half_width_y_m, 0.4);
   EXPECT_DOUBLE_EQ(seen.half_width_z_m, 0.8);
@@ -208,7 +211,7 @@ TEST(ProfiledDevice, RefusesWhatIsNoRotationAndNoLimit) {
   EXPECT_THROW(ProfiledDevice(robot, far), core::Error);
 }
 
-/// Says of itself what no other device says, and counts what it is asked.
+/// A device that reports values of its own, and counts what it is asked.
 class TellingDevice final : public HapticDevice {
  public:
   std::string_view name() const noexcept override { return "telling"; }
@@ -232,7 +235,8 @@ class TellingDevice final : public HapticDevice {
   core::ContactSums contact_sums() const noexcept override { return {.num_ticks = 9}; }
 
   std::string asked;
-  SimulatedHand* hand = reinterpret_cast<SimulatedHand*>(this);  // Compared, never used.
+  // The pointer is only compared, and never used.
+  SimulatedHand* hand = reinterpret_cast<SimulatedHand*>(this);
 };
 
 TEST(ProfiledDevice, PassesOnWhateverElseItIsAsked) {
@@ -263,7 +267,7 @@ TEST(ProfiledDevice, PassesOnWhateverElseItIsAsked) {
   EXPECT_EQ(inner.asked, "open halt close ");
 }
 
-// A function that is added to devices and forgotten here would answer for no device at all.
+// If a function is added to devices and forgotten here, it would not ask the device.
 TEST(ProfiledDevice, OverridesEveryFunctionOfADevice) {
   const auto source = [](const std::string& file) {
     return test_support::read_file(test_support::source_folder() / "device" / file);
@@ -280,7 +284,7 @@ TEST(ProfiledDevice, OverridesEveryFunctionOfADevice) {
   EXPECT_GE(num_functions, 15);
 }
 
-/// The lumped hand as a robot whose own frame is another one would tell of it.
+/// The lumped hand, reported as a robot with another frame of its own would report it.
 class ElsewhereDevice final : public HapticDevice {
  public:
   ElsewhereDevice(HapticDevice& hand, const Eigen::Matrix3d& rotation, const Vector3d& offset_m)
@@ -315,7 +319,7 @@ class ElsewhereDevice final : public HapticDevice {
   Vector3d offset_m_;
 };
 
-/// A second in a thick fluid, sample by sample.
+/// Returns the samples of a second in a thick fluid.
 std::vector<core::Sample> stroked_through_a_fluid(HapticDevice& device) {
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;

@@ -23,7 +23,7 @@
 namespace jnd::device {
 namespace realtime_thread_test {
 
-/// Ticks at whatever the machine gives, which a test must not depend on.
+/// These parameters need no rights, because a test must not depend on those of the machine.
 constexpr RealtimeThread::Parameters kModest = {
     .priority = 0, .lock_memory = false, .max_spin_s = 0.0, .keep_cpus_awake = false};
 
@@ -72,7 +72,7 @@ TEST(RealtimeThread, TicksUntilItIsStoppedAndEveryTickIsTimed) {
   EXPECT_GT(thread.timing().tick_cost().max_ns(), 0);
 }
 
-/// A read that blocks 15 of every 50 ms: the ticks that never ran stand between the others.
+/// A read blocks 15 of every 50 ms. The numbers of the ticks that never ran are skipped.
 TEST(RealtimeThread, TheNumbersOfTheTicksAreTime) {
   ScriptedDevice device;
   int num_reads = 0;
@@ -123,7 +123,7 @@ TEST(RealtimeThread, SleepOfTheMachineIsAFault) {
                   {exchange.commands, exchange.telemetry, exchange.stop});
   RealtimeThread::Parameters parameters = kModest;
   parameters.boottime_ns = clock_that_goes_on_in_sleep;
-  slept_ns = 7'000'000'000;  // Before it began.
+  slept_ns = 7'000'000'000;  // This is before the thread began.
   RealtimeThread thread(parameters);
   thread.start(loop);
   while (thread.timing().num_ticks() < 20) std::this_thread::yield();
@@ -167,7 +167,8 @@ TEST(RealtimeThread, ReportsThePriorityThatIsInForce) {
   EXPECT_EQ(thread.report().scheduler, "SCHED_FIFO 42");
 }
 
-/// The lowest limit of latency that anybody asks for now, in us; nothing if it cannot be read.
+/// Returns the lowest latency in us that any process asks for now, or nothing if it cannot be
+/// read.
 std::optional<std::int32_t> latency_asked_for_us() {
   const int file = ::open("/dev/cpu_dma_latency", O_RDONLY | O_CLOEXEC);
   if (file < 0) return std::nullopt;

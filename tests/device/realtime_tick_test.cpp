@@ -44,7 +44,7 @@ const core::ForceMap& some_map() {
 
 enum class Which { kScripted, kLumped, kMouse };
 
-/// A loop with all that it exchanges, over a device in which things may go wrong.
+/// A loop with everything that it exchanges, and a device in which faults may happen.
 struct Scene {
   Scene(std::vector<ScheduledFault> faults, Which which, std::size_t queue_capacity)
       : samples(queue_capacity),
@@ -53,7 +53,7 @@ struct Scene {
               .workspace = {.half_width_x_m = 100.0},
               .force_map = &some_map()},
              faulty, {commands, telemetry, stop, &samples, &heartbeat}) {
-    // What the test's own device remembers is in place before.
+    // The memory of the test's own device is reserved before.
     scripted.received.resize(kNumTicks);
     scripted.received.clear();
     scripted.move_all({0.05, 0.0, 0.0});
@@ -76,7 +76,7 @@ struct Scene {
   void command(const core::MediumAmounts& medium) {
     commands.publish({.sequence = ++sequence, .medium = medium, .ramp_s = 0.050});
   }
-  /// With a window that lives, and a consumer that keeps up.
+  /// Runs with a window that is alive, and with a consumer that keeps up.
   void run(int num_ticks) {
     for (int i = 0; i < num_ticks; ++i) {
       heartbeat.beat();
@@ -108,10 +108,10 @@ struct Situation {
   const char* name;
   std::vector<ScheduledFault> faults;
   void (*play)(Scene& scene);
-  core::Fault expected;  ///< At the end.
+  core::Fault expected;  ///< The fault at the end.
 };
 
-/// Struck from tick 100 on, armed again at tick 400.
+/// Runs a scene whose faults begin at tick 100, and arms again at tick 400.
 void be_struck_and_rearm(Scene& scene) {
   scene.command(core::viscous({.viscosity_pa_s = 10.0}));
   scene.run(400);
@@ -230,8 +230,8 @@ const std::vector<Situation>& situations() {
   return all;
 }
 
-/// Plays every situation on every device, each watched by a `Watch` from its first tick to its
-/// last, after one round to warm up. `caught` says what the watch has seen, if anything.
+/// Plays every situation on every device after one round to warm up. A `Watch` watches each
+/// from its first tick to its last. `caught` says what the watch has seen, if anything.
 template <typename Watch, typename Caught>
 void expect_nothing_in_any_situation(Caught&& caught) {
   for (const Situation& situation : situations()) {

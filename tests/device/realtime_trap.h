@@ -7,13 +7,13 @@
 
 namespace jnd::test_support {
 
-/// Counts the locks and waits of this thread while it is alive: pthread's mutexes, rwlocks,
-/// conditions, spinlocks and semaphores, all of which std's are made of, and whatever goes
-/// through `syscall`, as the waits of std's atomics and semaphores do. Also those that would
-/// not have had to wait, and tries.
+/// While it is alive, counts the locks and waits of this thread: the mutexes, rwlocks,
+/// conditions, spinlocks and semaphores of pthread, of which those of std are made, and
+/// whatever goes through `syscall`, as the waits of std's atomics and semaphores do. It also
+/// counts those that did not have to wait, and tries.
 class LockCounter {
  public:
-  /// False under ASan and TSan, which own these functions: skip the test there.
+  /// Returns false under ASan and TSan, which replace these functions. Tests are skipped there.
   [[nodiscard]] static bool is_supported() noexcept;
 
   LockCounter() noexcept;
@@ -26,12 +26,13 @@ class LockCounter {
   std::size_t at_start_;
 };
 
-/// Catches the first system call of this thread while it is alive, whoever makes it: the kernel
-/// hands it to a signal handler, which notes it and carries it out. Later ones pass. One at a
-/// time in a program.
+/// While it is alive, catches the first system call of this thread, whoever makes it. The
+/// kernel hands the call to a signal handler, which notes it and carries it out. Later calls
+/// pass. Only one may exist in a program at a time.
 class SystemCallTrap {
  public:
-  /// False where the kernel or the processor has no such dispatch, and under sanitizers.
+  /// Returns false under sanitizers, and if the kernel or the processor cannot dispatch system
+  /// calls.
   [[nodiscard]] static bool is_supported() noexcept;
 
   SystemCallTrap() noexcept;
@@ -39,17 +40,17 @@ class SystemCallTrap {
   SystemCallTrap(const SystemCallTrap&) = delete;
   SystemCallTrap& operator=(const SystemCallTrap&) = delete;
 
-  /// Its number, as in <sys/syscall.h>.
+  /// Returns the number of the call, as in <sys/syscall.h>.
   [[nodiscard]] static std::optional<long> first_call() noexcept;
 
  private:
   struct sigaction before_ {};
 };
 
-/// Counts the page faults of this thread while it is alive, with and without the disk.
+/// While it is alive, counts the page faults of this thread, with and without the disk.
 class PageFaultCounter {
  public:
-  /// False under sanitizers, whose shadow memory is not there until it is used.
+  /// Returns false under sanitizers, whose shadow memory appears only when it is used.
   [[nodiscard]] static bool is_supported() noexcept;
 
   PageFaultCounter() noexcept;
@@ -62,7 +63,7 @@ class PageFaultCounter {
   std::int64_t at_start_;
 };
 
-/// All memory of the process in place while it lives, where that is allowed.
+/// While it is alive, keeps all memory of the process in place, if that is allowed.
 class LockedMemory {
  public:
   LockedMemory() noexcept;

@@ -27,7 +27,8 @@ namespace {
 
 thread_local std::size_t lock_count = 0;
 
-/// The C library's own function of this name. No static local: its guard might be a lock.
+/// Returns the C library's own function of this name. It uses no static local variable, whose
+/// guard might be a lock.
 template <typename Function>
 Function* next(std::atomic<void*>& known, const char* name) {
   void* found = known.load(std::memory_order_relaxed);
@@ -48,7 +49,8 @@ Function* next(std::atomic<void*>& known, const char* name) {
     return next<int parameters>(known, #name) arguments; \
   }
 
-// They stand in the program's own sources, where the linker takes them before the C library's.
+// These functions are in the program itself, where the linker takes them before those of the C
+// library.
 extern "C" {
 JND_COUNTED(pthread_mutex_lock, (pthread_mutex_t * lock), (lock))
 JND_COUNTED(pthread_mutex_trylock, (pthread_mutex_t * lock), (lock))
@@ -114,7 +116,7 @@ thread_local volatile char system_calls = SYSCALL_DISPATCH_FILTER_ALLOW;
 thread_local volatile long caught_call = -1;
 
 void on_system_call(int /*signal*/, siginfo_t* info, void* context) {
-  // First of all: the return from here is a system call too.
+  // This must come first, because the return from here is a system call, too.
   system_calls = SYSCALL_DISPATCH_FILTER_ALLOW;
   caught_call = info->si_syscall;
   greg_t* registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;

@@ -16,14 +16,12 @@ namespace stability_test {
 constexpr double kRate_hz = 1000.0;
 constexpr double kPeriod_s = 1.0 / kRate_hz;
 
-/// One mass that all five tips are fixed to, at the same height, with a damper of its own:
-///
-///     m (v' - v) / T = force - b v + press,   x' = x + T v',
-///
-/// where the force is that of `delay_ticks` ticks before. It starts with a speed.
+/// One mass to which all five tips are fixed at the same height, with a damper of its own:
+///   m (v' - v) / T = force - b v + press,   x' = x + T v'.
+/// The force is that of `delay_ticks` ticks before. The mass begins with a speed.
 class SampledMass final : public HapticDevice {
  public:
-  double mass_kg = 3e-4;  ///< So light that the limiter's slew is far away.
+  double mass_kg = 3e-4;  ///< The mass is so light that the limiter's slew has no effect.
   double damping_n_s_per_m = 0.0;
   int delay_ticks = 0;
   double start_m_per_s = 0.05;
@@ -70,14 +68,14 @@ class SampledMass final : public HapticDevice {
   std::array<double, 16> line_{};
 };
 
-/// Everywhere below the surface.
+/// Returns a damping medium whose surface is far above the hand.
 core::HapticCommand deep_in(double damping_n_s_per_m) {
   core::HapticCommand command{.medium = {.damping_n_s_per_m = damping_n_s_per_m}};
   command.immersion.origin_z_m = 1.0;
   return command;
 }
 
-/// With a force that comes one tick late.
+/// Returns a mass that is pressed on a plane, with a force that comes one tick late.
 SampledMass pressed_on_a_plane() {
   SampledMass mass;
   mass.mass_kg = 0.02;
@@ -98,7 +96,7 @@ double largest_damping_n_s_per_m(SampledMass& mass) {
 }
 
 TEST(Stability, AMassWithSampledDampingIsStableUpToTwiceItsMassOverThePeriod) {
-  // v' = (1 - b T / m) v: stable for b < 2 m / T.
+  // v' = (1 - b T / m) v is stable for b < 2 m / T.
   for (const double mass_kg : {3e-4, 5e-4}) {
     SampledMass mass;
     mass.mass_kg = mass_kg;
@@ -110,8 +108,8 @@ TEST(Stability, AMassWithSampledDampingIsStableUpToTwiceItsMassOverThePeriod) {
 }
 
 TEST(Stability, ADelayOfTheForceLowersTheLimitAsLevinAndMayHaveIt) {
-  // v' = v - b T / m v_d, the velocity d ticks before: stable for b < 2 sin(pi / (4 d + 2)) m /
-  // T (Levin and May, Theoretical Population Biology 9, 1976).
+  // v' = v - b T / m v_d, with the velocity d ticks before, is stable for b < 2 sin(pi / (4 d +
+  // 2)) m / T (Levin and May, Theoretical Population Biology 9, 1976).
   for (const int delay_ticks : {1, 2, 4}) {
     SampledMass mass;
     mass.delay_ticks = delay_ticks;
@@ -124,7 +122,7 @@ TEST(Stability, ADelayOfTheForceLowersTheLimitAsLevinAndMayHaveIt) {
 }
 
 TEST(Stability, AMassPressedOnADelayedPlaneNeedsDampingOfStiffnessTimesDelay) {
-  // z^2 - (2 - b T / m) z + 1 - b T / m + k T^2 / m = 0 with the force one tick late: stable
+  // With the force one tick late, z^2 - (2 - b T / m) z + 1 - b T / m + k T^2 / m = 0 is stable
   // for k < b / T.
   SampledMass mass = pressed_on_a_plane();
   const double limit = mass.damping_n_s_per_m / kPeriod_s;
@@ -133,8 +131,8 @@ TEST(Stability, AMassPressedOnADelayedPlaneNeedsDampingOfStiffnessTimesDelay) {
         return settles(mass, {.medium = core::solid({.stiffness_n_per_m = stiffness_n_per_m})},
                        kRate_hz);
       }).value;
-  // The whole loop has less: its passivity control does not know of the delay, takes force away
-  // in the wrong ticks, and costs a quarter.
+  // The whole loop reaches less. Its passivity control does not know of the delay and takes
+  // force away in the wrong ticks, which costs a quarter.
   EXPECT_LT(found, limit * 1.01);
   EXPECT_GT(found, limit * 0.7);
 }

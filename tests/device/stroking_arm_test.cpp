@@ -17,7 +17,7 @@ constexpr double kPeriodS = 0.001;
 
 StrokingArm arm() { return {StrokingArm::Parameters{}, kPeriodS}; }
 
-/// Every stroke like the other.
+/// Returns a plan in which all strokes are alike.
 StrokePlan steady(std::int64_t num_strokes = 0) {
   return {.amplitude_sd_ratio = 0.0,
           .speed_sd_ratio = 0.0,
@@ -85,7 +85,7 @@ TEST(StrokingArm, NeitherTheReferenceNorItsVelocityEverJumps) {
   const auto advance_and_check = [&] {
     stroking.advance();
     const Eigen::Vector3d velocity = stroking.reference_velocity_m_per_s();
-    // At most 1.6 m/s, and 20 m/s^2.
+    // The reference has at most 1.6 m/s and 20 m/s^2.
     ASSERT_LT((stroking.reference_m() - last).norm(), 1.6 * kPeriodS);
     ASSERT_LT((velocity - last_velocity).norm(), 20.0 * kPeriodS);
     // The velocity is that of the reference.
@@ -97,7 +97,7 @@ TEST(StrokingArm, NeitherTheReferenceNorItsVelocityEverJumps) {
   };
   for (int round = 0; round < 20; ++round) {
     stroking.begin_strokes({.num_strokes = 2}, stream(round));
-    // Interrupted at times in mid-stroke, by the next strokes or by going home.
+    // Sometimes the next strokes, or the way home, interrupt in the middle of a stroke.
     for (int tick = 0; tick < 1500 + 517 * round; ++tick) advance_and_check();
     if (round % 3 == 0) {
       stroking.go_home();
@@ -135,7 +135,7 @@ TEST(StrokingArm, AfterTheStrokesAskedForItGoesHomeByItself) {
   EXPECT_EQ(stroking.strokes_finished(), 0);
 }
 
-/// Turning points on the right, one a stroke.
+/// Returns the turning points on the right, one for each stroke.
 std::vector<double> far_ends(std::int64_t trial) {
   StrokingArm stroking = arm();
   stroking.begin_strokes({}, stream(trial));

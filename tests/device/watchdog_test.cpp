@@ -33,7 +33,7 @@ class HaltedDevice final : public HapticDevice {
 
 class WatchdogTest : public ::testing::Test {
  protected:
-  /// A loop of 1 kHz and a look each 2 ms.
+  /// Lets time pass, with a loop of 1 kHz and a look every 2 ms.
   void pass(int num_ms, bool beats) {
     for (int i = 0; i < num_ms; ++i) {
       now_ns += kMs;
@@ -103,7 +103,7 @@ TEST_F(WatchdogTest, ParametersOutOfRangeAreRefused) {
   EXPECT_THROW(WatchdogThread({.priority = 100}, device, state), core::Error);
 }
 
-/// Ends without a word after a few beats, as a thread that was killed does.
+/// The loop ends without notice after a few beats, as a killed thread does.
 TEST(WatchdogThread, HaltsTheDeviceOfALoopThatIsGone) {
   HaltedDevice device;
   core::WatchdogState state;

@@ -103,7 +103,8 @@ TEST_P(EachWrongDriver, IsFoundByItsRuleAndByNoOther) {
   }
 }
 
-// One of other units has positions and velocities that agree, and moves far.
+// A device with other units is not in this list. Its positions and velocities agree, but it
+// moves far, so it breaks several rules.
 INSTANTIATE_TEST_SUITE_P(Rules, EachWrongDriver,
                          ::testing::Values("opens", "pace", "time", "velocity", "absent_points",
                                            "force_sign", "halt", "limits", "reopens"),
@@ -131,7 +132,8 @@ TEST(DriverCheck, ARealDeviceIsNeverAskedForMoreThanAGentlePush) {
 }
 
 TEST(DriverCheck, ADeviceThatCannotBeReadAnyMoreIsNotPushed) {
-  WrongDevice device("blind");  // From before the first push on.
+  // The device cannot be read from the time before the first push on.
+  WrongDevice device("blind");
   const Told told = told_of(device, /*pushes=*/true);
   EXPECT_EQ(told.outcomes.at("force_sign").verdict, RuleOutcome::Verdict::kFailed);
   EXPECT_EQ(told.outcomes.at("velocity").verdict, RuleOutcome::Verdict::kFailed);

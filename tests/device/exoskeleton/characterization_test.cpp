@@ -10,7 +10,7 @@
 namespace jnd::device {
 namespace characterization_test {
 
-/// A finger that answers as it is told.
+/// A finger that answers with values that the test knows.
 class ToldBench final : public FingerBench {
  public:
   [[nodiscard]] double break_away_weight_n(FingerPose pose, int repetition) override {
@@ -20,14 +20,14 @@ class ToldBench final : public FingerBench {
   }
   [[nodiscard]] TorqueReading torques_under(FingerPose pose, double weight_n) override {
     weights_n.push_back(weight_n);
-    // The joints that the weight does not load say anything.
+    // The readings of joints that the weight does not load must not matter.
     TorqueReading reading{.measured_n_m = {9.0, 9.0, 9.0}, .expected_n_m = {1.0, 1.0, 1.0}};
     const double expected_n_m = 0.1 * weight_n;
     if (joint_of(pose) == 0) {
       reading.measured_n_m[0] = 1.04 * expected_n_m;
       reading.expected_n_m[0] = expected_n_m;
     } else {
-      // The lightest weight is left out: it may say what it likes.
+      // The lightest weight is left out, so its reading must not matter.
       const bool lightest = weight_n < 0.6;
       reading.measured_n_m = {9.0, (lightest ? 3.0 : 0.91) * expected_n_m, 1.01 * expected_n_m};
       reading.expected_n_m = {1.0, expected_n_m, expected_n_m};
@@ -45,11 +45,11 @@ TEST(Characterization, FivePosesAndTheirRepetitionsComeToMeanAndSpread) {
   EXPECT_EQ(bench.num_break_aways, 15);
   ASSERT_EQ(character.break_away.size(), 5U);
   EXPECT_EQ(character.break_away[4].pose, FingerPose::kInclined);
-  // Along the motion, also where the finger is inclined.
+  // The force is along the motion, even if the finger is inclined.
   EXPECT_NEAR(character.break_away[4].force_n[0], 0.39, 1e-12);
   EXPECT_NEAR(character.extension_n.mean, 0.4, 1e-12);
   EXPECT_NEAR(character.abduction_n.mean, 0.8, 1e-12);
-  // Three times 0.39, 0.40, 0.41: squares of 6 x 0.01^2 over 8.
+  // The values are three times 0.39, 0.40, 0.41, so the squares are 6 x 0.01^2 over 8.
   EXPECT_NEAR(character.extension_n.sd, std::sqrt(6e-4 / 8.0), 1e-12);
 }
 
@@ -92,7 +92,8 @@ TEST(Characterization, AMotorHoldsTheLinksAndTheWeightOnItsLever) {
   const JointVector pose_rad = neutral_pose_rad();
   const auto without_n_m = expected_torque_n_m(pose_rad, 3, Eigen::Vector3d::Zero());
   const auto with_n_m = expected_torque_n_m(pose_rad, 3, {0.0, 0.0, -1.0});
-  // In the neutral pose the index reaches 104.4 mm sideways from its base: abduction lifts it.
+  // In the neutral pose, the index finger reaches 104.4 mm sideways from its base, so abduction
+  // lifts it.
   ExoskeletonKinematics kinematics(Eigen::Vector3d::Zero());
   kinematics.update(pose_rad);
   const double lever_m = kinematics.finger_jacobian(3)(2, 0);
@@ -101,7 +102,8 @@ TEST(Characterization, AMotorHoldsTheLinksAndTheWeightOnItsLever) {
   EXPECT_NEAR(without_n_m[0], kinematics.gravity_torque_n_m()[core::finger_joint(3, 0)], 1e-12);
 }
 
-/// As the sensors of ideal fingers say it: each gives the hand a fifth of this force.
+/// Returns a sample as the sensors of ideal fingers would give it. Each finger gives the hand a
+/// fifth of this force.
 core::Sample sample_of(double speed_m_per_s, double against_n) {
   core::Sample sample;
   sample.attached_bits = 0b11111;

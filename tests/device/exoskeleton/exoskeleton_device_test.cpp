@@ -25,7 +25,7 @@ using Parameters = ExoskeletonDevice::Parameters;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The device, driven by a loop through a medium.
+/// The device, which a loop drives through a medium.
 struct Laboratory {
   explicit Laboratory(const Parameters& parameters = {})
       : exoskeleton(parameters),
@@ -56,7 +56,7 @@ struct Laboratory {
     high_m = std::max(high_m, exoskeleton.world().hand_position_m().x());
     fastest_m_per_s =
         std::max(fastest_m_per_s, std::abs(exoskeleton.world().hand_velocity_m_per_s().x()));
-    // How far finger tips are behind the palm, against the motion.
+    // How far the finger tips are behind the palm, against the motion.
     const double behind_m = 0.5 * (state.tip_position_m[3] + state.tip_position_m[4] -
                                    state.tip_position_m[0] - state.tip_position_m[1])
                                       .x();
@@ -177,8 +177,8 @@ TEST(ExoskeletonDevice, StrokesThroughWater) {
   EXPECT_GT(laboratory.high_m - laboratory.low_m, 0.4);
 }
 
-/// Slope of the opposing force on speed, dry friction aside: the regression line through all
-/// ticks of some strokes of different speeds.
+/// Returns the slope of the opposing force on speed without dry friction: the regression line
+/// through all ticks of some strokes of different speeds.
 double free_space_viscosity_n_s_per_m(double* friction_n) {
   Laboratory laboratory;
   double num = 0.0, sum_v = 0.0, sum_f = 0.0, sum_vv = 0.0, sum_vf = 0.0;
@@ -284,7 +284,7 @@ TEST(ExoskeletonDevice, AnInvalidSimulationEndsInAFaultUntilOpenedAgain) {
 }
 
 TEST(ExoskeletonDevice, TheDelayHoldsTheForceBack) {
-  // The first tick in which the sensor of a finger tells of the force that it was told to make.
+  // Returns the first tick in which the sensor of a finger shows the commanded force.
   const auto first_tick_of_torque = [](double delay_s) {
     ExoskeletonDevice exoskeleton(Parameters{.extra_delay_s = delay_s});
     exoskeleton.open();
@@ -314,7 +314,8 @@ TEST(ExoskeletonDevice, AHaltLastsUntilZerosAreWritten) {
     }
     exoskeleton.halt();
     core::HapticState state;
-    // Neither what was still on its way comes any more, nor what an old tick still writes.
+    // Neither a force that was still on its way nor one that a late tick writes may arrive any
+    // more.
     const int joint = core::finger_joint(0, 1);
     for (int i = 0; i < 5; ++i) {
       ASSERT_TRUE(exoskeleton.write(at_every_point({5.0, 0.0, 0.0})));
@@ -371,7 +372,7 @@ TEST(ExoskeletonDevice, KeepsToItsOwnLimitsWhateverIsWritten) {
   for (int i = 0; i < 50; ++i) {
     const Vector3d direction =
         random.normal(0.0, 1.0) > 0.0 ? Vector3d(1, 0, 0) : Vector3d(0, 0, 1);
-    // Five points of 1000 N each are 2 N each: 4 a point, scaled to 10 in all.
+    // Five points of 1000 N each become 2 N each: 4 N at a point, scaled to 10 N in all.
     ASSERT_TRUE(bounded.write(at_every_point(1000.0 * direction)));
     ASSERT_TRUE(asked_within.write(at_every_point(2.0 * direction)));
     core::HapticState one, other;

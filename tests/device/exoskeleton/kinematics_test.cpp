@@ -34,13 +34,13 @@ TEST(ExoskeletonKinematics, StraightUpItIsTheSumOfItsLengths) {
   const Vector3d base_m = kinematics.base_position_m();
   const Vector3d flange_m = base_m + Vector3d(0.0, 0.0, 0.3105 + 0.4 + 0.39 + 0.078);
   EXPECT_LT((kinematics.end_effector_position_m() - flange_m).norm(), 1e-12);
-  // The platform's x now points up, its y along +x; the index finger lies stretched along its
-  // -y: 55 + 25 + 35 mm from where it is mounted.
+  // The platform's x axis now points up, and its y axis along +x. The index finger lies
+  // stretched along its -y, 55 + 25 + 35 mm from where it is mounted.
   EXPECT_LT(
       (kinematics.tip_position_m()[3] - flange_m - Vector3d(0.1233 - 0.115, 0.007, 0.0527))
           .norm(),
       1e-12);
-  // Raised by a quarter turn at its base, it points up.
+  // The index finger is raised by a quarter turn at its base, so it points up.
   JointVector pose_rad = JointVector::Zero();
   pose_rad[core::finger_joint(3, 1)] = 0.5 * std::numbers::pi;
   kinematics.update(pose_rad);
@@ -48,7 +48,8 @@ TEST(ExoskeletonKinematics, StraightUpItIsTheSumOfItsLengths) {
       (kinematics.tip_position_m()[3] - flange_m - Vector3d(0.1233, 0.007, 0.0527 + 0.115))
           .norm(),
       1e-12);
-  // Its proximal and distal joint bent by a quarter turn each, it folds back on itself.
+  // Its proximal and its distal joint are bent by a quarter turn each, so it folds back on
+  // itself.
   pose_rad.setZero();
   pose_rad[core::finger_joint(3, 2)] = 0.5 * std::numbers::pi;
   kinematics.update(pose_rad);
@@ -126,7 +127,7 @@ TEST(ExoskeletonKinematics, ThePlatformTurnsAsItsVelocitySays) {
     later.update(neutral_pose_rad() + kStep_rad * velocity_rad_per_s);
     EXPECT_LT((later.platform_turn_rad() / kStep_rad - turning_rad_per_s).norm(), 1e-6)
         << core::kJointNames[joint];
-    // And a moment does its work on that turn.
+    // A moment does its work on this turn.
     const Vector3d moment_n_m(0.3, -0.2, 0.5);
     EXPECT_NEAR(kinematics.torque_of_moment_n_m(moment_n_m)[joint],
                 moment_n_m.dot(turning_rad_per_s), 1e-12);

@@ -12,8 +12,8 @@
 
 namespace jnd::device {
 
-/// The model alone, in any pose, its arm's foot wherever it is told: the second opinion on our
-/// own kinematics.
+/// The MuJoCo model alone, in any pose and with its arm's foot anywhere. Our own kinematics are
+/// compared with it.
 class Reference {
  public:
   explicit Reference(const Eigen::Vector3d& base_m)
@@ -54,7 +54,8 @@ class Reference {
                                              3 * mj_name2id(model.get(), mjOBJ_BODY, name));
   }
 
-  /// d tip / d joint over all 22 joints, the distal one together with the proximal one.
+  /// Returns d tip / d joint over all 22 joints. The distal joint moves together with the
+  /// proximal one.
   [[nodiscard]] Eigen::Matrix<double, 3, core::kNumJoints> tip_jacobian(int point) const {
     Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> all(3, model->nv);
     mj_jacSite(model.get(), data.get(), all.data(), nullptr, tip_site(point));
@@ -86,7 +87,7 @@ class Reference {
   }
 };
 
-/// Any pose between the stops.
+/// Returns a random pose between the stops.
 [[nodiscard]] inline JointVector random_pose_rad(core::RandomStream& random) {
   JointVector pose_rad;
   for (int joint = 0; joint < core::kNumJoints; ++joint) {

@@ -43,7 +43,7 @@ TEST(MujocoGuard, AnErrorInAStepDoesNotEndTheProcess) {
   const MujocoModel model = load_mujoco_model(kPendulum);
   const MujocoData data = make_mujoco_data(*model);
   const int room = data->nstack;
-  data->nstack = 0;  // Nothing can be worked out without room for it.
+  data->nstack = 0;  // Without this room, MuJoCo cannot compute anything.
   EXPECT_FALSE(step_mujoco(*model, *data));
   data->nstack = room;
   mj_resetData(model.get(), data.get());

@@ -17,7 +17,7 @@ namespace mujoco_world_test {
 
 using Eigen::Vector3d;
 
-/// A world and the control that holds its weight.
+/// A world, and the control that holds its weight.
 struct Apparatus {
   explicit Apparatus(MujocoWorld::Parameters parameters = {})
       : kinematics(parameters.home_m), world([&] {
@@ -25,7 +25,7 @@ struct Apparatus {
           return parameters;
         }()) {}
 
-  /// Holds the weight for one step, plus this.
+  /// Makes one step, in which the control holds the weight and adds `torque_n_m`.
   bool step(const JointVector& torque_n_m = JointVector::Zero(),
             const Vector3d& pull_n = Vector3d::Zero()) {
     kinematics.update(world.encoder_position_rad());
@@ -77,8 +77,8 @@ TEST(MujocoWorld, TheDistalJointFollowsTheProximalOne) {
   EXPECT_NEAR(at("index_distal"), at("index_proximal"), 0.002);
 }
 
-/// The force at which the loaded joint starts to turn, in a direction that asks nothing of the
-/// finger's other joints' torques but this one's.
+/// Returns the force at which the loaded joint begins to turn. Its direction needs the torque
+/// of this joint and of no other joint of the finger.
 double break_away_n(int point, int joint) {
   Apparatus apparatus({.arm_joint_locked = kAllLocked, .attached = kNoneAttached});
   apparatus.rest(200);
@@ -105,8 +105,8 @@ TEST(MujocoWorld, AFingerStartsToMoveAtTheForcesOfTheThesis) {
 }
 
 TEST(MujocoWorld, TorqueSensorsErrByTheirGains) {
-  // All motors hold the pose, a load hangs on the tip: what the sensors say beyond the weight
-  // is the load, but for the gain.
+  // All motors hold the pose, and a load hangs at the tip. What the sensors show beyond the
+  // weight is the load, times the gain.
   Apparatus apparatus({.arm_joint_locked = kAllLocked, .attached = kNoneAttached});
   constexpr int kPoint = 3;
   const Vector3d load_n(0.2, 0.15, -0.1);
@@ -128,7 +128,7 @@ TEST(MujocoWorld, TorqueSensorsErrByTheirGains) {
 }
 
 TEST(MujocoWorld, TorqueSensorsSitBehindTheFrictionOfTheGear) {
-  // A motor that does not overcome it: nothing arrives at the link.
+  // A motor that does not overcome the friction moves nothing at the link.
   Apparatus apparatus({.arm_joint_locked = kAllLocked, .attached = kNoneAttached});
   const int joint = core::finger_joint(2, 1);
   apparatus.rest(100);
@@ -158,7 +158,7 @@ TEST(MujocoWorld, AMagnetLetsGoAboveItsForceAndNotBelow) {
     Apparatus apparatus({.arm_joint_locked = kAllLocked, .break_away_n = 6.0});
     apparatus.rest(100);
     core::PointVectors force_n = core::zero_vectors();
-    // The index pushes away from the hand; the person holds.
+    // The index finger pushes away from the hand, and the person holds.
     for (int i = 0; i < 300; ++i) {
       force_n[3] = {-push_n * std::min(1.0, i / 200.0), 0.0, 0.0};
       ASSERT_TRUE(apparatus.step(apparatus.kinematics.torque_of_n_m(force_n), -force_n[3]));
@@ -197,7 +197,7 @@ TEST(MujocoWorld, WhatAFingerPushesArrivesAtTheHand) {
   for (int i = 0; i < 1500; ++i) {
     ASSERT_TRUE(apparatus.step(apparatus.kinematics.torque_of_n_m(force_n), -force_n[0]));
   }
-  // Within what friction holds back.
+  // The difference is within what friction holds back.
   EXPECT_LT((apparatus.world.magnet_force_on_hand_n()[0] - force_n[0]).norm(), 1.1);
 }
 

@@ -13,7 +13,7 @@
 namespace jnd::device {
 namespace simulated_bench_test {
 
-// What the model is built with (data/models/README.md).
+// The values with which the model is built (data/models/README.md).
 constexpr double kExtension_n = 0.4, kAbduction_n = 0.83;
 constexpr double kSensorError[] = {0.0356, 0.0889, 0.0083};
 
@@ -58,7 +58,8 @@ TEST(SimulatedBench, AFingerThatIsNotThereIsRefused) {
 
 TEST(SimulatedBench, FreeSpaceFeelsAsViscousAsItTrulyIsToTenPercent) {
   if (test_support::kIsSanitized) GTEST_SKIP() << "minutes of the same code";
-  // The same line through what the magnets truly do to the hand and how it truly moves.
+  // The same line is fitted to the forces that the magnets truly exert on the hand, and to its
+  // true motion.
   double num = 0.0, sum_v = 0.0, sum_vv = 0.0, sum_f = 0.0, sum_vf = 0.0;
   for (const double max_m_per_s : {0.2, 0.4, 0.6}) {
     ExoskeletonDevice exoskeleton({});

@@ -38,7 +38,8 @@ TEST(StabilityMap, AStiffPlaneIsUnstableForALooseFingerFirst) {
 }
 
 TEST(StabilityMap, ALimiterThatKnowsOfTheLooseFingerGivesItNoForceAtAll) {
-  // What the map measures with that knowledge switched off: here it is on.
+  // The map is measured without the limiter's knowledge of loose fingers. This test has the
+  // knowledge.
   ExoskeletonDevice exoskeleton({.rate_hz = kRate_hz, .attached = {}});
   core::LatestValue<core::HapticCommand> commands;
   core::LatestValue<core::Telemetry> telemetry;

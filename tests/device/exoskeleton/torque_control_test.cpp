@@ -15,7 +15,7 @@ constexpr double kPeriod_s = 0.001;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The neutral pose at rest, which the sensors see as it is.
+/// The neutral pose at rest, as the sensors measure it.
 struct Rest {
   Rest() {
     measured.position_rad = neutral_pose_rad();
@@ -46,10 +46,10 @@ TEST(TorqueControl, AForceComesOutAtItsFingerAndAtTheArm) {
   const JointVector rendered_n_m =
       control.torque_n_m(rest.kinematics, rest.measured, one_force(2.0)) -
       rest.kinematics.gravity_torque_n_m();
-  // 2 N towards the hand (+x), by hand: the finger reaches 64.25 mm along before it.
+  // 2 N act towards the hand (+x). Worked by hand, the finger reaches 64.25 mm along before it.
   EXPECT_NEAR(rendered_n_m[core::finger_joint(3, 1)], 2.0 * 0.06425, 1e-5);
   EXPECT_NEAR(rendered_n_m[core::finger_joint(3, 0)], 0.0, 1e-12);
-  // About the arm's first axis, which is upright: force times the distance in y.
+  // The first axis of the arm is upright, so its torque is the force times the distance in y.
   const double lever_m =
       rest.kinematics.tip_position_m()[3].y() - rest.kinematics.base_position_m().y();
   EXPECT_NEAR(rendered_n_m[0], -2.0 * lever_m, 1e-12);
@@ -61,7 +61,7 @@ TEST(TorqueControl, AForceComesOutAtItsFingerAndAtTheArm) {
 TEST(TorqueControl, FeedForwardHelpsThePersonByItsGain) {
   Rest rest;
   TorqueControl control({.feed_forward_gain_ratio = 0.5}, kPeriod_s);
-  // The person pushes the extension of the index by 0.1 N m; the sensor holds it.
+  // The person pushes the extension of the index finger by 0.1 N m, and the sensor holds it.
   rest.measured.torque_n_m[core::finger_joint(3, 1)] -= 0.1;
   JointVector torque_n_m;
   for (int tick = 0; tick < 1000; ++tick) {
@@ -79,7 +79,7 @@ TEST(TorqueControl, FeedForwardDividesTheRenderedForceUnlessThatIsMadeUpFor) {
         {.feed_forward_gain_ratio = 0.5, .compensates_feed_forward = compensates}, kPeriod_s);
     const JointVector gravity_n_m = rest.kinematics.gravity_torque_n_m();
     JointVector torque_n_m = gravity_n_m;
-    // A hand that holds still against whatever the finger does.
+    // The hand holds still, whatever the finger does.
     for (int tick = 0; tick < 2000; ++tick) {
       rest.measured.torque_n_m = torque_n_m;
       torque_n_m = control.torque_n_m(rest.kinematics, rest.measured, one_force(2.0));
@@ -120,7 +120,7 @@ TEST(TorqueControl, TurnsThePlatformBackUnlessToldNotTo) {
   TorqueControl control(
       {.platform_stiffness_n_m_per_rad = 10.0, .platform_damping_n_m_s_per_rad = 2.0},
       kPeriod_s);
-  // About the flange, which points along x: the last joint alone.
+  // Only the last joint turns about the flange, which points along x.
   rest.measured.position_rad[6] += 0.1;
   rest.kinematics.update(rest.measured.position_rad);
   rest.measured.velocity_rad_per_s[6] = 0.5;
@@ -158,7 +158,7 @@ TEST(TorqueControl, NoForceIsTooLargeForTheClamp) {
   EXPECT_TRUE((torque_n_m.cwiseAbs().array() <= max_torque_n_m().array()).all());
 }
 
-/// What holds the robot's weight and does nothing else.
+/// Returns whether these torques hold the robot's weight and do nothing else.
 bool is_weight_alone(const JointVector& torque_n_m, const Rest& rest) {
   return (torque_n_m - rest.kinematics.gravity_torque_n_m()).norm() < 1e-12;
 }
@@ -177,7 +177,7 @@ TEST(TorqueControl, WithoutForceNoPoseIsHeldAgainstTheHandByMoreThanAFewNewton) 
     const JointVector torque_n_m =
         control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors()) -
         rest.kinematics.gravity_torque_n_m();
-    // 5 N on a lever of 7 cm, and less than the friction that it makes up for.
+    // The limit is 5 N on a lever of 7 cm, and less than the friction that is compensated.
     for (int joint = core::kNumArmJoints; joint < core::kNumJoints; ++joint) {
       ASSERT_LE(std::abs(torque_n_m[joint]), 0.35 + 0.1) << core::kJointNames[joint];
     }
@@ -194,7 +194,7 @@ TEST(TorqueControl, ABrokenTorqueSensorPushesNoMoreThanItsMotorTwice) {
       torque_n_m = control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors());
     }
     EXPECT_TRUE((torque_n_m.cwiseAbs().array() <= max_torque_n_m().array()).all());
-    // Mended, it is forgotten within a few time constants of the filter.
+    // After the fault ends, its effect is gone within a few time constants of the filter.
     rest.measured.torque_n_m = rest.kinematics.gravity_torque_n_m();
     for (int tick = 0; tick < 200; ++tick) {
       torque_n_m = control.torque_n_m(rest.kinematics, rest.measured, core::zero_vectors());

@@ -23,7 +23,7 @@ TEST(LimitProtection, LeavesAJointAloneWithinItsRange) {
 }
 
 TEST(LimitProtection, PushesBackLikeASpringAndADamper) {
-  // 0.1 rad beyond: the damper works in full.
+  // 0.1 rad beyond the limit, the damper works in full.
   EXPECT_NEAR(kProtection.torque_n_m(0.4, 0.0), -0.2, 1e-15);
   EXPECT_NEAR(kProtection.torque_n_m(0.4, 3.0), -0.5, 1e-15);
   EXPECT_NEAR(kProtection.torque_n_m(-0.3, 0.0), 0.2, 1e-15);
@@ -65,7 +65,8 @@ TEST(FrictionCompensation, HelpsTheMotionByLessThanTheFriction) {
 }
 
 TEST(HumanTorque, IsWhatARestingLinkHoldsBeyondItsWeight) {
-  // The person pushes down with 0.3 N m on a link that weighs 0.2: the sensor holds up 0.5.
+  // The person pushes down with 0.3 N m on a link that weighs 0.2 N m, so the sensor holds up
+  // 0.5 N m.
   EXPECT_NEAR(human_torque_n_m(JointVector::Constant(0.5), JointVector::Constant(0.2))[9], -0.3,
               1e-15);
 }
@@ -74,7 +75,7 @@ TEST(MaxTorque, LetsAFingerPushWithTenNewtonAndNotMuchMore) {
   const JointVector max_n_m = max_torque_n_m();
   EXPECT_EQ(clamped(JointVector::Constant(1e9), max_n_m), max_n_m);
   EXPECT_EQ(clamped(JointVector::Constant(-1e9), max_n_m), -max_n_m);
-  // 10 N across a stretched finger of 115 mm.
+  // The torque is that of 10 N across a stretched finger of 115 mm.
   for (int joint = 0; joint < core::kNumJointsPerFinger; ++joint) {
     EXPECT_GE(max_n_m[core::finger_joint(2, joint)], 1.15);
     EXPECT_LE(max_n_m[core::finger_joint(2, joint)], 2.0);

@@ -22,7 +22,8 @@ TEST(VelocityFilter, ReachesASteadyVelocityAtItsTimeConstant) {
   VelocityFilter filter(40.0, kPeriod_s);
   filter.start(JointVector::Zero());
   double time_s = 0.0;
-  // 1 / (2 pi 40 Hz) = 3.979 ms: after it, 1 - 1/e of the way.
+  // The time constant is 1 / (2 pi 40 Hz) = 3.979 ms. After it, the filter has gone 1 - 1/e of
+  // the way.
   while (time_s < 0.0039788) {
     time_s += kPeriod_s;
     filter.update(JointVector::Constant(3.0 * time_s));

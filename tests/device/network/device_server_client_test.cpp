@@ -166,7 +166,7 @@ TEST_F(DeviceServerTest, AProgramFindsTheDeviceAsItWasAtTheStart) {
   EXPECT_FALSE(program.state.measured.attached[3]) << "the same session goes on";
   EXPECT_GT(program.state.contact_sums.num_ticks, num_ticks);
 
-  // The next one is so quick that the device has not been put in order yet.
+  // The next program is so quick that the device has not been put in order yet.
   Program next(network, address_number(3), kServer);
   next.challenge = program.challenge;
   program.send(wire::Goodbye{});

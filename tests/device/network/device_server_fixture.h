@@ -12,7 +12,7 @@
 
 namespace jnd::device {
 
-/// A program that does as the test says, whatever the rules are.
+/// A program that does what the test says, whatever the rules are.
 class Program {
  public:
   Program(SimulatedNetwork& network, const Address& own, const Address& server)
@@ -25,7 +25,7 @@ class Program {
         .stream_id = stream_id, .sequence = with_sequence, .sent_ns = 5, .echo_ns = echo_ns};
     (void)port_->send(encoded({header, content}), server_);
   }
-  /// With the challenge of the last welcome, as the rules want it.
+  /// Sends a hello with the challenge of the last welcome, as the rules require.
   void hello(std::uint64_t token) { send(wire::Hello{.token = token, .challenge = challenge}); }
   void command(double force_n, std::uint32_t arm_number = 1) {
     send(with_force(force_n, arm_number));
@@ -36,7 +36,8 @@ class Program {
     return command;
   }
 
-  /// Takes in what has come; answers to the newest state unless told otherwise.
+  /// Receives what has come. The program answers to the newest state, unless the test says
+  /// otherwise.
   void take_in() {
     std::array<std::byte, wire::kMaxBytes> bytes;
     Address from;
@@ -70,10 +71,11 @@ class Program {
   std::uint32_t answered = 0;
   bool answers = true;
   bool echoes = true;
-  std::int64_t heard_ns = 0;  ///< The server's clock, of the newest state.
-  std::int64_t late_ns = 0;   ///< So much earlier it seems to have been.
+  std::int64_t heard_ns = 0;  ///< The server's clock in the newest state.
+  std::int64_t late_ns = 0;   ///< The program pretends to have heard the state this much
+                              ///< earlier.
   std::uint32_t last_sequence = 0;
-  int num_lost = 0;  ///< States, by their numbers.
+  int num_lost = 0;  ///< The number of lost states, which follows from the numbers in them.
   wire::State state;
   std::optional<wire::Welcome> welcomed;
   std::optional<wire::RefusalReason> refusal;
@@ -91,7 +93,7 @@ class DeviceServerTest : public ::testing::Test {
     server.step(network.now_ns);
     program.take_in();
   }
-  /// So many good ticks with this force.
+  /// Runs this many good ticks with this force.
   void talk(int num_ticks, double force_n, std::uint32_t arm_number = 1) {
     for (int i = 0; i < num_ticks; ++i) {
       program.command(force_n, arm_number);

@@ -83,7 +83,7 @@ TEST_F(DeviceServerTest, WhatWaitedWhileEverythingStoodStillCountsForNothing) {
   EXPECT_EQ(program.state.fault, Fault::kWatchdog);
   talk(200, 1.0);
   EXPECT_EQ(felt_n(), 0.0) << "the old number";
-  // With an echo of before the pause, the connection would not be good enough either.
+  // An echo from before the pause would also make the connection too bad, so none is sent.
   program.echoes = false;
   program.command(0.0, 2);
   network.now_ns += 300 * kMs;

@@ -32,7 +32,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
   return std::as_bytes(std::span(text));
 }
 
-/// RFC 4231, cases 1 and 2; a shorter key is one with zeros behind it.
+/// These are cases 1 and 2 of RFC 4231. A shorter key is filled up with zeros.
 TEST(HmacSha256, GivesTheCodesOfTheStandard) {
   EXPECT_EQ(hexadecimal(hmac_sha256(key_of(std::string(20, 0x0b)), bytes_of("Hi There"))),
             "b0344c61d8db38535ca8afceaf0bf12b881dc200c9833da726e9376c2e32cff7");

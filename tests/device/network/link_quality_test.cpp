@@ -167,7 +167,7 @@ TEST(LinkQuality, JudgedAnewItStillKnowsWhatItHasSeen) {
   EXPECT_EQ(quality.received(3), LinkQuality::Verdict::kNewest) << "of another stream";
 }
 
-/// So many of a rate, of which every tenth is lost from the middle on.
+/// Feeds states at this rate for some seconds. Every tenth is lost from `lost_after_s` on.
 LinkQuality fed_at(double rate_hz, double seconds, double lost_after_s) {
   LinkQuality quality;
   quality.restart(rate_hz);

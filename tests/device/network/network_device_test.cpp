@@ -126,7 +126,7 @@ TEST_F(NetworkDeviceTest, ASecondProgramIsRefusedAndTheFirstFeelsNothing) {
   start();
   const auto second = make_device({}, kOtherProgram);
   second->ask();
-  // The first goes on meanwhile.
+  // Meanwhile the first loop goes on.
   const auto step = network.on_millisecond;
   network.on_millisecond = [this, step] {
     step();
@@ -376,7 +376,7 @@ TEST_F(NetworkDeviceTest, TheEmergencyStopReachesTheDeviceInOneTick) {
   EXPECT_EQ(total_now_n(), 0.0);
 }
 
-/// Answers as a device does, without a heap: for counting.
+/// Answers as a device does without using the heap, so that allocations can be counted.
 class AnsweringPort final : public DatagramPort {
  public:
   bool send(std::span<const std::byte> datagram, const Address&) noexcept override {

@@ -6,8 +6,8 @@
 
 namespace jnd::device {
 
-/// Faults of the network with so many points attached. Whatever is asserted is asserted on the
-/// forces that the served device received.
+/// Tests faults of the network, with this number of points attached. The tests judge the forces
+/// that the served device received.
 class NetworkFaultTest : public NetworkTest, public ::testing::WithParamInterface<int> {
  protected:
   void SetUp() override {

@@ -74,7 +74,7 @@ TEST_P(NetworkFaultTest, DoubledAndReorderedDatagramsChangeNothingButTheCounts) 
   int num_sent = 0;
   network.on_send = [this, &num_sent](const Sent& sent) {
     Sent later = sent;
-    // States and commands take turns.
+    // States and commands come by turns.
     const int turn = num_sent++ / 2;
     later.arrives_ns += (turn % 3) * kMs;
     if (turn % 2 == 0) network.post(sent);
@@ -150,8 +150,8 @@ TEST_P(NetworkFaultTest, ABadConnectionEndsTheForceAndIsNotArmed) {
     lose_every(4, to);
     run(700);
     EXPECT_EQ(fault(), Fault::kLinkLost);
-    // Each side has a guard of its own: of lost states the device knows nothing until our loop
-    // halts it.
+    // Each side has its own guard. If states are lost, the device notices nothing until our
+    // loop halts it.
     EXPECT_EQ(server->counts().last_fault, to == kServer ? Fault::kLinkLost : Fault::kWatchdog);
     const std::size_t lost = mark();
     loop->rearm();

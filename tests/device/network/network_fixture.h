@@ -17,8 +17,8 @@
 
 namespace jnd::device {
 
-/// A loop on one side of a network and a device on the other, both at 1 kHz on the network's
-/// own time. The hand strokes through something thick, so that there is always a force to lose.
+/// A loop on one side of a network and a device on the other, both at 1 kHz in the network's
+/// own time. The hand strokes through a thick fluid, so that there is always a force to lose.
 class NetworkTest : public ::testing::Test {
  protected:
   NetworkTest() {
@@ -27,8 +27,8 @@ class NetworkTest : public ::testing::Test {
     };
     serve({});
   }
-  /// What a test has put into the network refers to things of its own, which are gone; the
-  /// device still says goodbye.
+  /// The device still says goodbye after the test, whose own `on_send` refers to objects that
+  /// are gone.
   ~NetworkTest() override { network.on_send = nullptr; }
 
   void serve(DeviceServer::Parameters parameters) {
@@ -47,13 +47,13 @@ class NetworkTest : public ::testing::Test {
     return std::make_unique<NetworkDevice>(network.port(own), kServer, parameters);
   }
 
-  /// Connects, arms and waits until the force is there.
+  /// Connects, arms and waits until there is force.
   void start(const NetworkDevice::Parameters& parameters = {}) {
     connect(parameters);
     run(200);
   }
 
-  /// Connects and arms, and is about to run.
+  /// Connects and arms, so that the loop can run.
   void connect(const NetworkDevice::Parameters& parameters = {}) {
     device = make_device(parameters);
     device->ask();
@@ -78,14 +78,14 @@ class NetworkTest : public ::testing::Test {
     };
   }
 
-  /// Loses every so-manieth datagram to this address.
+  /// Loses every `nth` datagram to this address.
   void lose_every(int nth, const Address& to) {
     network.on_send = [this, nth, to, num = 0](const SimulatedNetwork::Sent& sent) mutable {
       if (!(sent.to == to) || ++num % nth != 0) network.post(sent);
     };
   }
 
-  /// Lets a controller of somebody else's speak: its states say what `change` makes of ours.
+  /// Imitates somebody else's controller, whose states are ours after `change`.
   void change_states(std::function<void(wire::Header&, wire::State&)> change) {
     network.on_send = [this, change = std::move(change)](const SimulatedNetwork::Sent& sent) {
       wire::Datagram datagram;
@@ -107,7 +107,7 @@ class NetworkTest : public ::testing::Test {
     EXPECT_TRUE(stop.release(stop.num_presses()));
   }
 
-  /// So many of both sides' ticks; stops what the test has stopped.
+  /// Runs this many ticks of both sides, except what the test has stopped.
   void run(int num_ms) {
     for (int i = 0; i < num_ms; ++i) {
       if (num_run++ % 500 == 0) {
@@ -145,8 +145,8 @@ class NetworkTest : public ::testing::Test {
     return max;
   }
 
-  /// Whatever happened: no force that is no number, none beyond the limits, none on a point
-  /// that is off the hand, and none that grew faster than the slew allows.
+  /// Expects that, whatever happened, every force was a number and within the limits, no force
+  /// acted on a point that is off, and none grew faster than the slew allows.
   void expect_safe_forces(std::size_t first = 0) const {
     constexpr double kMaxStep_n = 2000.0 * 1e-3;
     core::PointVectors last = core::zero_vectors();
@@ -185,7 +185,8 @@ class NetworkTest : public ::testing::Test {
   core::LatestValue<core::Telemetry> published_telemetry;
   core::EmergencyStop stop;
   std::unique_ptr<HapticLoop> loop;
-  std::optional<DeviceKey> key;  ///< Of both sides, from the next `serve` and `make_device` on.
+  std::optional<DeviceKey> key;  ///< The key of both sides, from the next `serve` and
+                                 ///< `make_device` on.
   bool loop_runs = true, server_runs = true;
   int num_run = 0;
   std::uint64_t next_stream_id = 0;

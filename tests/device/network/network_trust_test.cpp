@@ -11,7 +11,8 @@ namespace network_trust_test {
 
 using core::Fault;
 
-/// What either side says of itself and of time is not trusted further than it can be checked.
+/// Tests that neither side trusts what the other says of itself and of time further than it can
+/// check this.
 class NetworkTrustTest : public NetworkFaultTest {};
 
 TEST_P(NetworkTrustTest, APoorConnectionGoesOnAndIsNotArmedAgain) {
@@ -152,7 +153,7 @@ TEST_P(NetworkTrustTest, AFreezeOfTheWholeMachineLeavesNoForce) {
   for (const int num_ms : {30, 300, 5000}) {
     run(50);
     ASSERT_GT(total_now_n(), 0.5);
-    // A command waits when everything stands still; the server wakes up first.
+    // A command waits while everything stands still, and the server wakes up first.
     const std::size_t frozen = mark();
     network.now_ns += num_ms * kMs;
     run(100);
@@ -162,8 +163,8 @@ TEST_P(NetworkTrustTest, AFreezeOfTheWholeMachineLeavesNoForce) {
   }
 }
 
-/// The clocks of two machines: 0.3 ms apart, and one faster by 100 ppm, so that within fifteen
-/// seconds their ticks pass one another.
+/// The clocks of the two machines are 0.3 ms apart, and one is 100 ppm faster. So their ticks
+/// pass one another within fifteen seconds.
 TEST_P(NetworkTrustTest, ClocksThatDriftPastOneAnotherChangeNothing) {
   network.on_millisecond = nullptr;
   const std::int64_t start_ns = network.now_ns;

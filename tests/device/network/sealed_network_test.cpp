@@ -1,4 +1,4 @@
-// What a stranger on the network may do against a device and a program that share a key.
+// Tests what a stranger on the network can do to a device and a program that share a key.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -173,7 +173,7 @@ TEST_F(SealedNetworkTest, AConversationThatIsPlayedAgainDoesNothing) {
   EXPECT_EQ(max_total_since_n(over), 0.0);
 }
 
-/// Somebody beside the cable says everything again, from everywhere, to everybody.
+/// Somebody at the cable repeats everything, from every address and to every address.
 TEST_F(SealedNetworkTest, WhatIsSaidAgainDuringASessionEndsNothing) {
   std::vector<SimulatedNetwork::Sent> heard;
   network.on_send = [&](const SimulatedNetwork::Sent& sent) {
@@ -199,7 +199,7 @@ TEST_F(SealedNetworkTest, WhatIsSaidAgainDuringASessionEndsNothing) {
   expect_undisturbed("what was said before");
 }
 
-/// After a fault both sides judge the link anew; what was said before is not new then.
+/// After a fault, both sides judge the link again. What was sent before must not count as new.
 TEST_F(SealedNetworkTest, OldStatesDoNotHoldUpTheWayBackFromAFault) {
   std::vector<SimulatedNetwork::Sent> said;
   network.on_send = [&](const SimulatedNetwork::Sent& sent) {
@@ -279,7 +279,7 @@ TEST_F(SealedNetworkTest, OldHellosDoNotKeepOthersOut) {
             "no error");
 }
 
-/// Whatever the device answers to a stranger, the stranger passes on to the program.
+/// The stranger passes on to the program whatever the device answers to the stranger.
 TEST_F(SealedNetworkTest, NoAnswerToAStrangerServesAgainstTheProgram) {
   start();
   int num_answers = 0;

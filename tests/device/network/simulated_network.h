@@ -26,8 +26,8 @@ inline Address address_number(std::uint32_t number) {
   return address;
 }
 
-/// A network and a clock for tests: what is sent arrives at once, in order, unless the test's
-/// own `on_send` says otherwise.
+/// A network and a clock for tests. What is sent arrives at once and in order, unless the
+/// test's own `on_send` says otherwise.
 class SimulatedNetwork {
  public:
   struct Sent {
@@ -61,7 +61,7 @@ class SimulatedNetwork {
 
   std::unique_ptr<Port> port(const Address& own) { return std::make_unique<Port>(*this, own); }
 
-  /// Puts something on its way, whatever `on_send` would say.
+  /// Puts something on its way without calling `on_send`.
   void post(const Sent& sent) { waiting_.push_back(sent); }
 
   void carry(const Sent& sent) {
@@ -72,7 +72,7 @@ class SimulatedNetwork {
     }
   }
 
-  /// Time goes on by whole milliseconds, and with it whatever the test has put beside it.
+  /// Lets time pass in whole milliseconds, and calls `on_millisecond` in each.
   void pass(std::int64_t duration_ns) {
     for (std::int64_t left_ns = duration_ns; left_ns > 0; left_ns -= 1'000'000) {
       now_ns += 1'000'000;
@@ -81,9 +81,9 @@ class SimulatedNetwork {
   }
 
   std::int64_t now_ns = 1'000'000'000;
-  std::function<void(const Sent&)> on_send;  ///< Posts what is to arrive, changed or not.
+  std::function<void(const Sent&)> on_send;  ///< Posts what is to arrive, changed or unchanged.
   std::function<void()> on_millisecond;
-  std::optional<Address> unplugged;  ///< Whose system takes nothing to send.
+  std::optional<Address> unplugged;  ///< The system of this address refuses to send.
 
  private:
   std::size_t deliver(const Address& to, std::span<std::byte> bytes, Address& from) {

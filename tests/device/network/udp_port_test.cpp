@@ -36,7 +36,7 @@ TEST(Address, SaysWhatItIs) {
   EXPECT_FALSE(resolved({"127.0.0.1", 1}) == resolved({"127.0.0.1", 2}));
 }
 
-/// The loopback of one machine delivers at once, in order.
+/// The loopback of one machine delivers at once and in order.
 TEST(UdpPort, CarriesDatagramsBothWays) {
   const Address any = resolved({"127.0.0.1", 0});
   UdpPort near(any), far(any);

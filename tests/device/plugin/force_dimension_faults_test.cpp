@@ -9,8 +9,8 @@
 #include "device/plugin/jnd_device.h"
 #include "force_dimension_fixture.h"
 
-// What goes wrong with a device of Force Dimension: the force ends at the twin of its library,
-// which judges each one that it is given (`ForceDimensionTest::TearDown`).
+// Tests what can go wrong with a device of Force Dimension. The force must end at the twin of
+// its library, which judges each force that it is given (`ForceDimensionTest::TearDown`).
 
 namespace jnd::device {
 namespace force_dimension_faults_test {
@@ -19,7 +19,7 @@ using core::Fault;
 
 class ForceDimensionFaultsTest : public ForceDimensionTest {
  protected:
-  /// Runs until the twin has felt a force, in the middle of a stroke.
+  /// Runs until the twin has got a force in the middle of a stroke.
   static void push(HapticDevice& device, StrokedFluid& fluid) {
     const auto is_in_a_stroke = [&] {
       return force_at_twin_n() >= 0.2 && std::abs(fluid.told().hand_velocity_m_per_s[0]) > 0.1;
@@ -38,7 +38,7 @@ class ForceDimensionFaultsTest : public ForceDimensionTest {
         << fluid.told().total_force_n[0] << " N at " << fluid.told().hand_velocity_m_per_s[0]
         << " m/s, the twin is at " << page().position_m[1] << " m, on " << page().is_on;
   }
-  /// As a person does, who tries again where a busy machine was late with a reading.
+  /// Arms as a person does, who tries again if a busy machine was late with a reading.
   static void arm(HapticDevice& device, StrokedFluid& fluid) {
     Fault found = Fault::kLinkLost;
     for (int i = 0; i < 20 && was_late(found, fluid); ++i) {
@@ -51,13 +51,13 @@ class ForceDimensionFaultsTest : public ForceDimensionTest {
     }
     ASSERT_EQ(found, Fault::kNone) << core::name(found) << ": " << fluid.words();
   }
-  /// A busy machine kept the process of the driver waiting. The driver itself has no complaint,
-  /// for it says in words what the library refused.
+  /// Returns whether a busy machine kept the driver's process waiting. The driver itself then
+  /// has no complaint, because it would say in words what the library refused.
   static bool was_late(Fault found, const StrokedFluid& fluid) {
     return found == Fault::kLinkLost ||
            (found == Fault::kDeviceReadFailed && fluid.words().empty());
   }
-  /// The force is gone, and none comes while the loop goes on.
+  /// Expects that the force is gone, and that none comes while the loop goes on.
   static void expect_no_force(StrokedFluid& fluid) {
     EXPECT_TRUE(comes_to([&] {
       (void)fluid.run(1);
@@ -71,11 +71,11 @@ class ForceDimensionFaultsTest : public ForceDimensionTest {
   struct Expected {
     int trouble;
     std::vector<Fault> faults;
-    std::string words;  ///< Of the device, "": none.
+    std::string words;  ///< What the device says, or "" for nothing.
   };
 };
 
-/// The driver itself, without the process and the checks that jnd puts around it.
+/// The driver alone, without the process and the checks that jnd puts around it.
 class DriverAlone {
  public:
   explicit DriverAlone(const std::filesystem::path& driver, const std::string& options)
@@ -174,7 +174,7 @@ TEST_F(ForceDimensionFaultsTest, OneWithAWristAndAGripperIsHeldToTheSame) {
   }));
 }
 
-/// Its cable is pulled: what is under way fails, and what ends the force is the controller.
+/// The cable is pulled. What is under way fails, and the controller ends the force.
 TEST_F(ForceDimensionFaultsTest, ACablePulledInAnyPhaseEndsTheForce) {
   for (const int phase : {TWIN_IN_READ, TWIN_IN_WRITE, TWIN_IN_HALT, TWIN_IN_CLOSE}) {
     SetUp();
@@ -197,7 +197,7 @@ TEST_F(ForceDimensionFaultsTest, ACablePulledInAnyPhaseEndsTheForce) {
     EXPECT_EQ(force_at_twin_n(), 0.0) << phase;
     EXPECT_EQ(page().trouble, TWIN_UNPLUGGED) << phase;
     EXPECT_EQ(page().num_unsafe, 0) << phase << ", act " << page().first_unsafe;
-    // Connected again, it is another opening.
+    // After it is connected again, the device can be opened again.
     page().unplugged_in = TWIN_NEVER;
     page().trouble = TWIN_IS_WELL;
     EXPECT_EQ(why_not_with(), "") << phase;
@@ -246,7 +246,7 @@ TEST_F(ForceDimensionFaultsTest, AfterTheControllersWatchdogZerosSwitchItOnAndAP
   StrokedFluid fluid(*device);
   push(*device, fluid);
   const int num_before = page().num_watchdog_ends;
-  pause_ms(400);  // Nobody writes.
+  pause_ms(400);  // Nobody writes during this pause.
   EXPECT_EQ(force_at_twin_n(), 0.0);
   EXPECT_GT(page().num_watchdog_ends, num_before);
   EXPECT_TRUE(comes_to([&] { return fluid.run(1) != Fault::kNone; }));
@@ -261,12 +261,12 @@ TEST_F(ForceDimensionFaultsTest, AfterTheControllersWatchdogZerosSwitchItOnAndAP
 
 TEST_F(ForceDimensionFaultsTest, ForcesOfARealOneEndByThemselvesWhenCommandsDo) {
   page().is_virtual = 0;
-  page().watchdog_step_s = 10.0;  // The host's own end, not the controller's.
+  page().watchdog_step_s = 10.0;  // This makes the host end the force, and not the controller.
   const auto device = opened(argument());
   core::HapticState state;
   ASSERT_TRUE(comes_to([&] {
     (void)device->read(state);
-    // A busy machine may have been silent for too long already.
+    // A busy machine may already have been silent for too long.
     if (!device->write(pushed(1.0))) (void)device->write(core::zero_vectors());
     return force_at_twin_n() == 1.0;
   }));
@@ -328,7 +328,8 @@ TEST_F(ForceDimensionFaultsTest, SaturationAndTheTimeGuardAreNoErrors) {
     EXPECT_EQ(fluid.run(200), Fault::kNone);
     page().trouble = TWIN_IS_WELL;
   }
-  // Asked twice as often as the library asks the device: half are the one before.
+  // The test asks twice as often as the library asks the device, so half of the answers repeat
+  // the one before.
   DriverAlone alone(driver(), "library=" + twin().string() + ",time_guard_us=1000");
   ASSERT_TRUE(alone.is_open());
   int num_new = 0, num_old = 0;
@@ -368,7 +369,7 @@ TEST_F(ForceDimensionFaultsTest, TheDriverAloneTakesNoForceThatMustNotBe) {
   EXPECT_EQ(force_at_twin_n(), 0.0) << "the one before does not stand";
   page().trouble = TWIN_IS_WELL;
   refuses(1.0, "after a write that failed");
-  // After a read that failed zeros are not enough: where the hand is nobody knows.
+  // After a failed read, zeros are not enough, because nobody knows where the hand is.
   page().trouble = TWIN_READS_FAIL;
   EXPECT_EQ(alone.read(), JND_DEVICE_FAILED);
   EXPECT_EQ(force_at_twin_n(), 0.0);
@@ -415,13 +416,13 @@ TEST_F(ForceDimensionFaultsTest, AfterAPauseItsVelocityIsTheWayOverThePause) {
     return alone.state().velocity_m_per_s[0][0];
   };
   EXPECT_NEAR(velocity_m_per_s(), 0.0, 0.01) << "the first read comes after one";
-  page().held_m[1] = 0.02;  // Its y is our x.
+  page().held_m[1] = 0.02;  // The y axis of the device is our x axis.
   const double found_m_per_s = velocity_m_per_s();
   EXPECT_GT(found_m_per_s, 0.005);
   EXPECT_LT(found_m_per_s, 0.21) << "20 mm in 100 ms";
 }
 
-/// A halt that comes while a force is on its way to the device.
+/// The halt comes while a force is on its way to the device.
 TEST_F(ForceDimensionFaultsTest, NoForceStandsAfterAHaltWheneverItComes) {
   DriverAlone alone(driver(), "library=" + twin().string());
   ASSERT_TRUE(alone.is_open());
@@ -430,7 +431,7 @@ TEST_F(ForceDimensionFaultsTest, NoForceStandsAfterAHaltWheneverItComes) {
   page().trouble = TWIN_SLOW_WRITE;
   constexpr int kNumRounds = 60;
   std::atomic<int> round{0}, num_halts{0};
-  // Once in each round, a little later each time.
+  // It comes once in each round, a little later each time.
   std::thread halting([&] {
     for (int i = 1; i <= kNumRounds; ++i) {
       while (round < i) std::this_thread::yield();
@@ -445,7 +446,7 @@ TEST_F(ForceDimensionFaultsTest, NoForceStandsAfterAHaltWheneverItComes) {
     round = i;
     num_taken += alone.write(1.0) == JND_DEVICE_OK ? 1 : 0;
     while (num_halts < i) pause_ms(1);
-    pause_ms(10);  // Longer than a force may stand.
+    pause_ms(10);  // This is longer than a force may stand.
     EXPECT_EQ(force_at_twin_n(), 0.0) << "round " << i;
   }
   halting.join();

@@ -13,8 +13,8 @@
 
 namespace jnd::device {
 
-/// The driver of Force Dimension's devices over a twin of their library, which sees every force
-/// that it is given. Both are built as an outsider would.
+/// The driver of Force Dimension's devices with a twin of their library, which sees every force
+/// that it is given. Both are built as an outsider would build them.
 class ForceDimensionTest : public PluginTest {
  protected:
   static void SetUpTestSuite() {
@@ -37,7 +37,7 @@ class ForceDimensionTest : public PluginTest {
     page_file_.reset();
     PluginTest::TearDownTestSuite();
   }
-  /// An omega.3 in a hand that strokes, simulated by its maker.
+  /// Sets up an omega.3 in a hand that strokes, as a simulation by its maker.
   void SetUp() override {
     PluginTest::SetUp();
     twin_page fresh{};
@@ -52,12 +52,12 @@ class ForceDimensionTest : public PluginTest {
     fresh.is_calibrated = fresh.is_wrist_calibrated = 1;
     fresh.calibrates_after_ms = -1;
     fresh.limit_n = 12.0;
-    fresh.held_m[2] = -0.03;  // In the fluid.
+    fresh.held_m[2] = -0.03;  // The hand is in the fluid.
     fresh.stroke_m = 0.04;
     for (int i = 0; i < 3; ++i) fresh.rotation[i][i] = 1.0;
     *page_ = fresh;
   }
-  /// Whatever else a test is about.
+  /// This holds whatever else a test is about.
   void TearDown() override {
     EXPECT_EQ(page().num_unsafe, 0) << "the first is number " << page().first_unsafe;
   }
@@ -112,14 +112,14 @@ class ForceDimensionTest : public PluginTest {
   static inline twin_page* page_ = nullptr;
 };
 
-/// A loop as in a session: a viscous fluid all around a hand that strokes through it.
+/// Runs a loop as in a session, with a viscous fluid all around a hand that strokes through it.
 class StrokedFluid {
   static constexpr std::chrono::milliseconds kTick{1};
 
  public:
   explicit StrokedFluid(HapticDevice& device)
       : device_(device),
-        // On a busy machine the twin moves by leaps, which are not what these tests are about.
+        // On a busy machine the twin moves in jumps. These tests are not about jumps.
         loop_({.starts_armed = device.capabilities().simulated,
                .shadows_guards = true,
                .max_jump_m = 0.1},
@@ -129,7 +129,8 @@ class StrokedFluid {
                        .immersion = {.radius_m = 10.0, .depth_m = 10.0},
                        .ramp_s = 0.0});
   }
-  /// For so many ticks, a millisecond each, or until something is wrong.
+  /// Runs for this many ticks of a millisecond each, or until there is a fault. Returns the
+  /// fault.
   core::Fault run(int num_ticks) {
     for (int i = 0; i < num_ticks; ++i) {
       loop_.tick();
@@ -139,7 +140,7 @@ class StrokedFluid {
     }
     return core::Fault::kNone;
   }
-  /// For so many ticks, whatever is wrong.
+  /// Runs for this many ticks, whatever the faults are.
   void go_on(int num_ticks) {
     for (int i = 0; i < num_ticks; ++i) {
       if (run(1) != core::Fault::kNone) std::this_thread::sleep_for(kTick);

@@ -9,15 +9,15 @@
 #include "force_dimension_fixture.h"
 #include "support/allocation_counter.h"
 
-// What the driver says of a device, how it finds one, and what it measures and sets. Its faults
-// are in force_dimension_faults_test.cpp.
+// Tests what the driver says of a device, how it finds one, and what it measures and sets. Its
+// faults are in force_dimension_faults_test.cpp.
 
 namespace jnd::device {
 namespace force_dimension_plugin_test {
 
 class ForceDimensionPluginTest : public ForceDimensionTest {
  protected:
-  /// The driver's process cuts what is longer, and so would what to do be cut.
+  /// The driver's process cuts longer messages, and would so cut the part that says what to do.
   static void expect_refused(const std::string& said, const std::string& words) {
     EXPECT_TRUE(said.starts_with("device plugin ")) << said;
     EXPECT_NE(said.find(words), std::string::npos) << said;
@@ -72,7 +72,7 @@ TEST_F(ForceDimensionPluginTest, ALibraryThatCannotBeUsedIsToldInASentence) {
   const auto without_library = [](const std::string& option) {
     return why_not(driver().string() + ":simulated" + option);
   };
-  // Somebody who runs the tests may have theirs.
+  // The machine that runs the tests may have the maker's libraries.
   if (::dlopen("libdhd.so", RTLD_LAZY) == nullptr &&
       ::dlopen("libdrd.so", RTLD_LAZY) == nullptr) {
     expect_refused(without_library(""), "neither libdhd.so nor libdrd.so on this machine");
@@ -155,7 +155,7 @@ TEST_F(ForceDimensionPluginTest, OneThatIsNotCalibratedIsRefusedOrGivenTime) {
   page().trouble = TWIN_IS_WELL;
   page().calibrates_after_ms = 100;
   EXPECT_EQ(why_not_with(",wait_for_calibration_s=2"), "");
-  // Who is calibrated is not asked to do it again.
+  // A device that is calibrated is not calibrated again.
   page().calibrates_after_ms = -1;
   EXPECT_EQ(why_not_with(",wait_for_calibration_s=2"), "");
 }
@@ -206,7 +206,7 @@ TEST_F(ForceDimensionPluginTest, AnotherSimulatorIsAskedForByItsName) {
   expect_refused(why_not_with(",simulator=on"), "a real device where simulator=on asks for");
 }
 
-/// The device's x points to the person, its y to the right.
+/// The device's x axis points to the person, and its y axis to the right.
 TEST_F(ForceDimensionPluginTest, ItsFrameIsTurnedToOurs) {
   page().stroke_m = 0.0;
   page().held_m[0] = 0.01;
@@ -232,7 +232,7 @@ TEST_F(ForceDimensionPluginTest, ItsFrameIsTurnedToOurs) {
   EXPECT_DOUBLE_EQ(page().force_n[0], -2.0);
   EXPECT_DOUBLE_EQ(page().force_n[1], 1.0);
   EXPECT_DOUBLE_EQ(page().force_n[2], -0.5);
-  // The hand gives way to where the force on it points: 400 N/m.
+  // The hand yields in the direction of the force on it, by 400 N/m.
   EXPECT_TRUE(comes_to([&] {
     (void)device->read(state);
     (void)device->write(force_n);
@@ -241,11 +241,11 @@ TEST_F(ForceDimensionPluginTest, ItsFrameIsTurnedToOurs) {
 }
 
 TEST_F(ForceDimensionPluginTest, WhatItMeasuresComesAcross) {
-  page().type = 37;  // Left-handed.
+  page().type = 37;  // The device is a left-handed one.
   page().has_wrist = page().has_gripper = 1;
   page().gap_m = -0.012;
   page().buttons = 5;
-  // A third of a turn, around x to y to z.
+  // The rotation is a third of a turn, which takes x to y to z.
   const std::array<std::array<double, 3>, 3> turned = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) page().rotation[i][j] = turned[i][j];
@@ -257,17 +257,17 @@ TEST_F(ForceDimensionPluginTest, WhatItMeasuresComesAcross) {
     ASSERT_TRUE(device->read(state));
     ASSERT_TRUE(device->write(core::zero_vectors()));
     pause_ms(1);
-    // Before, the hand goes where it wants to be.
+    // Until then, the hand goes to where it wants to be.
     if (i < 200) continue;
     to_the_right_m_per_s.push_back(state.tip_velocity_m_per_s[0].x());
   }
-  // 0.04 m at 4 rad/s, of whose velocities a tenth is above 95 % of the largest.
+  // The amplitude is 0.04 m at 4 rad/s. A tenth of the velocities is above 95 % of the largest.
   std::ranges::sort(to_the_right_m_per_s);
   EXPECT_NEAR(to_the_right_m_per_s[to_the_right_m_per_s.size() * 9 / 10], 0.152, 0.03);
   EXPECT_DOUBLE_EQ(state.channels.gripper_m, 0.012);
   EXPECT_EQ(page().num_without_gripper, 0) << "its motors are told that they shall not";
   EXPECT_EQ(state.channels.buttons, 5U);
-  // The same third of a turn, seen in axes that are turned by a quarter: x to -y to z... to x.
+  // The same third of a turn is seen in axes that are turned by a quarter: x to -y to z to x.
   const auto& [w, x, y, z] = state.channels.orientation_wxyz;
   EXPECT_NEAR(w, 0.5, 1e-12);
   EXPECT_NEAR(x, 0.5, 1e-12);

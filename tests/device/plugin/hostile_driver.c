@@ -1,7 +1,7 @@
-/* A driver of one point at rest that does everything wrong, as its options say:
- * trouble=NAME, from the read number after= on; log= a file into which it writes what the
- * motors were told last; flags= more of what it is. Built with -D for what is wrong before
- * that. */
+/* A driver of one point at rest that does everything wrong that its options name.
+ * trouble=NAME is wrong from the read number after= on. log= is a file into which the driver
+ * writes what the motors were told last. flags= sets more flags of the description. Definitions
+ * by -D are wrong before that. */
 #include "jnd_device.h"
 
 #include <fcntl.h>
@@ -37,7 +37,7 @@ static void hang(void) {
   for (;;) pause();
 }
 
-/* What acts on the hand now, and how often it was halted: what a motor would keep of it. */
+/* Writes the force that now acts on the hand, and how often the driver was halted. */
 static void tell(jnd_device* device, double force_n, int is_halt) {
   double told[2] = {force_n, 0.0};
   if (device->log < 0) return;
@@ -77,7 +77,7 @@ int jnd_device_describe(jnd_device* device, const char* options,
   description->max_slew_n_per_s = 2000.0;
   description->max_speed_m_per_s = 5.0;
   for (int axis = 0; axis < 3; ++axis) description->workspace_half_width_m[axis] = 1.0;
-  /* Short where it is waited for in vain; a process that crashes may take a while. */
+  /* The time is short if the program waits in vain. A process that crashes may take a while. */
   description->open_timeout_s = is(trouble, "hang_in_open") ? 0.3 : 0.0;
   return JND_DEVICE_OK;
 }

@@ -16,7 +16,8 @@ namespace hostile_plugin_test {
 
 using core::Fault;
 
-/// A driver that does not load, describe or open is told in one sentence.
+/// Tests that a driver which does not load, describe itself or open is reported in one
+/// sentence.
 class HostilePluginTest : public PluginTest {
  protected:
   static void expect_refused(const std::string& argument, const std::string& words) {
@@ -27,8 +28,8 @@ class HostilePluginTest : public PluginTest {
     EXPECT_EQ(said.find('\n'), std::string::npos) << said;
   }
 
-  /// Ticks a loop in which a force acts until it has a fault, each no longer than a driver may
-  /// keep it.
+  /// Runs a loop with a force until it has a fault, and returns the fault. Each tick takes no
+  /// longer than a driver may delay it.
   Fault fault_of(HapticDevice& device, int most_ticks = 3000) {
     core::LatestValue<core::HapticCommand> commands;
     core::LatestValue<core::Telemetry> telemetry;
@@ -123,7 +124,7 @@ TEST_F(HostilePluginTest, OneThatDiesOrHangsAtItsOwnPaceIsAFaultAndHoldsNobodyUp
     EXPECT_TRUE(found == Fault::kStaleSample || found == Fault::kDeviceReadFailed)
         << trouble << ": " << core::name(found);
     EXPECT_FALSE(device->may_arm()) << trouble;
-    // The loop's time is not his: a thousand ticks without him take no time.
+    // The driver must not take the loop's time: a thousand ticks without it take almost none.
     const auto begin = std::chrono::steady_clock::now();
     core::HapticState state;
     for (int i = 0; i < 1000; ++i) {
@@ -147,7 +148,8 @@ TEST_F(HostilePluginTest, OneThatIsStoppedIsAFaultAndBringsNoOldForceBack) {
   ASSERT_EQ(::kill(process, SIGSTOP), 0);
   ASSERT_TRUE(comes_to([&] { return !device->read(state); }));
   EXPECT_EQ(device->fault(), Fault::kDeviceReadFailed);
-  // What was computed while it was stopped waits for it, and is too old when it goes on.
+  // What was computed while the process was stopped waits for it, and is too old when the
+  // process goes on.
   (void)device->write(pushed(3.0));
   pause_ms(50);
   ASSERT_EQ(::kill(process, SIGCONT), 0);
@@ -182,7 +184,7 @@ TEST_F(HostilePluginTest, MeasurementsThatAreNoneAreFaults) {
   };
   for (const auto& [trouble, fault] : faults) {
     for (const char* place : {"", ",in-process"}) {
-      // In this process nobody counts how many are missing.
+      // In this process, nobody counts the missing measurements.
       if (trouble == "half_rate" && place[0] != '\0') continue;
       const auto device = opened(troubled(trouble, place + std::string(",after=100")));
       EXPECT_EQ(fault_of(*device), fault) << trouble << place;
@@ -203,7 +205,7 @@ TEST_F(HostilePluginTest, OneThatDoesNotCloseIsEnded) {
   EXPECT_EQ(::kill(process, 0), -1) << "it is still there";
 }
 
-/// Whatever a broken driver has written into the page that is its own.
+/// A broken driver may write anything into its own page.
 TEST_F(HostilePluginTest, NonsenseInItsPageIsAFaultAndNothingElse) {
   jnd_device_description description{};
   description.contact_point_bits = 1;

@@ -1,9 +1,9 @@
-/* A simulated pincer that holds thumb and index, with everything that a driver may tell: shares
- * of its own, sensors of force that show 90 % of what it was asked for, orientation, torque,
- * gripper, buttons, and a clock that is off by ppm= parts in a million. It sets the pace, at
- * rate= Hz, unless free=1 says that it only has a clock of its own. The hand strokes along x by
- * itself. stall= seconds: it brings no measurement for so long, once, after a second. wild= how
- * many times faster it is than it says. */
+/* A simulated pincer that holds thumb and index finger, and reports everything that a driver
+ * can: its own shares, force sensors that show 90 % of the commanded force, orientation,
+ * torque, gripper, buttons, and a clock that is off by ppm= parts in a million. It sets the
+ * pace at rate= Hz, unless free=1 says that it only has its own clock. The hand strokes
+ * along x by itself. With stall= it brings no measurement for this many seconds, once, after
+ * a second. With wild= it is this many times faster than it says. */
 #include "jnd_device.h"
 
 #include <math.h>

@@ -10,8 +10,8 @@ namespace pincer_plugin_test {
 
 using core::Fault;
 
-/// A device of two points that are not the first ones, with shares of its own, which measures
-/// all that there is to measure and sets the pace.
+/// Tests a device of two points that are not the first ones, with its own shares. It measures
+/// everything that can be measured, and sets the pace.
 class PincerPluginTest : public PluginTest {
  protected:
   static std::string pincer(const std::string& options = "") {
@@ -65,7 +65,7 @@ TEST_F(PincerPluginTest, ItHasNoPlaceInThisProcess) {
   EXPECT_NE(why_not(pincer(",in-process")).find("does not pace the loop"), std::string::npos);
 }
 
-/// A loop in real time, which the device paces, for some seconds.
+/// The result of a loop in real time that the device paced for some seconds.
 struct PacedRun {
   core::Telemetry telemetry;
   std::vector<core::Sample> samples;
@@ -123,7 +123,7 @@ TEST_F(PincerPluginTest, ADeviceThatRunsWildMakesTheLoopHardlyFaster) {
   const core::Sample& last = run.samples.back();
   const double seconds =
       1e-9 * static_cast<double>(last.monotonic_ns - run.samples.front().monotonic_ns);
-  // A sixteenth, and what a busy machine makes up for.
+  // The limit allows for a sixteenth, and for ticks with which a busy machine catches up.
   EXPECT_LT(static_cast<double>(last.tick - run.samples.front().tick) / seconds, 1100.0);
 }
 
@@ -146,7 +146,7 @@ TEST_F(PincerPluginTest, ItsClockIsComparedWithOurs) {
   const auto device = make_plugin_device(pincer(",free=1,ppm=4000,rate=4000"), 1000.0);
   const PacedRun run = run_for(*device, 13.0);
   ASSERT_TRUE(run.telemetry.device_clock.has_value());
-  // Far above what a busy machine's delays add up to.
+  // The drift is far above what the delays of a busy machine add up to.
   EXPECT_NEAR(run.telemetry.device_clock->drift_ppm, 4000.0, 800.0);
   EXPECT_GE(run.telemetry.device_clock->observed_s, 10.0);
 }

@@ -16,7 +16,7 @@ using core::Fault;
 
 class PluginDeviceTest : public PluginTest {};
 
-/// What a hand goes through that is held back by a viscous force.
+/// Returns the states of a hand that a viscous force holds back.
 std::vector<core::HapticState> strokes(HapticDevice& device, int num_ticks) {
   std::vector<core::HapticState> states;
   for (int i = 0; i < num_ticks; ++i) {
@@ -157,7 +157,7 @@ TEST_F(PluginDeviceTest, AHaltReachesADeviceWhoseDriverIsStuck) {
   ASSERT_TRUE(comes_to([&] { return device->read(state); }));
   (void)device->write(pushed(1.0));
   ASSERT_TRUE(comes_to([] { return motors().force_n == 1.0; }));
-  (void)device->read(state);  // It never comes back from this one.
+  (void)device->read(state);  // The process never comes back from this call.
   device->halt();
   EXPECT_TRUE(comes_to([] { return motors().force_n == 0.0; }));
 }
@@ -171,7 +171,7 @@ TEST_F(PluginDeviceTest, ForcesEndByThemselvesWhenCommandsDo) {
     (void)device->write(pushed(1.0));
     return motors().force_n == 1.0;
   }));
-  // Nobody says anything any more: after 20 ms, and the machine's own delay.
+  // Nobody sends anything any more. The force ends after 20 ms and the machine's own delay.
   EXPECT_TRUE(comes_to([] { return motors().force_n == 0.0 && motors().num_halts > 0.0; }));
 }
 
@@ -201,7 +201,7 @@ TEST_F(PluginDeviceTest, ForcesEndAndTheProcessGoesWhenTheProgramDies) {
   (void)::waitpid(program, nullptr, 0);
   EXPECT_TRUE(comes_to([] { return motors().force_n == 0.0 && motors().num_halts > 0.0; }));
   EXPECT_TRUE(comes_to([&] {
-    // Where nobody takes its end in, it stays as a zombie.
+    // A process whose end nobody has collected stays as a zombie.
     std::ifstream status("/proc/" + std::to_string(host) + "/stat");
     std::string line;
     return !std::getline(status, line) || line.find(") Z ") != std::string::npos;

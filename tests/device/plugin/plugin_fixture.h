@@ -17,7 +17,7 @@
 
 namespace jnd::device {
 
-/// As somebody does who has nothing of this program but the header.
+/// Compiles the driver as somebody does who has nothing of this program but the header.
 inline std::filesystem::path built_driver(const std::filesystem::path& source,
                                           const std::filesystem::path& folder,
                                           const std::string& name,
@@ -41,13 +41,14 @@ inline std::filesystem::path example_source() {
   return test_support::source_folder() / "device" / "plugin" / "example_device.c";
 }
 
-/// Drivers, each built once for all tests.
+/// Makes drivers, each of which is built once for all tests.
 class PluginTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { folder_ = std::make_unique<test_support::TemporaryFolder>(); }
   static void TearDownTestSuite() { folder_.reset(); }
-  /// Beside it, so that no driver has to be told where it is. A driver that crashes does so at
-  /// once: what a sanitizer would write about it takes longer than a driver is waited for.
+  /// Names the host program explicitly. The sanitizer's handlers are switched off, so that a
+  /// driver that crashes does so at once, because their report takes longer than the program
+  /// waits for a driver.
   void SetUp() override {
     ::setenv("JND_DEVICE_HOST", test_support::device_host_file().c_str(), 1);
     const char* others = std::getenv("ASAN_OPTIONS");
@@ -70,7 +71,7 @@ class PluginTest : public ::testing::Test {
         test_support::source_folder() / "tests" / "device" / "plugin" / "hostile_driver.c",
         "hostile" + definition, definition);
   }
-  /// "plugin:" with a driver of this trouble.
+  /// Returns "plugin:" with a driver that has this trouble.
   static std::string troubled(const std::string& trouble, const std::string& more = "") {
     return hostile().string() + ":simulated,trouble=" + trouble + more;
   }
@@ -81,7 +82,7 @@ class PluginTest : public ::testing::Test {
     device->open();
     return device;
   }
-  /// What is said of a driver that cannot be used; "" if it can.
+  /// Returns what is said of a driver that cannot be used, or "" if it can.
   static std::string why_not(const std::string& argument) {
     try {
       (void)opened(argument);
@@ -111,13 +112,13 @@ class PluginTest : public ::testing::Test {
         .read(reinterpret_cast<char*>(&told), sizeof told);
     return told;
   }
-  /// At its own pace, with a log of its motors.
+  /// Returns the driver with its own pace and a log of its motors.
   static std::string own_clock(const std::string& trouble, const std::string& more = "") {
     std::filesystem::remove(motor_file());
     return hostile().string() + ":" + (more.empty() ? "real" : more) +
            ",flags=4,log=" + motor_file().string() + ",trouble=" + trouble;
   }
-  /// Whether it comes to this within some seconds.
+  /// Returns whether the condition becomes true within some seconds.
   template <typename Condition>
   static bool comes_to(const Condition& condition) {
     for (int i = 0; i < 5000; ++i) {

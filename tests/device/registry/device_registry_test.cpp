@@ -51,7 +51,7 @@ TEST(DeviceRegistry, ADeviceOnAnotherMachineNeedsAKey) {
       static_cast<void>(make_device(place, 1000.0));
       ADD_FAILURE() << place;
     } catch (const DeviceUnreachable& error) {
-      // Where there is no way to IPv6 at all, that is told first.
+      // If this machine has no IPv6 at all, that is reported first.
       EXPECT_NE(std::string(place).find('['), std::string::npos) << error.what();
     } catch (const core::Error& error) {
       EXPECT_NE(std::string(error.what()).find("expected a key"), std::string::npos)

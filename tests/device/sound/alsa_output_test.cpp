@@ -24,7 +24,7 @@ namespace alsa_output_test {
 
 using namespace std::chrono_literals;
 
-/// A staircase of 997 steps, over and over: any sample tells which one comes next.
+/// Plays a repeated staircase of 997 steps, in which each sample determines the next one.
 class Staircase final : public core::SoundSource {
  public:
   void render(std::span<float> samples, std::int64_t heard_ns) noexcept override {
@@ -40,8 +40,8 @@ class Staircase final : public core::SoundSource {
   std::atomic<std::int64_t> num_frames{0}, last_heard_ns{0};
 };
 
-/// ALSA's own plug-in that writes what it plays to a file, over its plug-in that plays
-/// nothing: a sound card for a machine that has none.
+/// Uses ALSA's own plug-in that writes to a file what it plays, with its plug-in that plays
+/// nothing. Together they replace a sound card on a machine that has none.
 class AlsaOutputTest : public ::testing::Test {
  protected:
   AlsaOutputTest() {
@@ -102,8 +102,8 @@ TEST_F(AlsaOutputTest, PlaysToWhatKeepsNothingByTheClock) {
   output->start(source);
   std::this_thread::sleep_for(500ms);
   output->stop();
-  // Half a second, and a quarter until it is known for what it is; a busy machine may be late,
-  // and none is early.
+  // The limits are half a second, and a quarter more until the output is known to keep nothing.
+  // A busy machine may be late, and none is early.
   EXPECT_LE(source.num_frames, 48000);
   EXPECT_GT(source.num_frames, 4800);
   EXPECT_GT(output->longest_latency_s(), 0.0);

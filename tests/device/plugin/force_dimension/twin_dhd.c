@@ -1,16 +1,17 @@
-/* A twin of Force Dimension's libdhd.so, for tests: the functions that the driver uses, over a
- * simulated device with a controller of its own, which behaves as far as the public
- * documentation says how, and otherwise as is assumed here and said so. Nothing of the maker's
- * is in it. It records every force that it is given and judges it (`judge`).
+/* A twin of Force Dimension's libdhd.so for tests. It has the functions that the driver
+ * uses, and a simulated device with its own controller. It behaves as the public
+ * documentation says, and otherwise as a comment here assumes. It contains nothing of the
+ * maker's. It records every force that it is given, and judges it (`judge`).
  *
- * Told in our own words are, as (B), the documentation of the free Python bindings, which was
- * adapted from the maker's (github.com/EmDash00/forcedimension_core-python at
- * forcedimension_core/dhd/__init__.py and dhd/expert/__init__.py, and -python-docs at
- * docs/source/forcedimension_core.dhd-doc.rst); as (H), the declarations of version 3.7 in
- * WPI-AIM/ambf at external/DHD/include/dhdc.h; as (C), src/devices/CDeltaDevices.cpp of CHAI3D.
+ * The comments say in our own words what these sources say. (B) is the documentation of the
+ * free Python bindings, which was adapted from the maker's
+ * (github.com/EmDash00/forcedimension_core-python at forcedimension_core/dhd/__init__.py and
+ * dhd/expert/__init__.py, and -python-docs at docs/source/forcedimension_core.dhd-doc.rst).
+ * (H) is the declarations of version 3.7 in WPI-AIM/ambf at external/DHD/include/dhdc.h. (C)
+ * is src/devices/CDeltaDevices.cpp of CHAI3D.
  *
- * Built with -D for what a library may lack: LACKS_SET_FORCE, LACKS_WATCHDOG, LACKS_MAX_FORCE,
- * LACKS_COM_MODE. The test tells everything else by the page of twin_page.h. */
+ * It is built with -D for what a library may lack: LACKS_SET_FORCE, LACKS_WATCHDOG,
+ * LACKS_MAX_FORCE, LACKS_COM_MODE. The test sets everything else in the page of twin_page.h. */
 #define _GNU_SOURCE
 
 #include <fcntl.h>
@@ -28,7 +29,7 @@
 #define EXPORT __attribute__((visibility("default")))
 
 enum { TIME_GUARD = 1, SATURATED = 2, NUM_STATUS = 17, NUM_HISTORY = 256 };
-/* (H), the enumeration of errors. */
+/* The enumeration of errors is that of (H). */
 enum {
   NO_ERROR,
   ERROR_COM = 2,
@@ -47,8 +48,8 @@ static volatile struct twin_page* page;
 /* (B), error management: each thread has its own last error. */
 static _Thread_local int last_error = NO_ERROR;
 
-/* The library's: its functions are thread-safe, (B), threading. And the controller's, which a
- * library that is stuck does not stop. */
+/* The library has a lock, because its functions are thread-safe ((B), threading). The
+ * controller has another one, because a library that is stuck does not stop it. */
 static pthread_mutex_t library_lock = PTHREAD_MUTEX_INITIALIZER;
 static pthread_mutex_t controller_lock = PTHREAD_MUTEX_INITIALIZER;
 
@@ -56,7 +57,7 @@ static bool is_open, is_mine, is_expert, has_failed, is_halted, is_ended_by_some
 static pthread_t opener;
 static double late_since_s;
 static double force_n[3];
-static double set_n[3]; /* What was set last, also while the motors are off. */
+static double set_n[3]; /* The force that was set last, even while the motors are off. */
 static double position_m[3], velocity_m_per_s[3];
 static double last_force_s, last_asked_s, known_m[3];
 static int off_cause;
@@ -96,7 +97,7 @@ static void act(double x_n, double y_n, double z_n) {
   if (magnitude(now_n) > page->most_force_n) page->most_force_n = magnitude(now_n);
 }
 
-/* (B), safety feature and electromagnetic brakes: where the force is ended, motors brake. */
+/* (B), safety feature and electromagnetic brakes: when the force ends, the motors brake. */
 static void end_force(int cause) {
   act(0.0, 0.0, 0.0);
   if (page->is_on) off_cause = cause;
@@ -105,7 +106,7 @@ static void end_force(int cause) {
   if (cause == CAUSE_BUTTON || cause == CAUSE_VELOCITY) is_ended_by_somebody = true;
 }
 
-/* Assumed, as the worst that may be: what was set last acts as soon as motors are on. */
+/* Assumed as the worst case: the force that was set last acts as soon as the motors are on. */
 static void begin_force(void) {
   if (magnitude(set_n) != 0.0) unsafe(TWIN_SWITCHED_ON_PUSHING);
   page->is_on = 1;
@@ -114,10 +115,10 @@ static void begin_force(void) {
   act(set_n[0], set_n[1], set_n[2]);
 }
 
-/* ---- The controller: a mass in a hand, and what ends its force by itself ------------------ */
+/* ---- The controller: a mass in a hand, and what ends the force by itself ------------------ */
 
-/* 0.25 kg on a spring of 400 N/m and a damper of 8 N s/m that end where the hand wants to be;
- * brakes add 20 N s/m, and what is not carried weighs 1.5 N. */
+/* Moves 0.25 kg on a spring of 400 N/m and a damper of 8 N s/m, which end where the hand
+ * wants to be. Brakes add 20 N s/m, and the weight is 1.5 N if it is not carried. */
 static void move(double dt_s, double time_s) {
   double wanted_m[3];
   for (int i = 0; i < 3; ++i) wanted_m[i] = page->held_m[i];
@@ -142,21 +143,21 @@ static void* control(void* unused) {
     sleep_ms(0.5);
     pthread_mutex_lock(&controller_lock);
     const double time_s = now_s();
-    /* Another process has the page's device; this one's is gone. */
+    /* Another process has the page's device, and this process has none any more. */
     if (!is_mine) {
       last_s = time_s;
       pthread_mutex_unlock(&controller_lock);
       continue;
     }
-    /* Where the machine was held up, so is the hand: it must not leap. */
+    /* If the machine was delayed, the hand is delayed, too, so that it does not jump. */
     last_s = fmax(last_s, time_s - 0.002);
     for (; last_s + 0.0005 <= time_s; last_s += 0.0005) {
       simulated_s += 0.0005;
       move(0.0005, simulated_s);
     }
     const int steps = page->watchdog_steps;
-    /* (B), setWatchdog: no new force for so many times 125 microseconds, and the firmware ends
-     * the force. */
+    /* (B), setWatchdog: if no new force comes for this many times 125 microseconds, the
+     * firmware ends the force. */
     if (page->is_on && steps != 0 && time_s - last_force_s > page->watchdog_step_s * steps) {
       ++page->num_watchdog_ends;
       end_force(CAUSE_WATCHDOG);
@@ -214,7 +215,7 @@ static void judge(const double asked_n[3]) {
   if (!page->is_on && off_cause == 0) unsafe(TWIN_BEFORE_ENABLED);
   if (!page->is_calibrated) unsafe(TWIN_NOT_CALIBRATED);
   if (has_failed) unsafe(TWIN_AFTER_ERROR);
-  /* One may be under way while another thread halts, if it is taken back at once. */
+  /* A force may be under way while another thread halts, if it is taken back at once. */
   if (is_halted && late_since_s != 0.0) unsafe(TWIN_AFTER_HALT);
   if (is_halted && late_since_s == 0.0) late_since_s = now_s();
 }
@@ -224,11 +225,11 @@ static void judge(const double asked_n[3]) {
 static bool unplugs_in(int phase) {
   if (page->unplugged_in == phase) page->trouble = TWIN_UNPLUGGED;
   if (page->trouble != TWIN_UNPLUGGED) return false;
-  /* Its motors have power of their own, and no computer: the watchdog ends the force. */
+  /* The motors still have power but no computer, so the watchdog ends the force. */
   return true;
 }
 
-/* Assumed: a device that is gone answers nothing, with an error of communication. */
+/* Assumed: calls to a device that is gone fail with an error of communication. */
 static bool is_gone(void) { return !is_open || unplugs_in(-1); }
 
 EXPORT void dhdGetSDKVersion(int* major, int* minor, int* release, int* revision) {
@@ -253,13 +254,14 @@ EXPORT const char* dhdErrorGetLastStr(void) {
   }
 }
 
-/* (B), getDeviceCount and getAvailableCount: the first counts those as well that another
+/* (B), getDeviceCount and getAvailableCount: the first one also counts the devices that another
  * program has locked. */
 EXPORT int dhdGetDeviceCount(void) { return page->num_devices; }
 EXPORT int dhdGetAvailableCount(void) { return page->num_available; }
 
-/* (B), open, openID, openSerial: the id, or -1. Assumed: a device that another program has is
- * "in use" (an error of this name is among (H)), and motors are off after opening. */
+/* (B), open, openID, openSerial: return the id, or -1. Assumed: a device that another
+ * program has is "in use" (an error of this name is in (H)), and the motors are off after
+ * opening. */
 static int opened(void) {
   if (unplugs_in(TWIN_IN_OPEN)) return fail(ERROR_COM);
   if (page->num_devices == 0) return fail(ERROR_NO_DEVICE);
@@ -273,7 +275,7 @@ static int opened(void) {
   page->is_on = 0;
   page->are_brakes_on = 1;
   page->watchdog_steps = page->has_watchdog ? 255 : 0;
-  page->time_guard_us = 100; /* Assumed: nobody tells what the maker's is. */
+  page->time_guard_us = 100; /* Assumed: no source gives the maker's value. */
   page->velocity_window_ms = 20;
   page->own_limit_n = -1.0;
   for (int i = 0; i < 3; ++i) position_m[i] = page->held_m[i];
@@ -316,7 +318,8 @@ EXPORT const char* dhdGetSystemName(char id) {
 EXPORT int dhdGetSerialNumber(unsigned short* serial, char id) {
   (void)id;
   if (is_gone()) return fail(ERROR_COM);
-  /* All Falcons say so: a comment in mtsForceDimension.cpp of jhu-saw/sawForceDimensionSDK. */
+  /* All Falcons have this serial number, as a comment in mtsForceDimension.cpp of
+   * jhu-saw/sawForceDimensionSDK says. */
   *serial = (unsigned short)(page->type == 60 ? 65535 : page->serial);
   return 0;
 }
@@ -327,7 +330,7 @@ EXPORT int dhdGetVersion(double* version, char id) {
   return 0;
 }
 
-/* (B), the fields of a status, whose places are those of (H). */
+/* The fields of a status are those of (B), and their places those of (H). */
 EXPORT int dhdGetStatus(int* status, char id) {
   (void)id;
   if (is_gone() || page->trouble == TWIN_STATUS_FAILS) return fail(ERROR_COM);
@@ -352,8 +355,8 @@ EXPORT bool dhdHasActiveWrist(char id) { return (void)id, false; }
 EXPORT bool dhdHasGripper(char id) { return (void)id, page->has_gripper != 0; }
 EXPORT bool dhdHasActiveGripper(char id) { return (void)id, page->has_gripper != 0; }
 
-/* (B), waitForReset: it goes into the mode in which a person calibrates it, and fails with
- * "timeout" when nobody has. */
+/* (B), waitForReset: enters the mode in which a person calibrates the device, and fails with
+ * "timeout" if nobody has done so. */
 EXPORT int dhdWaitForReset(int timeout_ms, char id) {
   (void)id;
   if (is_gone() || unplugs_in(TWIN_IN_CALIBRATION)) return fail(ERROR_COM);
@@ -387,7 +390,8 @@ EXPORT int dhdConfigLinearVelocity(int window_ms, int mode, char id) {
   return 0;
 }
 
-/* (B), TimeGuard: what is younger than its period is told anew, without asking the device. */
+/* (B), TimeGuard: a value that is younger than its period is returned again, without asking the
+ * device. */
 EXPORT int dhdGetPosition(double* x_m, double* y_m, double* z_m, char id) {
   (void)id;
   if (is_gone() || unplugs_in(TWIN_IN_READ)) return fail(ERROR_COM);
@@ -406,7 +410,7 @@ EXPORT int dhdGetPosition(double* x_m, double* y_m, double* z_m, char id) {
     result = TIME_GUARD;
   } else {
     pthread_mutex_lock(&controller_lock);
-    /* Encoders see steps of a hundredth of a millimetre. */
+    /* The encoders have steps of a hundredth of a millimetre. */
     for (int i = 0; i < 3 && page->trouble != TWIN_STALE; ++i) {
       known_m[i] = 1e-5 * round(1e5 * position_m[i]);
     }
@@ -424,8 +428,8 @@ EXPORT int dhdGetPosition(double* x_m, double* y_m, double* z_m, char id) {
   return result;
 }
 
-/* (B), getLinearVelocity: a difference over the window, which has to hold two positions at
- * least, or it fails with "timeout". */
+/* (B), getLinearVelocity: a difference over the window. It fails with "timeout" if the
+ * window has fewer than two positions. */
 EXPORT int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
   (void)id;
   if (is_gone() || page->trouble == TWIN_VELOCITIES_FAIL) return fail(ERROR_COM);
@@ -483,7 +487,8 @@ EXPORT int dhdEnableForce(int on, char id) {
   return 0;
 }
 
-/* (B), setForce: 0, or "saturated", which is no error. It stands until the next one. */
+/* (B), setForce: returns 0, or "saturated", which is no error. The force stands until the next
+ * one. */
 static int set_force(double x_n, double y_n, double z_n) {
   const double asked_n[3] = {x_n, y_n, z_n};
   const bool is_none = x_n == 0.0 && y_n == 0.0 && z_n == 0.0;
@@ -530,7 +535,7 @@ EXPORT int dhdSetBrakes(int on, char id) {
   return 0;
 }
 
-/* (B), stop: no force, and brakes. */
+/* (B), stop: ends the force and brakes. */
 EXPORT int dhdStop(char id) {
   (void)id;
   if (page->unplugged_in == TWIN_IN_CLOSE && page->num_forces > 0) page->trouble = TWIN_UNPLUGGED;
