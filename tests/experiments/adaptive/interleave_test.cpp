@@ -32,7 +32,7 @@ TEST(Interleave, DrawsEachCandidateEquallyOften) {
   const std::vector<InterleavedTrack> tracks = {{5}, {4}, {4}, {6}, {9, true}};
   std::vector<int> drawn(5);
   for (int i = 0; i < 30000; ++i) ++drawn[next_track(tracks, 2, stream).value()];
-  // Standard deviation of each count: 82.
+  // The standard deviation of each count is 82.
   for (const int track : {0, 1, 2}) EXPECT_NEAR(drawn[track], 10000, 400);
   EXPECT_EQ(drawn[3] + drawn[4], 0);
 }

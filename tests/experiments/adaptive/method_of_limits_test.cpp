@@ -27,7 +27,7 @@ std::vector<PlannedSeries> plan_of(const Limits& limits, std::uint64_t seed = 1)
   return limits.drawn_series(stream);
 }
 
-/// Answers to what is asked for, one letter each, "y" or "n".
+/// Returns the answers to the levels that are asked for, one letter each, "y" or "n".
 std::vector<LevelAnswer> answers_for(const Limits& limits,
                                      const std::vector<PlannedSeries>& plan,
                                      const std::string& letters) {
@@ -70,11 +70,12 @@ TEST(Limits, TakesRatiosInALogarithmicScale) {
   LimitsRule rule = six_levels();
   rule.levels = {1, 2, 4, 8, 16, 32};
   rule.scale = LevelScale::kLogarithmic;
-  const auto state = state_for(rule, "nnyyyyyn");  // 2 to 4, and 8 to 4.
+  // The changes are from 2 to 4, and from 8 to 4.
+  const auto state = state_for(rule, "nnyyyyyn");
   EXPECT_NEAR(state.series.at(0).transition.value(), std::sqrt(8.0), 1e-12);
   EXPECT_NEAR(state.series.at(1).transition.value(), std::sqrt(8.0), 1e-12);
   const auto other = Limits(rule).threshold(state_for(rule, "nnnyyyyyn"));
-  EXPECT_NEAR(other.level.value(), 4.0, 1e-12);  // Of sqrt 32 and sqrt 8.
+  EXPECT_NEAR(other.level.value(), 4.0, 1e-12);  // This is the mean of sqrt 32 and sqrt 8.
   EXPECT_NEAR(other.constant_error.value(), std::log(2.0), 1e-12);
 }
 
@@ -96,13 +97,13 @@ TEST(Limits, HasNoMidpointWhereTheAnswerDidNotChangeWithinTheSeries) {
 TEST(Limits, WaitsForTwoChangedAnswersInARowIfAsked) {
   LimitsRule rule = six_levels();
   rule.num_changed_in_a_row = 2;
-  // The "yes" at 2 was a slip; 4 and 5 end it, and the change was at 4.
+  // The "yes" at 2 was a slip. 4 and 5 end the series, and the change was at 4.
   const auto state = state_for(rule, "nynyy");
   EXPECT_EQ(state.series.at(0).transition, 3.5);
   EXPECT_EQ(state.series.at(0).num_trials, 5);
   EXPECT_EQ(state_for(rule, "nnnnny").series.at(0).end, SeriesEnd::kNeverChanged);
   EXPECT_EQ(state_for(rule, "yy").series.at(0).end, SeriesEnd::kChangedAtStart);
-  // A slip at the start does not end it.
+  // A slip at the start does not end the series.
   EXPECT_EQ(state_for(rule, "ynyy").series.at(0).transition, 2.5);
 }
 
@@ -154,7 +155,7 @@ TEST(Limits, AlternatesOrShufflesItsDirections) {
     const std::string letters = directions(seed);
     EXPECT_EQ(std::count(letters.begin(), letters.end(), 'a'), 4);
   }
-  EXPECT_EQ(seen.size(), 70u);  // 8 over 4.
+  EXPECT_EQ(seen.size(), 70u);  // There are 8 over 4 orders.
 }
 
 TEST(Limits, DrawsWhereASeriesStarts) {
@@ -188,7 +189,8 @@ TEST(Limits, RecoversTheThresholdOfASimulatedObserverAndItsHabituation) {
   std::vector<LevelAnswer> answers;
   for (auto state = limits.after(plan, {}); !state.is_finished();
        state = limits.after(plan, answers)) {
-    // Threshold 10; stays with its answer for 1 unit longer, whichever way it goes.
+    // The observer's threshold is 10. The observer keeps an answer for 1 unit longer, in either
+    // direction.
     const bool rising =
         plan[state.series.size() - (state.series.empty() ? 0 : 1)].direction == kUp;
     answers.push_back({*state.next_level, *state.next_level > 10.0 + (rising ? 1.0 : -1.0) +

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 constexpr double kTolerance = 1e-10;
 
-/// Computed with NumPy and SciPy: see the script beside it.
+/// The reference was computed by NumPy and SciPy with the script beside it.
 const json& reference() { return test_support::reference_data("quest_plus/quest_plus.json"); }
 
 ParameterGrid grid_of(const json& parameter) {

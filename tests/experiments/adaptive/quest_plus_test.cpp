@@ -16,8 +16,8 @@
 namespace jnd::experiments {
 namespace quest_plus_test {
 
-/// Two equally likely values; "yes" is as likely as this at the intensities 1, 2, 3 and 4. The
-/// second tells them apart at once, and so does the fourth.
+/// A rule with two equally likely values. The arrays say how likely "yes" is at the intensities
+/// 1, 2, 3 and 4. The second intensity tells the values apart at once, and so does the fourth.
 QuestPlusRule two_values() {
   QuestPlusModel model;
   model.parameters = {{"which", {{1.0, 2.0}}, false}};
@@ -42,7 +42,8 @@ QuestPlusRule weber_rule() {
 
 core::RandomStream some_stream() { return {1, "quest_plus_test"}; }
 
-/// Answers of an observer with this curve, each to the intensity that was asked for.
+/// Returns the answers of an observer with this curve, each to the intensity that was asked
+/// for.
 std::vector<LevelAnswer> run(const QuestPlus& quest, const core::PsychometricFunction& curve,
                              int seed) {
   core::RandomStream stream(seed, "quest_plus_test");
@@ -62,7 +63,7 @@ TEST(QuestPlus, IsWorkedByHandOnAGridOfTwo) {
   const Eigen::VectorXd information = quest.expected_information_bits(quest.prior());
   EXPECT_NEAR(information[0], 0.0, 1e-15);
   EXPECT_NEAR(information[1], 1.0, 1e-15);
-  // 1 - h(3/4), h(3/4) = 2 - 3/4 log2 3.
+  // The information is 1 - h(3/4), with h(3/4) = 2 - 3/4 log2 3.
   EXPECT_NEAR(information[2], 0.75 * std::log2(3.0) - 1.0, 1e-15);
   const auto posterior = quest.posterior({{3, true}});
   EXPECT_NEAR(posterior.probability[0], 0.75, 1e-15);
@@ -75,7 +76,8 @@ TEST(QuestPlus, IsWorkedByHandOnAGridOfTwo) {
 TEST(QuestPlus, AsksForTheLowerOfTwoIntensitiesThatTellTheSame) {
   auto stream = some_stream();
   EXPECT_EQ(QuestPlus(two_values()).next_intensity(QuestPlus(two_values()).prior(), stream), 2);
-  // A curve symmetrical in ln about 1: intensities x and 1/x tell the same but for rounding.
+  // The curve is symmetrical in ln about 1, so the intensities x and 1/x give the same
+  // information, except for rounding.
   QuestPlusRule rule = weber_rule();
   rule.model = weber_model({.pse = {{0.8, 1.0, 1.25}}, .weber_fraction = {{0.2, 0.4}}});
   rule.intensities = {0.5, 0.7, 1.0 / 0.7, 2.0};
@@ -132,7 +134,8 @@ TEST(QuestPlus, TakesTheIntensityThatWasPresentedEvenOffItsGrid) {
 
 TEST(QuestPlus, WeighsItsGridsByTheirPriors) {
   QuestPlusRule rule = weber_rule();
-  // A standard deviation apart, and two: e^-1/2 and e^-2 beside 1.
+  // The values are one and two standard deviations away, so their weights are e^-1/2 and e^-2
+  // beside 1.
   rule.model = weber_model({.pse = {{1.0, 2.0, 4.0}, LogNormalPrior{1.0, std::log(2.0)}},
                             .weber_fraction = {{0.2, 0.4}},
                             .lapse_rate = {{0.01}}});
@@ -145,7 +148,7 @@ TEST(QuestPlus, WeighsItsGridsByTheirPriors) {
   EXPECT_NEAR(prior[2], 0.5 * std::exp(-0.5) / sum, 1e-15);
   EXPECT_NEAR(prior[5], 0.5 * std::exp(-2.0) / sum, 1e-15);
   EXPECT_EQ(quest.values_at(5), (std::vector<double>{4.0, 0.4, 0.01}));
-  // Far off its grid a prior still has a sum.
+  // A prior far off its grid still has a sum.
   rule.model.parameters[0].grid.prior = LogNormalPrior{1e-30, 0.01};
   EXPECT_EQ(QuestPlus(rule).prior().probability[0], 0.5);
 }
@@ -165,7 +168,7 @@ TEST(QuestPlus, HasTheCurvesThatItsHeaderSays) {
               0.5 + 0.48 * (1.0 - std::exp(-1.0)), 1e-14);
   EXPECT_NEAR(at(weibull_model(grids), false, 4.0, {2.0, 2.0, 0.0, 0.0}), std::exp(-4.0),
               1e-16);
-  // A "no" that is very unlikely is not lost beside 1.
+  // A very unlikely "no" is not lost beside 1.
   EXPECT_NEAR(at(weber, false, 20.0, {2.0, 0.3, 0.0}) / 8.44772704146593e-19, 1.0, 1e-10);
 }
 
@@ -179,16 +182,17 @@ TEST(QuestPlus, EndsAfterTrialsOrAtAnEntropyOrAStandardDeviation) {
   EXPECT_EQ(end_after({{1, true}, {1, true}}), QuestPlusEnd::kNotFinished);
   EXPECT_EQ(end_after({{1, true}, {1, true}, {1, true}}), QuestPlusEnd::kTrials);
   rule.entropy_bits = 0.5;
-  EXPECT_EQ(end_after({{3, true}}), QuestPlusEnd::kNotFinished);         // 0.81 bits.
-  EXPECT_EQ(end_after({{3, true}, {3, true}}), QuestPlusEnd::kEntropy);  // 0.47 bits.
+  EXPECT_EQ(end_after({{3, true}}), QuestPlusEnd::kNotFinished);         // 0.81 bits are left.
+  EXPECT_EQ(end_after({{3, true}, {3, true}}), QuestPlusEnd::kEntropy);  // 0.47 bits are left.
   EXPECT_EQ(end_after({{2, true}}), QuestPlusEnd::kEntropy);
   rule.min_trials = 2;
   EXPECT_EQ(end_after({{2, true}}), QuestPlusEnd::kNotFinished);
   rule.min_trials = 0;
   rule.entropy_bits.reset();
   rule.marginal = {"which", 0.4};
-  EXPECT_EQ(end_after({{3, true}}), QuestPlusEnd::kNotFinished);          // 0.43
-  EXPECT_EQ(end_after({{3, true}, {3, true}}), QuestPlusEnd::kMarginal);  // 0.3
+  EXPECT_EQ(end_after({{3, true}}), QuestPlusEnd::kNotFinished);  // The marginal is 0.43.
+  // The marginal is below 0.3.
+  EXPECT_EQ(end_after({{3, true}, {3, true}}), QuestPlusEnd::kMarginal);
 }
 
 TEST(QuestPlus, RecoversAKnownObserverWithoutBiasOver200Runs) {
@@ -207,7 +211,7 @@ TEST(QuestPlus, RecoversAKnownObserverWithoutBiasOver200Runs) {
     num_holding_weber += estimates[1].low <= observer.weber_fraction &&
                          estimates[1].high >= observer.weber_fraction;
   }
-  // In ln; standard errors of the biases are 0.006 and 0.02.
+  // The values are in ln, and the standard errors of the biases are 0.006 and 0.02.
   EXPECT_NEAR(pse_sum / kNumRuns, 0.0, 0.02);
   EXPECT_NEAR(weber_sum / kNumRuns, 0.0, 0.08);
   EXPECT_LT(std::sqrt(pse_squares / kNumRuns), 0.09);
@@ -269,7 +273,8 @@ TEST(QuestPlusEstimate, HasAnIntervalThatHoldsIt) {
 }
 
 TEST(QuestPlusEstimate, ReachesAnEndWhereANormalPosteriorWouldEndItsInterval) {
-  // Normal about 0 with sd 1; a grid that begins 1.9 or 2.1 below is reached, and is not.
+  // The posterior is normal about 0 with sd 1. A grid that begins at -1.9 is reached by the
+  // interval, and one that begins at -2.1 is not.
   for (const int count : {10, 40, 400}) {
     for (const double least : {-1.9, -2.1}) {
       const std::vector<double> values = equally_spaced(LevelScale::kLinear, least, 4.0, count);
@@ -301,7 +306,8 @@ TEST(QuestPlus, RefusesARuleThatCannotRun) {
   refused([](auto& r) { r.model.parameters[0].grid.values = {2.0, 1.0}; });
   refused([](auto& r) { r.model.parameters[0].grid.prior = LogNormalPrior{0.0, 1.0}; });
   refused([](auto& r) { r.model.parameters[0].grid.prior = LogNormalPrior{1.0, 0.0}; });
-  refused([](auto& r) { r.model.parameters[2].grid.prior = LogNormalPrior{}; });  // Of 0.
+  // The grid contains 0, which has no logarithm.
+  refused([](auto& r) { r.model.parameters[2].grid.prior = LogNormalPrior{}; });
   refused([&](auto& r) { r.model.probability = [=](auto...) { return nan; }; });
   refused([](auto& r) { r.model.probability = [](auto...) { return 0.6; }; });
   refused([](auto& r) { r.intensities = {}; });

@@ -34,7 +34,7 @@ std::vector<LevelAnswer> run(const Staircase& staircase,
   return answers;
 }
 
-/// The levels asked for when the answers are these, "y" or "n" each.
+/// Returns the levels that are asked for if these are the answers, each "y" or "n".
 std::vector<double> levels_for(const Staircase& staircase, const std::string& letters) {
   std::vector<LevelAnswer> answers;
   std::vector<double> levels = {staircase.after({}).next_level};
@@ -56,7 +56,8 @@ std::vector<LevelAnswer> answers_for(const Staircase& staircase, const std::stri
 
 TEST(Staircase, IsWorkedByHandForOneUpTwoDown) {
   const Staircase staircase(one_up_two_down());
-  // Two down by 2; a "no" turns it: from then on steps of 1, the first one at once.
+  // Two lowering answers step down by 2. The "no" turns the staircase, and from then on the
+  // steps are 1, including the first one after it.
   EXPECT_EQ(levels_for(staircase, "yyyynynyy"),
             (std::vector<double>{10, 10, 8, 8, 6, 7, 7, 8, 8, 7}));
   const auto state = staircase.after(answers_for(staircase, "yyyynynyy"));
@@ -70,7 +71,7 @@ TEST(Staircase, IsWorkedByHandForOneUpTwoDown) {
 }
 
 TEST(Staircase, CountsAnswersInARowFromTheLastStepOn) {
-  // Three lowering answers are one step and a half, not two.
+  // Three lowering answers are one step and a half, and not two steps.
   EXPECT_EQ(levels_for(Staircase(one_up_two_down()), "yyyny"),
             (std::vector<double>{10, 10, 8, 8, 9, 9}));
 }
@@ -92,7 +93,7 @@ TEST(Staircase, StepsByRatiosInALogarithmicScale) {
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(levels[i], (std::vector<double>{10, 5, 2.5, 5})[i], 1e-12);
   }
-  // The geometric mean of 2.5 and 10.
+  // The threshold is the geometric mean of 2.5 and 10.
   const auto state = staircase.after(answers_for(staircase, "yynny"));
   EXPECT_NEAR(staircase.threshold(state).level.value(), 5.0, 1e-12);
 }
@@ -130,11 +131,12 @@ TEST(Staircase, TurnsAtItsBoundOnlyWhenItHasMovedThere) {
   StaircaseRule rule = one_up_two_down();
   rule.start = 20.0;
   const Staircase staircase(rule);
-  // Blocked at once, then down: the levels never turned.
+  // The staircase is blocked at once and then goes down, so its levels never turned.
   const auto blocked = staircase.after(answers_for(staircase, "nyy"));
   EXPECT_TRUE(blocked.reversals.empty());
   EXPECT_EQ(blocked.next_level, 18.0);
-  // Up again to the bound, blocked, and down: a valley at 18, a peak on the bound.
+  // It goes up to the bound again, is blocked, and goes down: a valley at 18 and a peak on the
+  // bound.
   const auto turned = staircase.after(answers_for(staircase, "nyynnnyy"));
   ASSERT_EQ(turned.reversals.size(), 2u);
   EXPECT_FALSE(turned.reversals[0].at_bound);
@@ -184,7 +186,7 @@ TEST(Staircase, EndsAfterAsManyReversalsTrialsOrBlockedStepsAsTheRuleSays) {
   const Staircase staircase(rule);
   EXPECT_FALSE(staircase.after(answers_for(staircase, "nnnnnnn")).is_finished());
   EXPECT_EQ(staircase.after(answers_for(staircase, "nnnnnnnn")).end, StaircaseEnd::kBlocked);
-  // A step that moves begins the count anew.
+  // A step that moves restarts the count.
   EXPECT_FALSE(staircase.after(answers_for(staircase, "nnnnnnnyynnn")).is_finished());
 }
 
@@ -219,7 +221,8 @@ TEST(Staircase, KeepsToItsGridAndNeverStandsStill) {
   rule.grid = {1.0, 4.0, 10.0, 11.0, 18.0};
   rule.step_sizes = {6.0, 0.1};
   const Staircase staircase(rule);
-  // 10 - 6 = 4; up by 0.1 is the next one; up again; 11 + 0.1 is 18, its top.
+  // 10 - 6 = 4. A step up by 0.1 leads to the next level of the grid, and so does the one after
+  // it. 11 + 0.1 leads to 18, the highest level.
   EXPECT_EQ(levels_for(staircase, "ynnnn"), (std::vector<double>{10, 4, 10, 11, 18, 18}));
   EXPECT_EQ(staircase.after(answers_for(staircase, "ynnnn")).num_blocked, 1);
   // A level that is off the grid counts as the nearest one.
@@ -227,14 +230,14 @@ TEST(Staircase, KeepsToItsGridAndNeverStandsStill) {
 }
 
 TEST(StaircaseTarget, IsThatOfLevittAndOfKaernbach) {
-  // Levitt 1971, table I: 0.707, 0.794, 0.841; and mirrored.
+  // Levitt (1971), table I: 0.707, 0.794, 0.841, and their mirror images.
   EXPECT_NEAR(staircase_target_probability(1, 2, 1.0), std::sqrt(0.5), 1e-14);
   EXPECT_NEAR(staircase_target_probability(1, 3, 1.0), std::cbrt(0.5), 1e-14);
   EXPECT_NEAR(staircase_target_probability(1, 4, 1.0), std::pow(0.5, 0.25), 1e-14);
   EXPECT_NEAR(staircase_target_probability(2, 1, 1.0), 1.0 - std::sqrt(0.5), 1e-14);
   EXPECT_NEAR(staircase_target_probability(1, 1, 1.0), 0.5, 1e-14);
   EXPECT_NEAR(staircase_target_probability(3, 3, 1.0), 0.5, 1e-14);
-  // Kaernbach 1991: 75 % with steps up three times those down.
+  // Kaernbach (1991): 75 % with steps up that are three times those down.
   EXPECT_NEAR(staircase_target_probability(1, 1, 1.0 / 3.0), 0.75, 1e-14);
   EXPECT_NEAR(staircase_step_ratio(0.75), 1.0 / 3.0, 1e-14);
   for (const double target : {0.1, 0.5, 0.6, 0.9}) {
@@ -246,8 +249,9 @@ TEST(StaircaseTarget, IsThatOfLevittAndOfKaernbach) {
   EXPECT_THROW((void)staircase_target_probability(0, 1, 1.0), core::Error);
 }
 
-/// Mean threshold of 200 staircases with a simulated observer, whose lowering answers follow a
-/// cumulative Gauss curve of mean 10 and standard deviation 2; as a probability on it.
+/// Returns the mean threshold of 200 staircases, as a probability on the observer's curve. The
+/// lowering answers of the simulated observer follow a cumulative Gauss curve with mean 10 and
+/// standard deviation 2.
 double reached_probability(StaircaseRule rule) {
   double sum = 0.0;
   for (int i = 0; i < 200; ++i) {

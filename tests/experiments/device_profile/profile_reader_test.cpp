@@ -84,8 +84,8 @@ TEST(DeviceProfile, LeavesOutWhatWasNotMeasured) {
   }
 }
 
-// The fields are written in `profile_fields.h` and described in the table: neither has what the
-// other lacks.
+// `profile_fields.h` writes the fields, and the table describes them. Neither may lack what the
+// other has.
 TEST(DeviceProfile, WritesEveryKeyOfTheTablesInTheirOrder) {
   const auto text = nlohmann::ordered_json::parse(device_profile_text(sound_profile()));
   const auto check = [](const nlohmann::ordered_json& object, const ParameterTable& table,
@@ -132,7 +132,7 @@ TEST(DeviceProfile, MayBeEditedWherePeopleMay) {
   EXPECT_TRUE(is_same_measurement(same, sound_profile()));
 }
 
-/// A changed value of the same kind, or null where there is none to change.
+/// Returns a changed value of the same kind, or null if the value is no number and no boolean.
 json changed(const json& value) {
   if (value.is_number_integer()) return value.get<int>() + 1;
   if (value.is_number()) return value.get<double>() * 0.999 + 1e-9;
@@ -140,8 +140,8 @@ json changed(const json& value) {
   return nullptr;
 }
 
-// Every measured number, one by one: whichever is changed, the profile is refused, and the part
-// that it stands in is named.
+// Changes every measured number, one by one. The profile must be refused each time, with the
+// name of the changed part.
 TEST(DeviceProfile, IsRefusedWhereAnyMeasuredNumberWasChanged) {
   const auto text = json::parse(device_profile_text(sound_profile()));
   const json flat = text.flatten();
@@ -278,7 +278,7 @@ TEST(DeviceProfile, EveryBrokenOneGivesExactlyTheMessagesBesideIt) {
     ++num_files;
   }
   EXPECT_GT(num_files, 20);
-  // Every message of the rules is shown.
+  // Every message of the rules must have an example.
   const std::string code =
       read_file(test_support::source_folder() / "experiments/device_profile/profile_rules.cpp");
   int num_messages = 0;

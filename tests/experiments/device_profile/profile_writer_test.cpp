@@ -42,7 +42,7 @@ class DailyCheckInAProfile : public ::testing::Test {
 TEST_F(DailyCheckInAProfile, StandsBehindTheOthersAndNothingElseChanges) {
   DeviceProfile profile = sound_profile();
   const fs::path file = write_device_profile(profile, folder_.path());
-  // A comment of a part, which the program itself has no place for.
+  // The test adds a comment to a part, which the program itself does not keep.
   std::string text = text_of(file);
   const std::string key = "\"rotation\":";
   text.replace(text.find(key), key.size(), "\"comment\": \"screws tightened\", " + key);

@@ -11,7 +11,7 @@ namespace block_turns_test {
 
 using Order = std::vector<std::size_t>;
 
-/// How often each of the blocks comes next, of so many draws.
+/// Returns how often each block comes next in `num_draws` draws.
 std::map<std::size_t, int> drawn(Turns turns, const std::vector<BlockProgress>& blocks,
                                  int num_draws) {
   std::map<std::size_t, int> counts;
@@ -21,7 +21,7 @@ std::map<std::size_t, int> drawn(Turns turns, const std::vector<BlockProgress>& 
 }
 
 TEST(BlockTurns, InRoundsThoseWithTheFewestAnswersComeNext) {
-  // Of four blocks the first is ahead by one, and the last is done.
+  // Of four blocks, the first is ahead by one, and the last is done.
   const std::vector<BlockProgress> blocks = {{3, 7}, {2, 8}, {2, 1}, {1, 0}};
   const auto counts = drawn(Turns::kRounds, blocks, 1000);
   ASSERT_EQ(counts.size(), 2U);
@@ -62,7 +62,7 @@ TEST(BlockTurns, EachRoundHasEveryBlockThatHasTrialsLeftOnce) {
   }
 }
 
-// 2 trials of one block and 1 of another have three orders.
+// Two trials of one block and one of another have three orders.
 TEST(BlockTurns, AtRandomEveryOrderIsAsLikelyAsAnother) {
   std::map<Order, int> counts;
   constexpr int kSeeds = 3000;

@@ -18,14 +18,14 @@ constexpr ShuffleEffort kRejectOnly = {.max_shuffles = 100'000};
 constexpr ShuffleEffort kCountOnly = {.max_shuffles = 0, .max_states = 1'000'000};
 constexpr ShuffleEffort kSearchOnly = {.max_shuffles = 0, .max_states = 0};
 
-/// "aab" is three items, labelled "a", "a" and "b".
+/// Returns the labels of the items: "aab" is three items with the labels "a", "a" and "b".
 Labels labels_of(const std::string& letters) {
   Labels labels;
   for (const char letter : letters) labels.emplace_back(1, letter);
   return labels;
 }
 
-/// Each of `num_labels` labels `times` times.
+/// Returns each of `num_labels` labels `times` times.
 Labels repeated(int num_labels, int times) {
   Labels labels;
   for (int i = 0; i < num_labels * times; ++i) labels.push_back(std::to_string(i % num_labels));
@@ -44,7 +44,7 @@ ConstrainedOrder shuffled(const Labels& labels, const OrderConstraints& constrai
   return mixed_order(labels, constraints, stream, effort);
 }
 
-/// Every order of the labels that meets the constraints, by trying all.
+/// Returns every order of the labels that meets the constraints, by trying all orders.
 std::set<Labels> all_that_meet(Labels labels, const OrderConstraints& constraints) {
   std::sort(labels.begin(), labels.end());
   std::set<Labels> found;
@@ -107,7 +107,8 @@ TEST(MixedOrder, SaysByWhichMethodAnOrderWasFound) {
 }
 
 TEST(MixedOrder, CountsTheStudiesOfTheField) {
-  // 8 stimuli of 5, 40 stimuli of 2, two conditions of 100: all uniform, none by search.
+  // These are 8 stimuli 5 times, 40 stimuli twice, and two conditions 100 times. All orders are
+  // uniform, and none comes from a search.
   EXPECT_TRUE(shuffled(repeated(8, 5), {.min_distance = 3}, 1).is_uniform());
   EXPECT_TRUE(shuffled(repeated(8, 5), {.min_distance = 6}, 1).is_uniform());
   EXPECT_TRUE(shuffled(repeated(40, 2), {.min_distance = 4}, 1).is_uniform());
@@ -115,7 +116,7 @@ TEST(MixedOrder, CountsTheStudiesOfTheField) {
   EXPECT_TRUE(shuffled(repeated(2, 900), {.max_in_a_row = 1}, 1).is_uniform());
 }
 
-/// Chi-square of the counts of all orders against equal counts.
+/// Returns chi-square of the counts of all orders against equal counts.
 double chi_square(const Labels& labels, const OrderConstraints& constraints,
                   const ShuffleEffort& effort, int num_draws) {
   std::map<Labels, int> drawn;
@@ -135,10 +136,11 @@ double chi_square(const Labels& labels, const OrderConstraints& constraints,
 
 TEST(MixedOrder, IsUniformByRejectionAndByCounting) {
   for (const ShuffleEffort& effort : {kRejectOnly, kCountOnly}) {
-    // 38 orders, 37 degrees of freedom: the 99.9th percentile is 69.3.
+    // 38 orders have 37 degrees of freedom, whose 99.9th percentile is 69.3.
     EXPECT_EQ(all_that_meet(labels_of("aaabbcc"), {.max_in_a_row = 1}).size(), 38u);
     EXPECT_LT(chi_square(labels_of("aaabbcc"), {.max_in_a_row = 1}, effort, 19'000), 69.3);
-    // 15 degrees: 37.7; 6: 22.5. The numbers of orders were counted by another program.
+    // With 15 degrees of freedom it is 37.7, and with 6 it is 22.5. Another program counted the
+    // orders.
     const OrderConstraints apart = {.min_distance = 3, .not_first = {"b"}};
     EXPECT_EQ(all_that_meet(labels_of("aabbcd"), apart).size(), 16u);
     EXPECT_LT(chi_square(labels_of("aabbcd"), apart, effort, 8'000), 37.7);
@@ -155,7 +157,7 @@ TEST(MixedOrder, DrawsTheItemsOfALabelInAnyOrder) {
     for (int seed = 0; seed < 300; ++seed) {
       seen.insert(shuffled(labels, {.max_in_a_row = 2}, seed, effort).order);
     }
-    EXPECT_EQ(seen.size(), 12u);  // "aaba" and "abaa", 3! each.
+    EXPECT_EQ(seen.size(), 12u);  // The orders are "aaba" and "abaa", with 3! each.
   }
 }
 
@@ -192,7 +194,8 @@ TEST(MixedOrder, SaysWhyNoOrderCanMeetItsConstraints) {
             "order.not_first: expected a label that may be first, found none");
   EXPECT_EQ(error_of(labels_of("ab"), {.not_first = {"c"}}),
             "order.not_first: expected one of the labels, found `c`");
-  // "aba" is the only order, and is not to begin with a: by counting them all.
+  // "aba" is the only order, and the order must not begin with a. Counting all orders finds
+  // this.
   EXPECT_EQ(error_of(labels_of("aab"), {.max_in_a_row = 1, .not_first = {"a"}}),
             "order: expected constraints that some order of the 3 items meets, found that none "
             "of all orders does; loosen them");
@@ -204,7 +207,7 @@ TEST(MixedOrder, SaysWhyNoOrderCanMeetItsConstraints) {
 }
 
 TEST(MixedOrder, StaysAsItIsForAFixedSeed) {
-  // A study's orders must not change with the program: these were drawn when it was written.
+  // A study's orders must not change with the program. These were drawn when it was written.
   const Labels labels = labels_of("aabbccd");
   const OrderConstraints constraints = {.min_distance = 2, .not_first = {"d"}};
   const auto letters = [&](const ShuffleEffort& effort) {

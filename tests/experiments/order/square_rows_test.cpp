@@ -9,7 +9,7 @@
 namespace jnd::experiments {
 namespace square_rows_test {
 
-/// How often each item stands in each place.
+/// Returns how often each item stands in each place.
 std::map<std::pair<std::size_t, std::size_t>, int> places_of(const OrderRows& rows) {
   std::map<std::pair<std::size_t, std::size_t>, int> counts;
   for (const auto& row : rows) {
@@ -18,7 +18,7 @@ std::map<std::pair<std::size_t, std::size_t>, int> places_of(const OrderRows& ro
   return counts;
 }
 
-/// How often each item follows each other one.
+/// Returns how often each item follows each other item.
 std::map<std::pair<std::size_t, std::size_t>, int> followers_of(const OrderRows& rows) {
   std::map<std::pair<std::size_t, std::size_t>, int> counts;
   for (const auto& row : rows) {
@@ -40,7 +40,7 @@ TEST(SquareRows, OfALatinSquareOfThreeRunInCircles) {
 }
 
 TEST(SquareRows, OfAWilliamsSquareOfFourAreThePublishedOnes) {
-  // Williams 1949, written from 0: first row 0, 1, 3, 2.
+  // Williams (1949), with numbers from 0: the first row is 0, 1, 3, 2.
   EXPECT_EQ(williams_rows(4),
             (OrderRows{{0, 1, 3, 2}, {1, 2, 0, 3}, {2, 3, 1, 0}, {3, 0, 2, 1}}));
 }

@@ -26,7 +26,8 @@ Order order_of(const StimulusOrder& rule, std::size_t num_stimuli, int num_repet
   return stimulus_order(rule, stimuli(num_stimuli), num_repetitions, stream);
 }
 
-/// Trials from a stimulus to its next one, the least of all; `order.size()` where none returns.
+/// Returns the smallest number of trials from a stimulus to its next presentation, or
+/// `order.size()` if no stimulus returns.
 std::size_t least_distance(const Order& order) {
   std::size_t least = order.size();
   std::map<std::size_t, std::size_t> last;
@@ -47,7 +48,8 @@ bool holds_every_stimulus_once(const Order& order, std::size_t begin, std::size_
   return true;
 }
 
-/// Chi-square of counts that should be equal, over its degrees of freedom: about 1.
+/// Returns chi-square of counts that should be equal, divided by its degrees of freedom. It
+/// should be about 1.
 double unevenness(const std::map<Order, int>& counts, double num_draws) {
   const double expected = num_draws / static_cast<double>(counts.size());
   double sum = 0.0;
@@ -60,7 +62,7 @@ TEST(StimulusOrder, WithoutARuleIsTheShuffleOfEachRepetition) {
   Order expected;
   for (int repetition = 0; repetition < 3; ++repetition) {
     std::vector<double> values = stimuli(5);
-    stream.shuffle(values);  // As orders were drawn before there were rules.
+    stream.shuffle(values);  // Orders were drawn so before there were rules.
     for (const double value : values) expected.push_back(static_cast<std::size_t>(value - 10));
   }
   EXPECT_EQ(order_of({}, 5, 3), expected);
@@ -81,8 +83,8 @@ TEST(StimulusOrder, KeepsTheDistanceWithinRepetitionsAndAcrossTheirBoundary) {
 }
 
 TEST(StimulusOrder, MakesEveryOrderThatKeepsTheDistanceEquallyLikely) {
-  // Three stimuli, twice, at a distance of two: 6 first repetitions, and of the 6 second ones
-  // the 4 that do not begin with the last.
+  // Three stimuli come twice, at a distance of two. There are 6 first repetitions, and of the 6
+  // second ones, the 4 that do not begin with the last stimulus.
   std::map<Order, int> counts;
   constexpr int kDraws = 24000;
   for (int draw = 0; draw < kDraws; ++draw) {

@@ -76,7 +76,7 @@ TEST(AnswerSimulator, APerfectObserverIsRightAboutEveryStimulus) {
 }
 
 TEST(AnswerSimulator, PeopleSayThickerOneWeberFractionAboveTheReferenceAsOftenAsTheModelHasIt) {
-  // Only reading noise: then 84.13 % at reference (1 + w).
+  // There is only reading noise, so 84.13 % say thicker at reference (1 + w).
   Laboratory plain = without_noise(thesis_laboratory());
   plain.perceiver.weber_fraction = 0.152;
   Study here = study("viscosity_discrimination");
@@ -133,13 +133,13 @@ TEST(MedianPerson, TheWeberFractionGrowsByTheShareOfTheDevice) {
     if (several == nullptr) continue;
     for (const Counterbalance::Arm& arm : several->arms) {
       const auto& block = std::get<Block>(arm.stages.front().content);
-      // w0 (1 + b / (c reference)), c = 1.776 m.
+      // The expected value is w0 (1 + b / (c reference)), with c = 1.776 m.
       EXPECT_NEAR(median_weber_fraction(there, block),
                   0.152 * (1.0 + 4.83 / (1.776 * *block.reference_intensity)), 1e-9);
       Laboratory ideal = there;
       ideal.device.mechanical_viscosity_n_s_per_m = 0.0;
       EXPECT_NEAR(median_weber_fraction(ideal, block), 0.152, 1e-9);
-      // The step down: c x = (c reference + b) / (1 + w0) - b.
+      // The step down follows from c x = (c reference + b) / (1 + w0) - b.
       const double reference = *block.reference_intensity;
       const double down = ((1.776 * reference + 4.83) / 1.152 - 4.83) / 1.776;
       const double up = 1.0 + median_weber_fraction(there, block);
@@ -147,7 +147,8 @@ TEST(MedianPerson, TheWeberFractionGrowsByTheShareOfTheDevice) {
       EXPECT_NEAR(median_curve_fraction(there, block), std::sqrt(up * reference / down) - 1.0,
                   1e-9);
       EXPECT_NEAR(median_curve_fraction(ideal, block), 0.152, 1e-9);
-      // Of a fluid so thin that even none at all is not that much less, the step up.
+      // If the fluid is so thin that even no fluid is not that much less, only the step up
+      // counts.
       Block thin = block;
       thin.reference_intensity = 0.1;
       EXPECT_EQ(median_curve_fraction(there, thin), median_weber_fraction(there, thin));

@@ -23,7 +23,7 @@ TEST(CalculatedStroke, AViscousFluidIsDeliveredAsItsDampingWhateverTheSpeed) {
 TEST(CalculatedStroke, AStiffArmMovesTheHandAsItsReference) {
   Laboratory stiff = thesis_laboratory();
   stiff.arm.stiffness_n_per_m = 1e7;
-  // Water head on: q = 1/2 rho A C_D = 6.5853 N at 1 m/s, delivered as pi/4 q V.
+  // Water head on: q = 1/2 rho A C_D = 6.5853 N at 1 m/s, which delivers pi/4 q V.
   const CalculatedStroke stroke =
       calculated_stroke(stiff, 0.164, 0.437, core::water({.scale = 1.0}));
   EXPECT_NEAR(stroke.max_speed_m_per_s, 0.437, 1e-5);

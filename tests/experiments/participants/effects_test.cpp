@@ -86,7 +86,7 @@ TEST(Effects, AreInWhatTheMedianPersonShouldComeTo) {
   for_each_stage(study.stages, [&](const Stage& stage) {
     if (!std::holds_alternative<Block>(stage.content)) return;
     const Block block = block_of(stage, 0);
-    // w0 (1 + b / (c reference)): as many times as large.
+    // The fraction w0 (1 + b / (c reference)) grows by the same factor as w0.
     const double factor = block.levels.at("fluid") == "thin" ? 2.0 : 1.0;
     EXPECT_NEAR(median_weber_fraction(changed, block),
                 factor * median_weber_fraction(plain, block), 1e-6)
@@ -166,7 +166,8 @@ TEST(Effects, OnARatingMoveItByStepsAndDifferBetweenPeople) {
   EXPECT_NEAR(std::sqrt(squares / kPeople - mean * mean), 0.4, 0.02);
 }
 
-/// Every block that is shipped, in one study, by the names of study and block.
+/// Returns a study with every block that is shipped. The names are those of study and block
+/// together.
 Study all_shipped_blocks() {
   Study all;
   for (const auto& entry :
@@ -186,13 +187,14 @@ Study all_shipped_blocks() {
   return all;
 }
 
-/// Answers of a few people in every block, by its name.
+/// Returns the answers of a few people in every block, by the block's name.
 std::map<std::string, std::vector<std::optional<double>>> answers_with(
     const Study& study, const Laboratory& laboratory) {
   std::map<std::string, std::vector<std::optional<double>>> answers;
   const AnswerSimulator simulator(study, laboratory);
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    // Each by itself: what is drawn goes by the number of a trial in the session.
+    // Each block is simulated alone, because random draws depend on the number of a trial in
+    // the session.
     for (const StageInstance& alone : stages_of(study, cells_of(study).front())) {
       for (const AnsweredBlock& block : simulator.answers({alone}, seed)) {
         for (const AnsweredTrial& trial : block.trials) {
@@ -204,8 +206,8 @@ std::map<std::string, std::vector<std::optional<double>>> answers_with(
   return answers;
 }
 
-// The list of amounts is held against what simulated people do, in every block that is shipped:
-// an amount that is said to act changes answers there, and any other one changes none.
+// Compares the list of amounts with what simulated people do, in every shipped block. An amount
+// that is said to act must change answers there, and any other must change none.
 TEST(Effects, ActWhereTheyAreSaidToAndNowhereElse) {
   const Study study = all_shipped_blocks();
   const Laboratory plain = thesis_laboratory();
@@ -213,7 +215,7 @@ TEST(Effects, ActWhereTheyAreSaidToAndNowhereElse) {
   ASSERT_GT(before.size(), 15U);
   const auto holds = [&](const std::string& amount, const Laboratory::Effect& effect) {
     Laboratory changed = plain;
-    changed.effects = {effect};  // Without levels it is of all blocks.
+    changed.effects = {effect};  // Without levels, the effect applies to all blocks.
     const auto after = answers_with(study, changed);
     int num_acting = 0;
     for (const Stage& stage : study.stages) {

@@ -80,7 +80,8 @@ TEST(Laboratory, EveryNumberIsNeededAndMustBeOne) {
       nlohmann::json without = file;
       without[section].erase(key);
       const std::string place = std::string("/") + section + "/" + key + ": expected";
-      const bool is_optional = key == "free_modulus";  // Older laboratories have none.
+      // Older laboratories do not have this key.
+      const bool is_optional = key == "free_modulus";
       EXPECT_TRUE(is_optional || problems_of(without).find(place) != std::string::npos)
           << place;
       nlohmann::json text = file;

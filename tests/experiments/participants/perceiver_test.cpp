@@ -13,7 +13,8 @@ constexpr double kMechanical = 4.0;
 constexpr double kStandard = 3.0;
 constexpr double kWeber = 0.3;
 
-/// A population without spread, habits or lapses: every number in it is one of these.
+/// Returns a laboratory of people without spread, habits or lapses, in which every number is
+/// one of these.
 Laboratory plain_laboratory() {
   Laboratory laboratory;
   laboratory.device.mechanical_viscosity_n_s_per_m = kMechanical;
@@ -38,12 +39,12 @@ Perceiver perceiver_of(const Laboratory& laboratory, std::uint64_t seed) {
   return {laboratory, draw_person(laboratory, seed), seed};
 }
 
-/// Far into a block, so that nothing is learnt any more.
+/// Returns a moment late in a block, so that nothing is learnt any more.
 Moment moment(std::int64_t trial, std::int64_t presentation = 1) {
   return {.trial = trial, .attempt = 1, .presentation = presentation, .trial_in_block = 1};
 }
 
-/// How often the second of two dampings is called thicker, over persons and trials.
+/// Returns how often the second of two dampings is called thicker, over persons and trials.
 double probability_of_thicker(const Laboratory& laboratory, double reference, double test) {
   int num_thicker = 0;
   int num_trials = 0;
@@ -59,12 +60,12 @@ double probability_of_thicker(const Laboratory& laboratory, double reference, do
   return static_cast<double>(num_thicker) / num_trials;
 }
 
-// 20 000 answers: four standard deviations of a proportion are 0.0141 at one half.
+// For 20 000 answers, four standard deviations of a proportion of one half are 0.0141.
 constexpr double kTolerance = 0.015;
 
 TEST(Perceiver, TwoDampingsThatDifferByItsWeberFractionAreToldApartWith84Percent) {
   const Laboratory laboratory = plain_laboratory();
-  // Phi(1) = 0.8413, at every level, for the noise is in the logarithm.
+  // Phi(1) = 0.8413 holds at every level, because the noise is in the logarithm.
   for (const double reference : {2.0, 10.0, 50.0}) {
     EXPECT_NEAR(probability_of_thicker(laboratory, reference, reference * (1.0 + kWeber)),
                 0.8413, kTolerance)
@@ -161,7 +162,7 @@ TEST(Perceiver, IsNoisierAtFirstAndAgainWhenTired) {
   const auto ratio = [&](std::int64_t trial_in_block) {
     Moment at = moment(5);
     at.trial_in_block = trial_in_block;
-    // The same draw of noise, stretched.
+    // Both readings have the same draw of noise, and one of them is stretched.
     return perceiver_of(laboratory, 1).reading_ln(1.0, at) /
            perceiver_of(steady, 1).reading_ln(1.0, at);
   };
@@ -187,7 +188,7 @@ TEST(Perceiver, ReadingsAreKeyedByTrialAttemptAndPresentationAlone) {
 }
 
 TEST(Perceiver, WithoutShrinkEstimationAndProductionAgree) {
-  // What feels like the target is estimated as the target: with shrink the aims part.
+  // What feels like the target is estimated as the target. With shrink, the aims would differ.
   Laboratory laboratory = plain_laboratory();
   laboratory.perceiver.exponent = 0.8;
   laboratory.perceiver.unit = 0.7;
@@ -216,7 +217,7 @@ TEST(Perceiver, ShrinkDrawsAnswersTowardTheCentreOfTheRange) {
                                       std::nullopt);
   };
   EXPECT_EQ(answer(2.0), 200.0) << "the centre stays";
-  // Geometric means with 2: sqrt(2 * 0.5) = 1, sqrt(2 * 8) = 4.
+  // The answers are the geometric means with 2: sqrt(2 * 0.5) = 1 and sqrt(2 * 8) = 4.
   EXPECT_EQ(answer(0.5), 100.0);
   EXPECT_EQ(answer(8.0), 400.0);
 }
@@ -259,7 +260,7 @@ TEST(Perceiver, IsPulledTowardTheAnswerBeforeUnlessThatWasNothing) {
   Laboratory laboratory = plain_laboratory();
   laboratory.perceiver.assimilation_ratio = 0.5;
   const Perceiver perceiver = perceiver_of(laboratory, 1);
-  const double reading = std::log(kMechanical + kStandard);  // 100 percent
+  const double reading = std::log(kMechanical + kStandard);  // This is 100 percent.
   EXPECT_EQ(perceiver.estimate_percent(reading, moment(1), std::nullopt), 100.0);
   EXPECT_EQ(perceiver.estimate_percent(reading, moment(1), 400.0), 200.0);
   EXPECT_EQ(perceiver.estimate_percent(reading, moment(1), 25.0), 50.0);
@@ -287,7 +288,7 @@ TEST(Perceiver, AnAnchorDrawsTheAimTowardWhereTheStepsBegan) {
   laboratory.perceiver.anchor_ratio = 0.5;
   const Perceiver perceiver = perceiver_of(laboratory, 1);
   const double start = std::log(kMechanical + kStandard * 4.0);
-  const double matching = std::log(kMechanical + kStandard * 2.0);  // Halfway, in ln.
+  const double matching = std::log(kMechanical + kStandard * 2.0);  // This is half way, in ln.
   EXPECT_EQ(perceiver.wish(matching, start, 100.0, moment(1)), Perceiver::Wish::kMatches);
 }
 

@@ -34,8 +34,8 @@ std::vector<AnsweredTrial> answers(const Study& study, const Laboratory& there,
 }
 
 TEST(SimulatedMatching, AQuietPersonMatchesWhatFeelsAlike) {
-  // The drag of a sphere is 1.2322 viscosity speed, that of the hand 1.7760: 8 Pa s of the one
-  // feel like 5.550 of the other.
+  // The drag of a sphere is 1.2322 viscosity speed, and that of the hand 1.7760 viscosity
+  // speed. So 8 Pa s of the one feel like 5.550 Pa s of the other.
   const Laboratory quiet = without_noise(thesis_laboratory());
   for (const AnsweredTrial& trial :
        answers(matching_study("viscous_stokes", {8.0}), quiet, 1)) {
@@ -74,7 +74,8 @@ TEST(SimulatedMatching, TheConstantErrorIsThePersonsCriterion) {
     common += own * criterion;
     squares += criterion * criterion;
   }
-  // A look at the standard is off by ln(1.152) / sqrt 2 = 0.1 in 640 trials.
+  // A single look at the standard has an error of ln(1.152) / sqrt 2 = 0.1, and there are 640
+  // trials.
   EXPECT_NEAR(sum_of_errors / num_trials, 0.0, 0.02);
   EXPECT_NEAR(common / squares, 1.0, 0.1);
 }

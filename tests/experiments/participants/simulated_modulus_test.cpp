@@ -12,8 +12,8 @@
 namespace jnd::experiments {
 namespace simulated_modulus_test {
 
-/// People whose numbers are a power law of a viscous fluid's viscosity: nothing draws them
-/// toward the middle.
+/// Returns a laboratory of people whose numbers are a power law of a viscous fluid's viscosity,
+/// without any pull towards the middle.
 Laboratory laboratory() {
   Laboratory laboratory = thesis_laboratory();
   laboratory.perceiver.shrink = 1.0;
@@ -46,7 +46,7 @@ std::vector<AnsweredTrial> answers(const Study& study, const Laboratory& there,
   return simulator.answers(stages_of(study, cells_of(study).front()), seed).front().trials;
 }
 
-/// Least squares of ln answer over ln intensity.
+/// Returns the exponent by least squares of ln answer over ln intensity.
 double exponent_of(const std::vector<AnsweredTrial>& trials) {
   double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   const auto n = static_cast<double>(trials.size());
@@ -74,7 +74,8 @@ TEST(SimulatedModulus, FreeNumbersKeepTheExponentWhateverTheirSize) {
     smallest = std::min(smallest, *trials.front().response);
     largest = std::max(largest, *trials.front().response);
   }
-  // A reading of the total damping is off by 0.1, of the fluid's own by up to twice that.
+  // A reading of the total damping has an error of 0.1, and of the fluid's own damping up to
+  // twice that.
   EXPECT_NEAR(sum / kPeople, 0.8, 0.05);
   EXPECT_GT(largest, 10.0 * smallest) << "people count in numbers of their own";
 }

@@ -43,7 +43,7 @@ TEST(SimulatedParticipant, StrokesAsItsLaboratorySaysForEachProcedure) {
     EXPECT_NEAR(intent.amplitude_m, habit.amplitude_m, 1e-12) << procedure;
     EXPECT_NEAR(intent.max_speed_m_per_s, here.movement.max_speed_m_per_s, 1e-12) << procedure;
     EXPECT_EQ(intent.num_strokes, habit.strokes_per_presentation) << procedure;
-    // A sine of that amplitude has that highest speed.
+    // A sine of this amplitude has this highest speed.
     EXPECT_NEAR(intent.period_s,
                 2.0 * std::numbers::pi * intent.amplitude_m / intent.max_speed_m_per_s, 1e-12);
   }

@@ -28,7 +28,7 @@ std::vector<AnsweredTrial> answers(const Study& study, const Laboratory& there,
 }
 
 TEST(SimulatedStiffness, IsToldApartByItsOwnWeberFraction) {
-  // Only reading noise: then 84.13 % at reference (1 + w).
+  // There is only reading noise, so 84.13 % say stiffer at reference (1 + w).
   Laboratory plain = without_noise(thesis_laboratory());
   plain.pressing->weber_fraction = 0.23;
   const Study study = study_of({.procedure = "constant_stimuli",

@@ -12,8 +12,8 @@
 #include "experiments/procedures/stimulus.h"
 #include "experiments/protocol/study_reader.h"
 
-// Every task gives back what its simulated participant has, and a criterion shows where theory
-// says it does.
+// Tests that every task recovers the values of its simulated participant, and that a criterion
+// has the effect that theory predicts.
 
 namespace jnd::experiments {
 namespace task_answers_test {
@@ -21,7 +21,7 @@ namespace task_answers_test {
 constexpr double kWeber = 0.152;
 constexpr double kReference = 8.0;
 
-/// Only reading noise.
+/// Returns a laboratory whose people have reading noise only.
 Laboratory plain_laboratory() {
   Laboratory laboratory = without_noise(thesis_laboratory());
   laboratory.perceiver.weber_fraction = kWeber;
@@ -45,7 +45,8 @@ std::vector<AnsweredTrial> answers(Study& study, const Laboratory& laboratory,
   return simulator.answers({{.stage = &study.stages.front()}}, seed).front().trials;
 }
 
-/// A block of many trials with one test stimulus, one Weber fraction above the reference.
+/// Returns a study with one block of many trials, whose one test stimulus is one Weber fraction
+/// above the reference.
 Study many_trials(const std::string& task, const Laboratory& laboratory) {
   Study study = study_with(R"json("procedure": "constant_stimuli", "viscosity_pa_s": [7, 9],
       "reference_viscosity_pa_s": 8, "repetitions": 1, )json" +
@@ -56,7 +57,8 @@ Study many_trials(const std::string& task, const Laboratory& laboratory) {
   return study;
 }
 
-/// Share of 1 among the responses that `counts` says, with four standard deviations of it.
+/// The share of 1 among the responses that `counts` selects, and four standard deviations of
+/// it.
 struct Share {
   double ratio = 0.0, tolerance = 0.0;
 };
@@ -107,7 +109,7 @@ TEST(SameDifferentAnswers, FollowTheDifferencingRule) {
   const Laboratory laboratory = plain_laboratory();
   Study study = many_trials(R"json("task": "same_different")json", laboratory);
   const std::vector<AnsweredTrial> trials = answers(study, laboratory);
-  // A difference has a standard deviation of ln(1 + w), which is the criterion, too.
+  // A difference has a standard deviation of ln(1 + w), and the criterion has the same value.
   const Share false_alarms = share_of_ones(trials, is_catch);
   EXPECT_NEAR(false_alarms.ratio, 0.3173, false_alarms.tolerance) << "2 Phi(-1)";
   const Share hits = share_of_ones(trials, is_test);
@@ -126,7 +128,7 @@ TEST(YesNoAnswers, AreYesHalfOfTheTimeOneWeberFractionAboveFreeSpace) {
   const std::vector<AnsweredTrial> trials = answers(study, laboratory);
   const Share hits = share_of_ones(trials, is_test);
   EXPECT_NEAR(hits.ratio, 0.5, hits.tolerance);
-  // One reading alone has the noise, ln(1 + w) / sqrt 2.
+  // A single reading has the noise ln(1 + w) / sqrt 2.
   const Share false_alarms = share_of_ones(trials, is_catch);
   EXPECT_NEAR(false_alarms.ratio, 0.0786, false_alarms.tolerance) << "Phi(-sqrt 2)";
 }
@@ -151,7 +153,7 @@ TEST(TwoIntervalStaircase, FindsTheLevelAtWhichItsRuleBalances) {
           std::log(*staircase.threshold(staircase.after(level_answers(trials, series))).level);
     }
   }
-  // 70.7 % choose the test 0.545 standard deviations above the reference.
+  // 70.7 % choose the test if it is 0.545 standard deviations above the reference.
   const double w = median_weber_fraction(laboratory, block);
   const double expected = kReference * std::exp(0.545 * std::log1p(w));
   EXPECT_NEAR(std::exp(sum_ln / kPersons) / expected, 1.0, 0.03);
@@ -208,7 +210,7 @@ TEST(PracticeAnswers, EndWhereTheCriterionIsMet) {
   EXPECT_LT(trials.size(), 20U) << "these are easy";
 }
 
-/// Shares of "cannot tell" in a block of many trials whose test equals the reference.
+/// Returns the share of "cannot tell" in a block of many trials.
 double share_open(Study& study, const Laboratory& laboratory) {
   double open = 0.0, all = 0.0;
   for (const AnsweredTrial& trial : answers(study, laboratory)) {
@@ -219,8 +221,8 @@ double share_open(Study& study, const Laboratory& laboratory) {
 }
 
 TEST(CannotTellAnswers, AreAsOftenAsTheNoiseIsWithinTheCertaintyThatPeopleAskFor) {
-  // Of two that are equal the difference over its noise is normal, and certainty is 2 Phi(|z|)
-  // - 1, whose distribution is even from 0 to 1.
+  // If both stimuli are equal, the difference over its noise is normal. Certainty is 2 Phi(|z|)
+  // - 1, which is uniformly distributed from 0 to 1.
   Laboratory laboratory = plain_laboratory();
   Study study =
       many_trials(R"json("task": "two_interval", "cannot_tell": true)json", laboratory);
@@ -237,7 +239,7 @@ TEST(CannotTellAnswers, WhoLapsesCannotTell) {
   laboratory.perceiver.lapse_rate = 0.1;
   Study study = many_trials(R"json("cannot_tell": true)json", laboratory);
   auto& block = std::get<Block>(study.stages.front().content);
-  block.intensities = {40.0 * kReference};  // Nobody is in doubt.
+  block.intensities = {40.0 * kReference};  // At this intensity, nobody is in doubt.
   EXPECT_NEAR(share_open(study, laboratory), 0.2, 0.016) << "twice the rate of errors";
 }
 
@@ -275,7 +277,7 @@ AnsweredBlock timed(Study& study, const Laboratory& laboratory) {
 }
 
 TEST(TimedAnswers, FeelEachStimulusAsLongAsTheBlockSays) {
-  const Laboratory laboratory = plain_laboratory();  // Who looks once at each.
+  const Laboratory laboratory = plain_laboratory();  // These people look once at each stimulus.
   Study study = study_with(R"json("procedure": "constant_stimuli", "viscosity_pa_s": [7, 9],
       "reference_viscosity_pa_s": 8, "repetitions": 10)json");
   auto& block = std::get<Block>(study.stages.front().content);
@@ -295,7 +297,7 @@ TEST(TimedAnswers, AMissedDeadlineTakesItsTimeAndTheTrialIsAnsweredOnce) {
       "reference_viscosity_pa_s": 8, "repetitions": 50)json");
   auto& block = std::get<Block>(study.stages.front().content);
   block.min_stimulus_s = 20.0;
-  block.answer_deadline_s = 21.0;  // Whoever looks again is late.
+  block.answer_deadline_s = 21.0;  // A person who looks again misses this deadline.
   const AnsweredBlock answered = timed(study, laboratory);
   EXPECT_EQ(answered.trials.size(), 100U);
   const double missed = (answered.felt_s - 100.0 * 40.0) / 41.0;
@@ -311,7 +313,8 @@ TEST(TimedAnswers, WhoMissedADeadlineHurriesWhenTheTrialComesAgain) {
   Study study = study_with(R"json("procedure": "constant_stimuli", "viscosity_pa_s": [7, 9],
       "reference_viscosity_pa_s": 8, "repetitions": 5, "answer_deadline_s": 0.5)json");
   auto& block = std::get<Block>(study.stages.front().content);
-  block.min_stimulus_s = block.max_stimulus_s.emplace(2.0);  // Nobody can be in time.
+  // With this duration, nobody can be in time.
+  block.min_stimulus_s = block.max_stimulus_s.emplace(2.0);
   const AnsweredBlock answered = timed(study, laboratory);
   EXPECT_EQ(answered.trials.size(), 10U);
   EXPECT_NEAR(answered.felt_s, 10 * 2 * 2.5, 1e-9) << "each twice";

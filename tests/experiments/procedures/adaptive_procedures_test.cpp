@@ -19,7 +19,7 @@ namespace adaptive_procedures_test {
 constexpr double kPse = 7.0;
 constexpr double kWeberFraction = 0.3;
 
-/// A study whose one block has these keys besides those of every block.
+/// Returns the block of a study whose one block has these keys besides those of every block.
 Block block_with(const std::string& keys) {
   const Study study = read_study_text(R"json({
     "format": 1, "name": "adaptive", "languages": ["en"], "title": {"en": "Adaptive"},
@@ -42,7 +42,8 @@ const std::string kQuestPlus = R"json("procedure": "quest_plus",
     "viscosity_pa_s": [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 18, 24],
     "reference_viscosity_pa_s": 8, "pse_viscosity_pa_s": [4, 16], "max_trials": 120)json";
 
-/// Answers as whoever has this curve would, to what the procedure draws, to its end.
+/// Returns the answers of an observer with this curve to what the procedure draws, until it
+/// ends.
 std::vector<AnsweredTrial> answered_by_observer(const Block& block, std::uint64_t seed) {
   std::vector<AnsweredTrial> answered;
   const Procedure& procedure = procedure_named(block.procedure);
@@ -60,7 +61,7 @@ std::vector<AnsweredTrial> answered_by_observer(const Block& block, std::uint64_
   return answered;
 }
 
-/// Geometric mean over observers with different luck.
+/// Returns the geometric mean of the estimate over observers with different random numbers.
 template <typename Estimate>
 double mean_estimate(const Block& block, const Estimate& estimate) {
   constexpr int kRuns = 60;
@@ -186,7 +187,8 @@ TEST(LimitsProcedure, FindsTheMiddleOfTheCurveFromBothSides) {
   const Block block = block_with(kLimits);
   EXPECT_FALSE(procedure_named("limits").form(block).has_reference);
   const double found = mean_estimate(block, [&](const std::vector<AnsweredTrial>& answered) {
-    // The mean of transitions, each between the levels before and after the change.
+    // The estimate is the mean of the transitions, each between the levels before and after a
+    // change.
     double sum_ln = 0.0;
     int count = 0;
     for (std::size_t i = 1; i < answered.size(); ++i) {

@@ -75,7 +75,7 @@ TEST(ContrastConditions, BlocksFactorsThatAreNotNamedAreAveraged) {
   const ContrastConditions found = contrast_conditions(study, study.contrasts.front());
   ASSERT_EQ(found.conditions.size(), 3U);
   EXPECT_EQ(found.conditions[0].name, "thin, on");
-  // Half for each group of people, and half of that for either of the thin ones.
+  // Each group of people has half of the weight, and each of the two thin blocks half of that.
   EXPECT_EQ(found.weights[0], (std::vector<double>{0.25, -0.5, 0.25}));
 }
 
@@ -120,7 +120,7 @@ TEST(ContrastConditions, ABlockThatCannotBeComparedIsNamedWithWhatItHas) {
       "contrast");
 }
 
-// Every measure of the study format has blocks that it is of.
+// Every measure of the study format must have blocks to which it applies.
 TEST(ContrastConditions, ARatingAndAnAnswerToAQuestionAreMeasures) {
   Block rates, compares;
   rates.procedure = "rating";

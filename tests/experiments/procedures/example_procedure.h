@@ -6,8 +6,8 @@
 
 namespace jnd::experiments {
 
-/// Stimuli from the weakest up, each once, until one is felt twice in a row: a rough threshold
-/// in few trials.
+/// Presents the stimuli from the weakest up, each once, until two in a row are felt. This gives
+/// a rough threshold in few trials.
 class RoughThreshold final : public Procedure {
  public:
   std::string_view name() const noexcept override { return "rough_threshold"; }

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-// The example of CONTRIBUTING.md, so that what stands there compiles and does what it says.
+// Tests that the example of CONTRIBUTING.md compiles and does what the page says.
 
 namespace jnd::experiments {
 namespace example_procedure_test {
@@ -26,7 +26,7 @@ TEST(ExampleProcedure, StandsInContributingWordForWord) {
       << "copy the class into CONTRIBUTING.md again";
 }
 
-/// The last trial of somebody who feels everything from `threshold` on.
+/// Returns the last trial of a person who feels everything from `threshold` on.
 AnsweredTrial last_trial(const Block& block, double threshold) {
   const RoughThreshold procedure;
   core::RandomStream stream(1, "order");

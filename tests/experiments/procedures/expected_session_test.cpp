@@ -31,7 +31,8 @@ TEST(ExpectedSession, TrialsCountFromBreakToBreakOverBlocks) {
   std::vector<StageInstance> stages;
   for (const Stage& stage : kStages) stages.push_back({&stage, stage.name});
   const Stretch longest = longest_stretch(stages);
-  EXPECT_EQ(longest.num_trials, 22);  // (6 + 5) stimuli twice, more than 10 twice.
+  // (6 + 5) stimuli come twice, which is more than 10 twice.
+  EXPECT_EQ(longest.num_trials, 22);
   ASSERT_EQ(longest.blocks.size(), 2U);
   EXPECT_EQ(longest.blocks[0]->name, "second");
   EXPECT_EQ(longest.blocks[1]->name, "third");

@@ -11,7 +11,8 @@
 #include "experiments/procedures/task.h"
 #include "experiments/protocol/study_reader.h"
 
-// Tasks with three intervals: three-interval forced choice, oddity, ABX, match to sample.
+// Tests the tasks with three intervals: three-interval forced choice, oddity, ABX and match to
+// sample.
 
 namespace jnd::experiments {
 namespace interval_task_test {
@@ -88,7 +89,8 @@ TEST(ThreeIntervals, AnObserverChoosesByTheRuleOfTheTask) {
   EXPECT_EQ(choice(Task::kMatchToSample, {2.1, 1, 3}).interval, 3);
 }
 
-/// Of an observer who feels the test one standard deviation above the reference.
+/// Returns the share of right answers of an observer who feels the test one standard deviation
+/// above the reference.
 double share_right(Task task) {
   constexpr int kTrials = 40000;
   core::RandomStream stream(7, "observer", {static_cast<std::int64_t>(task)});
@@ -109,7 +111,7 @@ TEST(ThreeIntervals, SharesOfRightAnswersAtADPrimeOfOneAreThePublishedOnes) {
   EXPECT_NEAR(share_right(Task::kThreeInterval), 0.634, 0.01);
   // Ennis (1993), table 3, triangular method.
   EXPECT_NEAR(share_right(Task::kOddity), 0.418, 0.01);
-  // Of the differencing rule Phi(1/sqrt 2) Phi(1/sqrt 6) + Phi(-1/sqrt 2) Phi(-1/sqrt 6),
+  // The differencing rule gives Phi(1/sqrt 2) Phi(1/sqrt 6) + Phi(-1/sqrt 2) Phi(-1/sqrt 6),
   // Macmillan and Creelman (2005), chapter 9.
   EXPECT_NEAR(share_right(Task::kAbx), 0.5825, 0.01);
   EXPECT_NEAR(share_right(Task::kMatchToSample), 0.5825, 0.01);

@@ -13,7 +13,7 @@
 namespace jnd::experiments {
 namespace matching_test {
 
-/// Water as the standard of a viscous fluid.
+/// A study in which water is the standard of a viscous fluid.
 const std::string kStudy = R"json({
   "format": 1, "name": "matching", "languages": ["en"], "title": {"en": "Matching"},
   "authors": ["A. Author"],

@@ -5,7 +5,8 @@
 namespace jnd::experiments {
 namespace practice_test {
 
-/// Test 4 is less than the reference 8, 16 is more, and to 8 no answer is right.
+/// Returns a block in which the test 4 is less than the reference 8 and 16 is more. For 8, no
+/// answer is right.
 Block practice_block(Practice practice) {
   return {.procedure = "constant_stimuli",
           .medium = "viscous",

@@ -74,13 +74,14 @@ TEST(Rating, CertaintyGrowsWithTheDistanceFromTheCriterionAndTheLooks) {
   const Perceiver& senses = person.perceiver(std::get<Block>(study.stages.front().content));
   const double jnd_ln = std::log(1.3);
   EXPECT_NEAR(senses.certainty_of_thicker(1.0, 1.0, 1, {}), 0.0, 1e-12);
-  // One standard deviation from the criterion: right with 84.13 %, so 2 P - 1 = 0.6827.
+  // One standard deviation from the criterion, 84.13 % are right, so certainty is 2 P - 1 =
+  // 0.6827.
   EXPECT_NEAR(senses.certainty_of_thicker(jnd_ln, 0.0, 1, {}), 0.6827, 1e-4);
   EXPECT_NEAR(senses.certainty_of_thicker(0.0, jnd_ln, 1, {}), 0.6827, 1e-4);
   EXPECT_NEAR(senses.certainty_of_thicker(jnd_ln, 0.0, 4, {}), 0.9545, 1e-4);
   EXPECT_NEAR(senses.certainty_of_different(jnd_ln, 0.0, 1, {}), 0.0, 1e-12);
   EXPECT_NEAR(senses.certainty_of_different(0.0, 0.0, 1, {}), 0.6827, 1e-4);
-  // Of one reading the noise is smaller by the root of two.
+  // The noise of a single reading is smaller by the root of two.
   EXPECT_NEAR(senses.certainty_of_present(2.0 * jnd_ln, 0.0, 1, {}), 0.8427, 1e-4);
 }
 

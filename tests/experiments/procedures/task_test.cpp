@@ -12,7 +12,7 @@
 namespace jnd::experiments {
 namespace task_test {
 
-/// A comparison of fluids with a reference of 8 Pa s and these keys besides.
+/// Returns a comparison of fluids with a reference of 8 Pa s and with these additional keys.
 Block block_with(const std::string& keys) {
   const Study study = read_study_text(
       R"json({
@@ -39,7 +39,8 @@ std::vector<PlannedTrial> drawn(const Block& block, std::uint64_t seed,
   return procedure_named(block.procedure).draw_next(block, answered, stream);
 }
 
-/// So many trials one after the other, all answered with yes and no in turn.
+/// Returns `num_trials` trials that are drawn one after the other and answered with yes and no
+/// by turns.
 std::vector<AnsweredTrial> answered_one_by_one(const Block& block, std::size_t num_trials,
                                                std::uint64_t seed) {
   std::vector<AnsweredTrial> answered;
@@ -89,7 +90,7 @@ TEST(Task, StoresTheChosenIntervalAsWhetherItHeldTheTest) {
     for (const double interval : {1.0, 2.0}) {
       const double response = response_of(AnswerKind::kInterval, trial, interval);
       EXPECT_EQ(answer_of(AnswerKind::kInterval, trial, response), interval);
-      // The rule that the codebook tells.
+      // The codebook states this rule.
       EXPECT_EQ(response == 1.0 ? *trial.test_interval : 3 - *trial.test_interval, interval);
     }
   }
@@ -120,7 +121,8 @@ TEST(Task, FeedbackCallsAnAnswerRightAlsoWhereTwoEqualStimuliAreCompared) {
   EXPECT_EQ(feedback_response(Task::kReminder, more), 1.0);
   EXPECT_EQ(feedback_response(Task::kSameDifferent, equal), 0.0);
   EXPECT_EQ(feedback_response(Task::kYesNo, {.intensity = 0.0, .is_catch = true}), 0.0);
-  // Of two intervals whichever was drawn for the test, so that either is right half the time.
+  // With two intervals, the one that was drawn for the test is right, so that either is right
+  // half of the time.
   for (const int test : {1, 2}) {
     PlannedTrial trial = equal;
     trial.test_interval = test;
@@ -299,7 +301,7 @@ TEST(AdaptiveTrials, HaveCatchTrialsAmongThemThatMoveNoLevel) {
   EXPECT_EQ(num_trials, 2000);
   EXPECT_NEAR(num_catch, 500, 4 * std::sqrt(375.0));
 
-  // Without them the levels of each staircase are the same, one answer after the other.
+  // Without them, the levels of each staircase are the same, one answer after the other.
   const Block block = block_with(kStaircase + kReference + keys);
   std::vector<AnsweredTrial> answered;
   std::map<int, std::vector<double>> levels;

@@ -14,9 +14,9 @@
 #include "support/files.h"
 #include "support/places.h"
 
-// tests/experiments/protocol/broken holds a broken study NAME.json for each rule, and in
-// NAME.txt what the reader must say of it, in folders by what is broken. Its README says how a
-// new pair is made.
+// The folder tests/experiments/protocol/broken holds a broken study NAME.json for each rule, in
+// folders by what is broken. NAME.txt holds what the reader must say about it. The README of
+// the folder says how to add a pair.
 
 namespace jnd::experiments {
 namespace broken_corpus_test {
@@ -26,7 +26,7 @@ using test_support::read_file;
 
 fs::path source(const std::string& name) { return test_support::source_folder() / name; }
 
-/// The files of a folder and of those in it with this extension, in order.
+/// Returns the files in a folder and in its subfolders with this extension, in order.
 std::vector<fs::path> files_in(const fs::path& folder, const std::string& extension) {
   std::set<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -41,7 +41,7 @@ const fs::path kProfiles = "tests/experiments/device_profile/broken";
 std::string all_expected_messages() {
   std::string all;
   for (const fs::path& file : files_in(source(kFolder), ".txt")) all += read_file(file);
-  // What studies have no values of, and profiles of devices have.
+  // Profiles of devices have kinds of values that studies do not have.
   for (const fs::path& file : files_in(source(kProfiles), ".txt")) all += read_file(file);
   return all;
 }
@@ -79,7 +79,7 @@ TEST(BrokenCorpus, NamesAStudyOnceWhateverItsFolder) {
   }
 }
 
-/// The literals of a C++ source, those that stand side by side as one.
+/// Returns the literals of a C++ source. Adjacent literals count as one.
 std::vector<std::string> literals_of(const std::string& code) {
   static const std::regex kLiteral(R"re("((?:[^"\\\n]|\\.)*)")re");
   std::vector<std::string> literals;
@@ -101,15 +101,17 @@ std::vector<std::string> literals_of(const std::string& code) {
   return literals;
 }
 
-// The reader's fixed words, read from its sources: every literal that begins a message has to
-// stand in the corpus at least once. So a rule without an example is found, whoever adds it.
+// Reads the reader's fixed words from its sources. Every literal that begins a message must
+// occur in the corpus at least once, so this test finds each rule without an example.
 TEST(BrokenCorpus, HoldsEveryMessageThatTheReaderCanGive) {
   const std::string all = all_expected_messages();
-  // Messages that are not about a text of the corpus's kind; their tests are named.
+  // These messages are not about a text of the corpus's kind. The comments name the tests that
+  // show them.
   const std::set<std::string> elsewhere = {
-      "expected a study file that can be read, found ",                     // StudyReader
-      "expected at most 4 MiB of text, found more; is this a study file?",  // HostileStudies
-      "expected no more than ",                                             // StudyReader
+      "expected a study file that can be read, found ",  // The tests StudyReader show this one.
+      // The tests HostileStudies show this one.
+      "expected at most 4 MiB of text, found more; is this a study file?",
+      "expected no more than ",  // The tests StudyReader show this one.
   };
   int num_messages = 0;
   for (const char* name :
@@ -122,7 +124,7 @@ TEST(BrokenCorpus, HoldsEveryMessageThatTheReaderCanGive) {
     ASSERT_NE(code, "") << name;
     for (const std::string& words : literals_of(code)) {
       if (!words.starts_with("expected ") || elsewhere.contains(words)) continue;
-      // The parser's own words are searched for in its messages, not told.
+      // With these words, the reader looks for the parser's own words, and does not say them.
       if (words == "expected ") continue;
       ++num_messages;
       EXPECT_NE(all.find(words), std::string::npos)
@@ -133,7 +135,7 @@ TEST(BrokenCorpus, HoldsEveryMessageThatTheReaderCanGive) {
   EXPECT_GT(num_messages, 40);
 }
 
-/// The kind of value that a pointer's last key has, in any table.
+/// Returns the kinds of value that the last key of a pointer has in any table.
 std::set<ValueKind> kinds_of(const std::string& pointer) {
   std::set<ValueKind> kinds;
   std::string key = pointer;

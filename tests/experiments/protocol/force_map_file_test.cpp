@@ -49,7 +49,7 @@ TEST(ForceMapFile, TheShippedPlateIsKirchhoffsAndRayleighs) {
   const core::ForceMap map =
       read_force_map(test_support::source_folder() / "data/force_maps/flat_plate.csv");
   EXPECT_TRUE(map.has_lift());
-  // Lamb, Hydrodynamics, art. 77: head on 2 pi / (4 + pi) = 0.880.
+  // Lamb, Hydrodynamics, art. 77: head on it is 2 pi / (4 + pi) = 0.880.
   EXPECT_NEAR(map.at(std::numbers::pi / 2.0, 1.0).drag, 0.880, 5e-4);
   const double angle = 0.5;
   const double normal =

@@ -15,7 +15,7 @@ std::string shipped(const std::string& name) {
   return test_support::read_file(test_support::source_folder() / "protocols" / name);
 }
 
-// EXPECT_TRUE, for EXPECT_EQ would print both files.
+// EXPECT_TRUE is used because EXPECT_EQ would print both files.
 TEST(GeneratedFiles, TheShippedSchemaIsThatOfTheTables) {
   EXPECT_TRUE(shipped(kSchemaFileName) == study_schema())
       << "the tables changed; renew it: build/jnd schema > protocols/" << kSchemaFileName;

@@ -7,8 +7,8 @@
 #include "support/temporary_folder.h"
 #include "tests/experiments/protocol/broken_study.h"
 
-// Files that nobody wrote by hand: too large for the corpus, too large for the memory, without
-// an end. Each gives a sentence, after reading no more than a study may have.
+// Tests files that nobody wrote by hand: too large for the corpus, too large for the memory, or
+// without an end. Each must give a sentence, after reading no more than a study may have.
 
 namespace jnd::experiments {
 namespace hostile_studies_test {

@@ -5,7 +5,7 @@
 namespace jnd::experiments {
 namespace located_json_test {
 
-/// The one problem of a text, or all of them, a line each.
+/// Returns the problems of a text, one in each line.
 std::string problems_in(const std::string& text) {
   std::vector<StudyProblem> problems;
   const LocatedJson file(text, "x", problems);
@@ -189,7 +189,7 @@ TEST(LocatedJson, TakesNoWordsOfTheFileForThoseOfTheParser) {
 }
 
 TEST(LocatedJson, TakesMemoryInProportionToTheText) {
-  // A pointer for every value would be 2^40 bytes.
+  // A pointer for every value would take 2^40 bytes.
   std::string text = "{\"" + std::string(1 << 20, 'k') + "\": [0";
   for (int i = 1; i < 1 << 20; ++i) text += ",0";
   std::vector<StudyProblem> problems;

@@ -11,7 +11,7 @@
 namespace jnd::experiments {
 namespace reference_writer_test {
 
-/// The lines of the section under a heading, up to the next one.
+/// Returns the lines of the section under a heading, up to the next heading.
 std::string section_of(const std::string& heading) {
   static const std::string kText = study_reference();
   std::istringstream lines(kText);

@@ -20,7 +20,7 @@ const json& schema_of(const ParameterTable& table) {
   return table.name == "study" ? kSchema : kSchema.at("definitions").at(table.name);
 }
 
-/// What the schema says of a key: in the table, or where its condition holds.
+/// Returns what the schema says of a key, in the table or in the rule whose condition applies.
 json property_of(const json& schema, const std::string& key) {
   const json& plain = schema.at("properties").at(key);
   if (plain.is_object()) return plain;

@@ -30,18 +30,18 @@ TEST(SessionRules, LetArmsOfAnOrderBeFollowedByEverybody) {
   EXPECT_EQ(problems_of(broken(low, low + ", \"only_for\": {\"priming\": \"primed\"}")), "");
 }
 
-// 3 x 3 trials of 20 s, 2 x 2 of 30 s, 2 x 5 of 15 s, breaks of 60 s and 180 s: 690 s.
+// 3 x 3 trials of 20 s, 2 x 2 of 30 s, 2 x 5 of 15 s, and breaks of 60 s and 180 s make 690 s.
 TEST(SessionRules, RefuseASessionOfMoreThanEightHours) {
   const auto with_break = [](const std::string& seconds) {
     return broken("\"duration_s\": 180", "\"duration_s\": " + seconds);
   };
   EXPECT_EQ(problems_of(with_break("7200")), "");
-  // 9 x (600 + 3000) + 120 + 150 + 60 + 180: 32910 s.
+  // 9 x (600 + 3000) + 120 + 150 + 60 + 180 = 32910 s.
   EXPECT_EQ(problems_of(broken("\"expected_trial_s\": 20",
                                "\"expected_trial_s\": 3000, \"free_space_between_s\": 600")),
             "x.json:13:5: /stages/1: expected a session of at most 8 hours, found one of about "
             "9.1, 9 of them in this stage; times are in seconds");
-  // At the limit: 9 x 3143 + 513 is 28800 s.
+  // This is at the limit: 9 x 3143 + 513 is 28800 s.
   EXPECT_EQ(problems_of(broken("\"expected_trial_s\": 20", "\"expected_trial_s\": 3143",
                                with_break("183"))),
             "");
@@ -58,7 +58,7 @@ TEST(SessionRules, CountOnlyTheLongestOfArmsOfWhichOneIsRun) {
                        std::to_string(i) +
                        R"(", "instruction": {"en": "R.", "de": "P."}, "duration_s": 6000})");
   }
-  // 24000 s in this arm; the other one has 60 s, and 6000 s more would be too many.
+  // This arm has 24000 s and the other one 60 s. 6000 s more in this arm would be too many.
   const std::string text = broken("\"stages\": []", longest);
   EXPECT_EQ(problems_of(text), "");
   EXPECT_EQ(problems_of(broken("\"duration_s\": 60", "\"duration_s\": 6000", text)), "");

@@ -15,7 +15,7 @@ Study shipped(const std::string& name) {
   return read_study(test_support::source_folder() / "protocols" / (name + ".json"));
 }
 
-/// The first stage of this name that any cell of the study runs.
+/// Returns the first stage of this name that any cell of the study runs.
 const Stage& stage_named(const Study& study, const std::string& name) {
   for (const Cell& cell : cells_of(study)) {
     for (const StageInstance& instance : stages_of(study, cell)) {
@@ -61,7 +61,7 @@ TEST(ShippedStudies, SpeakEnglishAndGerman) {
   }
 }
 
-// Thesis, sec. 4 and D.3.2.
+// The values are from the thesis, sec. 4 and D.3.2.
 TEST(ShippedStudies, EstimateAndProduceWaterAsInTheThesis) {
   const Study study = shipped("magnitude_of_virtual_water");
   const std::vector<double> factors = {0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4};
@@ -76,7 +76,7 @@ TEST(ShippedStudies, EstimateAndProduceWaterAsInTheThesis) {
   EXPECT_EQ(content_of<Training>(study, "training").examples.size(), 3u);
 }
 
-// Thesis, table 1 with the corrections of table D.1.
+// The values are from the thesis, table 1 with the corrections of table D.1.
 TEST(ShippedStudies, CompareTheViscositiesOfTheThesis) {
   const Study study = shipped("viscosity_discrimination");
   const auto& d = content_of<Block>(study, "group_d");

@@ -17,7 +17,7 @@ std::string study_with(const std::string& keys) {
          keys + "}]}";
 }
 
-/// What every procedure asks for besides.
+/// The additional keys that each procedure needs.
 const std::map<std::string, std::string> kKeys = {
     {"constant_stimuli",
      R"("stiffness_n_per_m": [200, 300, 500], "reference_stiffness_n_per_m": 300,

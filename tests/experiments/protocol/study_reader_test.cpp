@@ -237,7 +237,8 @@ TEST(StudyReader, NeverCrashesOnATextCutShort) {
 }
 
 TEST(StudyReader, EitherReadsOrRefusesAStudyWithAnyValueReplaced) {
-  // Wherever a value stands, another type must be a problem or be read; never a crash.
+  // A value of another type must be a problem or must be read, wherever it stands. It must
+  // never cause a crash.
   for (const std::string value : {"null", "[]", "{}", "-1", "\"\"", "[[{}]]", "1e308"}) {
     for (std::size_t at = kSoundStudy.find(": "); at != std::string::npos;
          at = kSoundStudy.find(": ", at + 1)) {
@@ -252,7 +253,8 @@ TEST(StudyReader, EitherReadsOrRefusesAStudyWithAnyValueReplaced) {
 }
 
 TEST(StudyReader, WhatIsWrittenIsReadThoughTheRulesWouldRefuseIt) {
-  // Two rules broken, as by a version that came to be stricter: the answers are still there.
+  // The study breaks two rules, as if the program had become stricter. Its answers must still
+  // be readable.
   const std::string text = broken(R"("languages": ["en", "de"])", R"("languages": ["en"])");
   EXPECT_THROW((void)read_study_text(text, "x.json"), ProtocolError);
   const Study study = study_as_written(text, "x.json");
@@ -296,7 +298,7 @@ TEST(StudyReader, AWrittenStudyWithAnyValueReplacedIsReadOrRefused) {
       try {
         (void)study_as_written(text, "x");
       } catch (const core::Error&) {
-        // In a sentence.
+        // The refusal is a sentence.
       }
     }
   }

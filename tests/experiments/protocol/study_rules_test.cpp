@@ -114,7 +114,7 @@ TEST(StudyRules, WantOnlyForToNameAnArmThatExists) {
 TEST(StudyRules, RefuseMoreTrialsThanAnyoneCanDo) {
   std::string scales = "[0";
   for (int i = 1; i < 51; ++i) scales += ", " + std::to_string(i);
-  // So short that the session is not too long.
+  // The trials are so short that the session is not too long.
   const std::string text =
       broken("[0, 1, 2], \"repetitions\": 3", scales + "], \"repetitions\": 1000",
              broken("\"expected_trial_s\": 20", "\"expected_trial_s\": 0.1"));

@@ -9,7 +9,7 @@
 #include "experiments/protocol/study_table.h"
 #include "experiments/study/parameter_table.h"
 
-// What holds for every table, those of procedures to come among them.
+// Tests what holds for every table, including those of later procedures.
 
 namespace jnd::experiments {
 namespace table_examples_test {
@@ -32,7 +32,7 @@ std::vector<json> examples() {
   return all;
 }
 
-/// Pointers of everything in a value.
+/// Collects the pointers of everything in a value.
 void collect(const json& value, const std::string& pointer, std::vector<std::string>& all) {
   if (!pointer.empty()) all.push_back(pointer);
   if (!value.is_structured()) return;

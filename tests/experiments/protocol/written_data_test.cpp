@@ -16,8 +16,8 @@ std::string layout(const std::string& name) {
   return test_support::read_file(test_support::source_folder() / "data/database" / name);
 }
 
-/// What stands between the brackets of `CREATE TABLE name (`, in the layout of study folders,
-/// and what later layouts added.
+/// Returns what stands between the brackets of `CREATE TABLE name (` in the layout of study
+/// folders, and what later layouts added.
 std::string columns_of(const std::string& table) {
   const std::string sql = layout("1_study.sql") + layout("8_answers_to_questions.sql");
   const std::size_t begin = sql.find("CREATE TABLE " + table + " (");
@@ -37,7 +37,7 @@ TEST(WrittenData, NamesColumnsThatTheStudyFolderHas) {
                                                      {"answers.csv", "answer"},
                                                      {"events.csv", "event"},
                                                      {"questions.csv", "question_answer"}};
-  // Exports take these from the study file, or from the order of the intervals.
+  // Exports compute these columns from the study file, or from the order of the intervals.
   const std::set<std::string> worked_out = {"is_practice", "right_interval", "chosen_interval"};
   for (const ParameterTable* stage : stage_tables()) {
     for (const WrittenColumn& column : written_columns(*stage)) {

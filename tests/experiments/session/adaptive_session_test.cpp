@@ -16,7 +16,7 @@ const std::string kStudy = R"json({
     "max_reversals": 6, "instruction": {"en": "Compare."}, "question": {"en": "Thicker?"},
     "expected_trial_s": 5}]})json";
 
-/// A block whose trials are drawn one after the other.
+/// Tests a block whose trials are drawn one after the other.
 class AdaptiveSessionTest : public ::testing::Test {
  protected:
   Session session() {
@@ -38,7 +38,7 @@ class AdaptiveSessionTest : public ::testing::Test {
     present(s, "test");
     s.answer(response, {.response_time_s = 1.5}, s.state().last_tick);
   }
-  /// "Yes" above 6 Pa s.
+  /// Runs the session to its end, with the answer "yes" above 6 Pa s.
   static void run_to_end(Session& s) {
     while (s.state().current_trial()) run_trial(s, level(s) > 6.0 ? 1.0 : 0.0);
   }

@@ -5,7 +5,7 @@
 #include "experiments/session/session_in_memory.h"
 #include "experiments/session/trial_course.h"
 
-// "Cannot tell", deadlines, and going back to stimuli, as a session stores them.
+// Tests "cannot tell", deadlines, and going back to stimuli, as a session stores them.
 
 namespace jnd::experiments {
 namespace answering_session_test {
@@ -55,8 +55,8 @@ class AnsweringSessionTest : public ::testing::Test {
   static void answer(Session& s, const std::optional<double>& value) {
     s.answer(value, {.response_time_s = 1.5}, s.state().last_tick);
   }
-  /// One that depends on the trial and its attempt alone: every second cannot be told, and
-  /// every third misses the deadline once.
+  /// Runs a trial whose answer depends on the trial and its attempt alone. Every second trial
+  /// is answered with "cannot tell", and every third misses the deadline once.
   static void run_trial(Session& s) {
     const std::int64_t trial = now(s);
     feel(s);
@@ -236,7 +236,7 @@ TEST_F(AnsweringSessionTest, AnAttemptAnewAllowsAllReturnsAgain) {
 
 TEST_F(AnsweringSessionTest, OfThreeIntervalsAReturnIsToTheSamePlaceWhateverItHolds) {
   Session s = begun(kConstant + R"(, "task": "oddity", "max_returns": 0)");
-  feel(s);  // Two of them are the reference.
+  feel(s);  // Two of the three intervals are the reference.
   EXPECT_EQ(num_returns(s.state().trial(now(s))), 0);
   EXPECT_THROW(s.require_interval("second"), core::Error);
 }
@@ -246,8 +246,8 @@ TEST_F(AnsweringSessionTest, TheQuestionIsAskedFromTheStartOfTheStimulusThatWasM
   s.start_trial(0);
   const auto asked = [&] { return asked_tick(s.current_form(), s.state().trial(now(s))); };
   EXPECT_EQ(asked(), std::nullopt);
-  present(s, "reference");   // Ticks 0 to 99.
-  present(s, "free_space");  // 100 to 199.
+  present(s, "reference");   // This takes the ticks 0 to 99.
+  present(s, "free_space");  // This takes the ticks 100 to 199.
   present(s, "reference");
   EXPECT_EQ(asked(), std::nullopt) << "the test was not felt";
   s.begin_presentation("test", 300);

@@ -9,7 +9,7 @@
 namespace jnd::experiments {
 namespace event_test {
 
-/// One of each kind, no field left at its default.
+/// Returns one event of each kind, with no field at its default.
 std::vector<EventData> one_of_each() {
   const PresentationSummary summary{.measures = {.num_strokes = 3,
                                                  .stroke_width_m = 0.26,
@@ -132,7 +132,7 @@ TEST(Event, EveryKindComesBackFromItsRowAsItWas) {
     const Event back = event_from_row(row);
     EXPECT_EQ(back.sequence, 9);
     EXPECT_EQ(back.time_ns, 11);
-    // The stored form of what came back is the stored form of what went in.
+    // The event that was read back must have the same stored form as the original.
     const core::EventRow again = row_from_event(7, back);
     EXPECT_EQ(again.kind, row.kind);
     EXPECT_EQ(again.data, row.data) << row.kind;
@@ -157,7 +157,7 @@ core::PresentationMeasures measures_of(const std::string& data) {
   return std::get<PresentationEnded>(event_from_row(row).data).summary.measures;
 }
 
-/// What every event has of a presentation, and nothing that came later.
+/// The keys that every event of a presentation has, without those that were added later.
 constexpr char kFirstKeys[] =
     R"("presentation":1,"stroke_width_m":0.26,"max_speed_m_per_s":null,"mean_height_m":-0.4,)"
     R"("num_strokes":3,"delivered_damping_n_s_per_m":3.2,"commanded_damping_n_s_per_m":null,)"

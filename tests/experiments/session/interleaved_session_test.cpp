@@ -10,7 +10,7 @@
 #include "experiments/session/plan.h"
 #include "experiments/session/session_in_memory.h"
 
-// Blocks whose trials are mixed: each stays itself, and they take turns.
+// Tests blocks whose trials are mixed. Each keeps its own course, and they take turns.
 
 namespace jnd::experiments {
 namespace interleaved_session_test {
@@ -59,7 +59,7 @@ class InterleavedSessionTest : public ::testing::TestWithParam<const char*> {
   Session session(const std::vector<core::EventRow>& history = {}) {
     return Session({.session = 1, .seed = 42, .stages = stages_}, history, log_, clock_);
   }
-  /// In the group, before its first trial.
+  /// Returns a session in the group, before its first trial.
   Session begun() {
     Session s = session();
     s.start();
@@ -73,7 +73,7 @@ class InterleavedSessionTest : public ::testing::TestWithParam<const char*> {
     if (s.current_form().has_reference) present(s, "reference");
     present(s, "test");
   }
-  /// Of who says "thicker" of what is.
+  /// Answers as a person who says "thicker" if the stimulus is thicker.
   static void answer_trial(Session& s) {
     const TrialState& trial = s.state().trial(*s.state().current_trial());
     const double level = trial.planned.intensity.value();
@@ -87,7 +87,8 @@ class InterleavedSessionTest : public ::testing::TestWithParam<const char*> {
     answer_trial(s);
     if (s.open_question()) s.answer_question("sure", "yes");
   }
-  /// To the end of the session from wherever it is; the stages of the trials as they are run.
+  /// Runs to the end of the session. Returns the stages of the trials in the order in which
+  /// they are run.
   static std::vector<std::int64_t> run_on(Session& s) {
     std::vector<std::int64_t> turns;
     while (s.current_stage() != nullptr) {
@@ -101,7 +102,7 @@ class InterleavedSessionTest : public ::testing::TestWithParam<const char*> {
     }
     return turns;
   }
-  /// What was answered, block by block, in the order in which it was.
+  /// Returns what was answered, with its block, in the order of the answers.
   static std::vector<std::string> answered(const Session& s) {
     std::vector<std::pair<std::int64_t, std::string>> all;
     for (const TrialState& trial : s.state().trials) {
@@ -148,7 +149,7 @@ TEST_P(InterleavedSessionTest, MixesTheTrialsOfItsBlocksAndEachStaysItself) {
     EXPECT_EQ(row.block,
               stages_[static_cast<std::size_t>(s.state().trial(row.trial).stage)]->name);
   }
-  // Each block has the answers that it would have by itself.
+  // Each block has the answers that it would have alone.
   std::vector<double> levels;
   for (const AnsweredTrial& trial : s.state().answered_in(kAdaptive)) {
     levels.push_back(*trial.planned.intensity);
@@ -156,7 +157,7 @@ TEST_P(InterleavedSessionTest, MixesTheTrialsOfItsBlocksAndEachStaysItself) {
   const std::vector<double> alone = {30.0, 15.0, 7.5, 15.0, 7.5};
   ASSERT_EQ(levels.size(), alone.size());
   for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_NEAR(levels[i], alone[i], 1e-9) << i;
-  // The last events of the group: it was finished as one.
+  // The last events show that the group was finished as a whole.
   std::vector<std::int64_t> finished;
   for (const core::EventRow& row : log_.events) {
     if (row.kind == "stage_finished") finished.push_back(row.stage.value());
@@ -215,7 +216,7 @@ TEST_P(InterleavedSessionTest, ReplayingTheLogGivesTheSameTurn) {
 
 TEST_P(InterleavedSessionTest, AnAnswerIsTakenBackWhicheverBlockItIsOfAndTurnsStay) {
   Session s = begun();
-  std::vector<std::pair<std::int64_t, std::int64_t>> run;  // Stage and trial.
+  std::vector<std::pair<std::int64_t, std::int64_t>> run;  // Each pair is a stage and a trial.
   for (int i = 0; i < 9; ++i) {
     run.emplace_back(s.state().stage, *s.state().current_trial());
     run_trial(s);
@@ -227,7 +228,7 @@ TEST_P(InterleavedSessionTest, AnAnswerIsTakenBackWhicheverBlockItIsOfAndTurnsSt
     EXPECT_EQ(s.state().stage, run[static_cast<std::size_t>(i)].first) << i;
     EXPECT_EQ(s.state().current_trial(), run[static_cast<std::size_t>(i)].second) << i;
   }
-  // What waits of the blocks whose answers stand is not drawn anew.
+  // Waiting trials of blocks whose answers stay are not drawn again.
   int num_void = 0;
   for (const TrialState& trial : s.state().trials) num_void += trial.is_void ? 1 : 0;
   const auto num_adaptive = std::count_if(
@@ -284,7 +285,7 @@ TEST_P(InterleavedSessionTest, TheNextTurnIsDrawnAfterTheLastQuestion) {
 }
 
 TEST_P(InterleavedSessionTest, WhatIsPutOffComesWithALaterTurnOfItsBlock) {
-  // Whichever block it happens to, after however many answers.
+  // This holds for either block, after any number of answers.
   for (int num_before = 0; num_before < 13; ++num_before) {
     log_ = {};
     Session s = begun();

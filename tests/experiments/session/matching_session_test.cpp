@@ -11,7 +11,8 @@ class MatchingSession : public ::testing::Test {
     return Session({.session = 1, .seed = 42, .stages = {&stage_}}, history, log_, clock_);
   }
 
-  /// Standard, comparison, one step up, the standard again, the comparison, and it matches.
+  /// Presents the standard and the comparison, makes one step up, presents the standard and the
+  /// comparison again, and says that they match.
   static void match(Session& session) {
     session.start_trial(session.state().last_tick + 1);
     present(session, "reference");

@@ -16,7 +16,7 @@ class OrderStatisticsTest : public ::testing::Test {
                            .intensities = {4.0, 1.0, 2.0},
                            .repetitions = 2};
   }
-  /// One participant's two repetitions.
+  /// Returns one participant's two repetitions.
   [[nodiscard]] ParticipantPlan plan(const std::vector<double>& order) const {
     PlannedBlock block{.stage = &stage_, .num_trials = 6};
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -38,7 +38,7 @@ TEST_F(OrderStatisticsTest, CountPlacesAndFollowersByHand) {
   EXPECT_EQ(all[0].quantity, "scale");
   EXPECT_EQ(all[0].stimuli, (std::vector<double>{1, 2, 4}));
   EXPECT_EQ(all[0].at_place, (std::vector<std::vector<int>>{{2, 1, 1}, {1, 3, 0}, {1, 0, 3}}));
-  // Of 1, 2 and 4, how often 1, 2 and 4 come next.
+  // These counts say how often 1, 2 and 4 come after 1, 2 and 4.
   EXPECT_EQ(all[0].followed_by,
             (std::vector<std::vector<int>>{{0, 2, 1}, {2, 0, 2}, {1, 1, 1}}));
   EXPECT_EQ(places_range(all[0]).fewest, 0);

@@ -75,7 +75,7 @@ TEST(Plan, GoesOnWhereTheStudyFolderStands) {
   }
 }
 
-/// Sessions of these participants draw what was planned.
+/// Expects that sessions of these participants draw what was planned.
 void expect_orders_as_planned(const Study& study) {
   for (const auto& plan :
        plan_participants(study, {.participants = participants(4), .seed = 9})) {
@@ -115,7 +115,7 @@ TEST(Plan, ForetellsTheVeryOrdersThatTheSessionDraws) {
   expect_orders_as_planned(read_study_text(kStudy, "x"));
 }
 
-/// The estimation's stimuli in rows of a square.
+/// Returns a study in which the stimuli of the estimation come in rows of a square.
 std::string study_with_a_square() {
   const std::string repetitions = "\"repetitions\": 3,";
   std::string text = kStudy;
@@ -181,8 +181,8 @@ TEST(Plan, CountsCompletedSessionsAndNeitherPilotsNorDropOuts) {
 }
 
 TEST(Plan, AddsUpTheExpectedDuration) {
-  // 2 points of a checklist, 40 s of exploring, 9 trials of 20 s, 10 of 15 s, a break of 60 s
-  // and one thing afterwards.
+  // There are 2 points of a checklist, 40 s of exploring, 9 trials of 20 s, 10 of 15 s, a break
+  // of 60 s, and one item afterwards.
   const ExpectedTimes times;
   const Study study = read_study_text(kStudy, "x");
   const ParticipantPlan plan =
@@ -205,14 +205,16 @@ TEST(Plan, PutsEveryStimulusAgainstTheLimits) {
   };
   EXPECT_EQ(range.size(), 2u + 3u + 3u + 1u);
 
-  // Water, hand head on at 1 m/s: 6.585 N (thesis, B.4), four times that with scale 4.
+  // Water, with the hand head on at 1 m/s, takes 6.585 N (thesis, B.4), and four times that
+  // with scale 4.
   EXPECT_NEAR(entry("estimation", 1).total_force_n, 6.585, 1e-3);
   EXPECT_NEAR(entry("explore", 4).total_force_n, 4 * 6.58526, 1e-4);
   EXPECT_TRUE(entry("estimation", 4).fits);
-  // 10 N at the palm, which carries 35 %: 28.571 N in all, sqrt(28.571 / 26.341) m/s.
+  // 10 N at the palm, which bears 35 %, is 28.571 N in all, so the speed is sqrt(28.571 /
+  // 26.341) m/s.
   EXPECT_NEAR(entry("estimation", 4).fits_up_to_m_per_s.value(), 1.04147, 1e-4);
 
-  // 1.776 m * 16 Pa s * 1 m/s = 28.416 N fits by a hair, 30 Pa s does not.
+  // 1.776 m * 16 Pa s * 1 m/s = 28.416 N is just within the limits, and 30 Pa s is not.
   EXPECT_NEAR(entry("comparison", 16).total_force_n, 28.416, 1e-9);
   EXPECT_NEAR(entry("comparison", 16).largest_point_force_n, 9.9456, 1e-9);
   EXPECT_TRUE(entry("comparison", 16).fits);
@@ -246,7 +248,7 @@ TEST(Plan, PutsTheOtherMediaAgainstTheLimitsToo) {
               1e-9);
   EXPECT_NEAR(most(R"("medium": "water", "scale": 1, "buoyancy_n": 4)", "").total_force_n,
               6.58526 + 4.0, 1e-4);
-  // With lift the most is not felt head on: 7.4 hypot(1, 3) at 0.8 rad.
+  // With lift, the largest force is not head on: 7.4 hypot(1, 3) at 0.8 rad.
   EXPECT_NEAR(most(R"("medium": "water_map", "scale": 1)", R"({"force_map": [
       {"angle_of_attack_rad": 0, "speed_m_per_s": 1, "drag_coefficient": 1},
       {"angle_of_attack_rad": 0.785, "speed_m_per_s": 1, "drag_coefficient": 1, "lift_coefficient": 3},
@@ -269,7 +271,7 @@ TEST(Plan, FewerPointsHaveLargerShares) {
     EXPECT_EQ(found->fits, num_points == 5) << num_points;
     return found->largest_point_force_n;
   };
-  // 28.416 N in all, of which the palm's inner point carries .35 of what all points carry.
+  // The whole force is 28.416 N. The inner point of the palm bears .35 of what all points bear.
   EXPECT_NEAR(largest_n(5), 9.9456, 1e-9);
   EXPECT_NEAR(largest_n(3), 28.416 * 0.35 / 0.8, 1e-9);
   EXPECT_NEAR(largest_n(2), 14.208, 1e-9);

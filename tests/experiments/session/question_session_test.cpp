@@ -5,7 +5,7 @@
 #include "experiments/session/session_in_memory.h"
 #include "experiments/study/question_answer.h"
 
-// Questions that follow the answer to every trial of a block.
+// Tests questions that follow the answer to every trial of a block.
 
 namespace jnd::experiments {
 namespace question_session_test {

@@ -7,11 +7,11 @@
 #include "core/error.h"
 #include "experiments/session/session.h"
 
-// What a session needs around it that is played without a disk or a device.
+// What a session needs around it, without a disk and without a device.
 
 namespace jnd::experiments {
 
-/// Keeps what a session commits; can refuse it like a full disk.
+/// Keeps what a session commits, and can refuse it as a full disk does.
 class MemoryLog final : public EventLog {
  public:
   void append(const core::Commit& commit) override {
@@ -23,13 +23,14 @@ class MemoryLog final : public EventLog {
   }
 
   std::vector<core::Commit> commits;
-  std::vector<core::EventRow> events;  ///< Of the commits, as a session is resumed from them.
+  std::vector<core::EventRow> events;  ///< The events of the commits, from which a session is
+                                       ///< resumed.
   std::vector<core::DesignRow> design;
   std::vector<core::TrialRow> trials;
   bool refuses = false;
 };
 
-/// A whole presentation of 100 ticks, without strokes.
+/// Adds a whole presentation of 100 ticks, without strokes.
 inline void present(Session& session, const std::string& interval) {
   const std::int64_t tick = session.state().last_tick + 1;
   session.begin_presentation(interval, tick);

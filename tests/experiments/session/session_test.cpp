@@ -211,7 +211,8 @@ TEST_F(SessionTest, UndoReachesBackThroughTheTrialUnderWayButNotIntoAnotherBlock
   EXPECT_EQ(log_.commits.back().trial->block, "group_d");
 }
 
-/// Puts the first trial of the block off and answers the others; the numbers in their order.
+/// Postpones the first trial of the block and answers the others. Returns the numbers of the
+/// trials in the order in which they were run.
 std::vector<std::int64_t> order_with_first_put_off(Session& s) {
   std::vector<std::int64_t> order;
   s.start_trial(s.state().last_tick + 1);
@@ -231,7 +232,8 @@ std::vector<std::int64_t> order_with_first_put_off(Session& s) {
 
 TEST_F(SessionTest, APutOffTrialComesAgainAtAnyLaterPlaceAlike) {
   stages_ = {&comparison_};
-  std::vector<int> counts(7, 0);  // Of eight trials.
+  // There are eight trials, so the postponed one has seven later places.
+  std::vector<int> counts(7, 0);
   constexpr int kNumSessions = 700;
   for (std::uint64_t seed = 1; seed <= kNumSessions; ++seed) {
     log_ = {};
@@ -276,7 +278,7 @@ TEST_F(SessionTest, ATrialIsPutOffAgainAndItsAnswerTakenBackLikeAnyOther) {
     s.start_trial(s.state().last_tick + 1);
     const std::vector<std::int64_t> later = s.state().trials_after_current();
     s.put_off_attempt("fault: stale_sample");
-    // The last one has no later place.
+    // The last trial has no later place.
     EXPECT_EQ(*s.state().current_trial(), later.empty() ? 1 : later.front());
   }
   while (*s.state().current_trial() != 1) run_trial(s, 1.0);

@@ -61,7 +61,7 @@ class TaskSessionTest : public ::testing::Test {
     }
     s.answer(answer, {.response_time_s = 1.5}, s.state().last_tick);
   }
-  /// The right answer as a person gives it, or the other one.
+  /// Returns the right answer as a person gives it, or the other one.
   static double answer(const Session& s, bool right) {
     const PlannedTrial& trial = now(s);
     const bool more = *trial.intensity > *trial.reference_intensity;
@@ -69,7 +69,7 @@ class TaskSessionTest : public ::testing::Test {
     const int test = *trial.test_interval;
     return more == right ? test : 3 - test;
   }
-  /// As it was given.
+  /// Returns the interval that was answered.
   static double answer_in(const AnsweredTrial& trial) {
     const int test = *trial.planned.test_interval;
     return trial.response == 1.0 ? test : 3 - test;
@@ -91,7 +91,8 @@ class TaskSessionTest : public ::testing::Test {
       EXPECT_EQ(a[i].is_catch, b[i].is_catch) << i;
     }
   }
-  /// Cut anywhere and gone on with, the trials are those of an uninterrupted session.
+  /// Expects that a session that is interrupted at any event and resumed has the trials of an
+  /// uninterrupted one.
   void expect_resumes_anywhere(const std::string& keys) {
     Session whole = begun(keys);
     run_to_end(whole);
@@ -106,7 +107,7 @@ class TaskSessionTest : public ::testing::Test {
       expect_same(planned(s), planned(whole));
     }
   }
-  /// Restarted in the middle, it runs as one that was not disturbed.
+  /// Expects that a block that is restarted in the middle runs as an undisturbed one.
   void expect_restarts_the_same(const std::string& keys) {
     Session whole = begun(keys);
     run_to_end(whole);
@@ -312,7 +313,7 @@ TEST_F(TaskSessionTest, TakingTheLastAnswerBackGoesOnWithThePractice) {
   s.undo("wrong key");
   EXPECT_TRUE(s.state().current_trial());
   EXPECT_THROW(s.finish_stage(), core::Error);
-  // One wrong of four would still do, so two are taken back.
+  // One wrong answer of four would still pass, so two answers are taken back.
   s.undo("and the one before");
   run_trial(s, answer(s, false));
   ASSERT_TRUE(s.state().current_trial());

@@ -31,7 +31,8 @@ TEST(NearestWord, FindsTheKeyThatWasMeant) {
   const std::vector<std::string> keys = {"viscosity_pa_s", "reference_viscosity_pa_s", "scale"};
   EXPECT_EQ(nearest_word("viscosty_pa_s", keys), "viscosity_pa_s");
   EXPECT_EQ(nearest_word("sclae", keys), "scale");
-  EXPECT_EQ(nearest_word("sya", {"say"}), "say");  // A swap of neighbours is one mistake.
+  // A swap of two neighbours counts as one mistake.
+  EXPECT_EQ(nearest_word("sya", {"say"}), "say");
   EXPECT_EQ(nearest_word("brake", {"block", "break"}), "break");
 }
 
