@@ -10,8 +10,8 @@
 namespace jnd::core {
 namespace clock_comparison_test {
 
-/// Pairs of a device whose clock is so much faster, and whose measurements come here late by
-/// 0.2 ms and, half of the time, an exponential delay on top.
+/// Feeds pairs from a device whose clock is faster by `ppm`. Its measurements arrive late by
+/// 0.2 ms, and half of the time by an additional exponential delay.
 void feed(ClockComparison& clocks, double seconds, double ppm, double delay_s,
           std::int64_t device_begins_ns, RandomStream& random, double from_s = 0.0) {
   constexpr double kPeriodS = 0.001;

@@ -26,7 +26,7 @@ TEST(ClockCorrection, ADriftIsFollowedBeyondBothEnds) {
     const double time_s = 2.0 * i;
     offsets.push_back({time_s, 5.0 + 1e-4 * time_s, 1e-3});
   }
-  std::swap(offsets[3], offsets[90]);  // In any order.
+  std::swap(offsets[3], offsets[90]);  // The offsets may come in any order.
   const ClockCorrection correction(offsets);
   for (const double time_s : {-20.0, 0.0, 31.7, 150.0, 198.0, 220.0}) {
     EXPECT_NEAR(correction.offset_s(time_s), 5.0 + 1e-4 * time_s, 1e-9) << time_s;

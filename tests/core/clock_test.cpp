@@ -14,7 +14,7 @@ TEST(SimulatedClock, StandsStillUntilItIsMoved) {
 }
 
 TEST(SystemClock, CountsNanosecondsSince1970) {
-  // Between 2017 and 2100.
+  // The time is between 2017 and 2100.
   EXPECT_GT(SystemClock().now_ns(), 1'500'000'000'000'000'000LL);
   EXPECT_LT(SystemClock().now_ns(), 4'100'000'000'000'000'000LL);
 }

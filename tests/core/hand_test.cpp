@@ -17,7 +17,7 @@ PointVectors five_of(const Eigen::Vector3d& vector) {
   return {vector, vector, vector, vector, vector};
 }
 
-/// Palm and index span the plane x = 0.
+/// Returns a hand whose palm and index finger span the plane x = 0.
 PointVectors hand_in_the_yz_plane() {
   return {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, -0.06),
           Eigen::Vector3d(0, 0.05, 0.04), Eigen::Vector3d(0, 0.12, 0),

@@ -8,7 +8,7 @@ namespace jnd::core {
 namespace power_function_test {
 
 TEST(PowerFunction, GivesThePublishedMagnitudeOfWater) {
-  // Thesis, fig. 8: S = 0.6663 I^0.6386; worked by hand at I = 4.
+  // Thesis, fig. 8: S = 0.6663 I^0.6386, worked by hand at I = 4.
   const PowerFunction estimation{.k = 0.6663, .a = 0.6386};
   EXPECT_NEAR(estimation.magnitude(1.0), 0.6663, 1e-15);
   EXPECT_NEAR(estimation.magnitude(4.0), 0.6663 * std::exp(0.6386 * std::log(4.0)), 1e-12);

@@ -12,7 +12,7 @@
 namespace jnd::core {
 namespace random_stream_test {
 
-/// SplitMix64 as published by Vigna.
+/// SplitMix64 as Vigna published it.
 struct SplitMix64 {
   std::uint64_t state;
   std::uint64_t next() {
@@ -24,7 +24,7 @@ struct SplitMix64 {
 };
 
 TEST(RandomStream, IsSplitMix64StartedFromTheHashOfItsKey) {
-  // The published first outputs for the state 1234567.
+  // These are the published first outputs for the state 1234567.
   SplitMix64 published{1234567};
   EXPECT_EQ(published.next(), 6457827717110365317ULL);
   EXPECT_EQ(published.next(), 3203168211198807973ULL);
@@ -57,7 +57,7 @@ TEST(RandomStream, EveryPartOfTheKeyCounts) {
       }
     }
   }
-  // A letter is not an index.
+  // A letter must not have the same effect as an index.
   seeds.insert(derived_seed(0, "a", {98}));
   EXPECT_EQ(static_cast<int>(seeds.size()), num_keys + 1);
 }
@@ -71,7 +71,8 @@ TEST(RandomStream, UniformNumbersFillTheHalfOpenInterval) {
     ASSERT_LT(x, 1.0);
     ++bins[static_cast<std::size_t>(x * 10.0)];
   }
-  for (const int count : bins) EXPECT_NEAR(count, 10'000, 400);  // Four standard deviations.
+  // The tolerance is four standard deviations.
+  for (const int count : bins) EXPECT_NEAR(count, 10'000, 400);
   for (int i = 0; i < 1000; ++i) {
     const double x = stream.uniform(-2.0, 3.0);
     EXPECT_GE(x, -2.0);

@@ -26,7 +26,7 @@ using Listens = ControlReader::Listens;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// A folder of input devices, each of them a pipe.
+/// Makes a folder of input devices, each of which is a pipe.
 class ControlReaderTest : public ::testing::Test {
  protected:
   ~ControlReaderTest() override { reader_.reset(); }
@@ -55,7 +55,7 @@ class ControlReaderTest : public ::testing::Test {
         .on_change = [this] { ++num_changes_; }});
   }
   [[nodiscard]] fs::path folder() const { return temporary_.path(); }
-  /// A device that shows up as this file.
+  /// Plugs in a device that appears as this file.
   PipedDevice& plug_in(const std::string& file, const std::string& name) {
     auto device = std::make_unique<PipedDevice>(name);
     PipedDevice& plugged = *device;
@@ -121,9 +121,9 @@ TEST_F(ControlReaderTest, ListensToWhatIsMappedAloneAndTakesItForItself) {
 TEST_F(ControlReaderTest, WhoMapsHearsAllAndTakesNothingThatIsNotMapped) {
   PipedDevice& pedal = plug_in("event0", "pedal");
   plug_in("event1", "keyboard").is_keyboard = true;
-  devices_["event2"] = nullptr;  // A mouse.
+  devices_["event2"] = nullptr;  // This device is a mouse.
   std::ofstream(folder() / "event2") << "";
-  std::ofstream(folder() / "event3") << "";  // Of somebody else.
+  std::ofstream(folder() / "event3") << "";  // This device belongs to somebody else.
   std::ofstream(folder() / "mouse0") << "";
   begin();
   listen(Listens::kToAll);
@@ -134,7 +134,8 @@ TEST_F(ControlReaderTest, WhoMapsHearsAllAndTakesNothingThatIsNotMapped) {
   EXPECT_FALSE(devices[0].is_mapped || devices[0].is_keyboard);
   EXPECT_TRUE(devices[1].is_keyboard);
   EXPECT_NE(devices[2].problem.find("not allowed"), std::string::npos);
-  // Pressed to be mapped: a key that others saw go down, they see come up, too.
+  // The key was pressed to be mapped. Other programs saw it go down, so they must also see it
+  // come up.
   pedal.key(KEY_B, true);
   ASSERT_TRUE(comes_about([&] { return events().size() == 1; }));
   listen(Listens::kToAll, map_of("pedal"));
@@ -158,7 +159,7 @@ TEST_F(ControlReaderTest, ADeviceThatIsPluggedInLaterIsThere) {
   ASSERT_TRUE(comes_about([&] { return events().size() == 1; }));
 }
 
-// udev gives the rights a moment after the kernel has made the file.
+// udev grants the rights a moment after the kernel has made the file.
 TEST_F(ControlReaderTest, ADeviceWhoseRightsComeLaterIsOpenedThen) {
   std::ofstream(folder() / "event0") << "";
   begin();
@@ -188,7 +189,7 @@ TEST_F(ControlReaderTest, AMappedDeviceThatIsPulledIsToldOnceAndComesBack) {
   EXPECT_TRUE(comes_about([&] { return again.is_ours.load(); }));
 }
 
-// The time of a press is the kernel's; when it was read does not count.
+// The kernel's time of a press counts, and not the time at which it was read.
 TEST_F(ControlReaderTest, APressKeepsItsOwnTimeHoweverLateItIsRead) {
   PipedDevice& pedal = plug_in("event0", "pedal");
   begin();

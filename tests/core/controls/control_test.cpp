@@ -30,7 +30,7 @@ TEST(ControlMap, HasOneControlForAnActionAndOneActionForAControl) {
   EXPECT_EQ(*map.control_of("second"), kOtherPedal);
   EXPECT_TRUE(map.names(kPedal.device));
   EXPECT_FALSE(map.names(kPad.device));
-  map.set("stop", kPedal);  // What it did before, it does no more.
+  map.set("stop", kPedal);  // The pedal no longer does what it did before.
   EXPECT_EQ(map.control_of("first"), nullptr);
   map.set("stop", kPad);
   EXPECT_EQ(map.action_of(kPedal), "");

@@ -41,7 +41,8 @@ using test_support::comes_about;
 
 constexpr char kPreloaded[] = "JND_UMOCKDEV_IS_PRELOADED";
 
-/// Preloads umockdev, which cannot come later; the test then runs in the program it becomes.
+/// Returns whether umockdev is preloaded, which must happen at the start of a program. The test
+/// then runs in the program that it turns into.
 bool is_preloaded() { return std::getenv(kPreloaded) != nullptr; }
 
 int run_preloaded(const char* name) {
@@ -56,7 +57,7 @@ int run_preloaded(const char* name) {
                          .c_str());
 }
 
-/// The kernel's side of a pedal: what it is asked and what it says.
+/// The kernel's side of a pedal: what it is asked and what it reports.
 class MockedPedal {
  public:
   MockedPedal(std::vector<unsigned> keys, bool is_mouse)
@@ -101,7 +102,7 @@ class MockedPedal {
     UMockdevIoctlData* arg = umockdev_ioctl_client_get_arg(client);
     if (_IOC_TYPE(request) != 'E') return umockdev_ioctl_client_complete(client, -1, ENOTTY);
     if (request == EVIOCGRAB) {
-      // The number itself is the argument, not where it stands.
+      // The argument is the number itself, and not its address.
       guint8* bytes = nullptr;
       gint count = 0;
       umockdev_ioctl_data_retrieve(arg, &bytes, &count);
@@ -179,7 +180,7 @@ TEST(EvdevDevice, IsOpenedByItsNameWithTheMonotonicClockAndTakenOnlyWhenAsked) {
   EXPECT_FALSE(source->is_keyboard());
   EXPECT_EQ(pedal.clock, CLOCK_MONOTONIC);
   EXPECT_EQ(pedal.grab, -1) << "whoever only listens takes nothing";
-  // Down for a second.
+  // The pedal is held down for a second.
   pedal.press(
       "E: 0.000000 0001 0030 1\nE: 0.000000 0000 0000 0\n"
       "E: 1.000000 0001 0030 0\nE: 1.000000 0000 0000 0\n");

@@ -13,7 +13,7 @@
 namespace jnd::core {
 namespace input_events_test {
 
-/// What comes of these events, in words: "+KEY_B", "-KEY_B".
+/// Returns the events that result, in words: "+KEY_B", "-KEY_B".
 std::string told(InputEvents& events, const std::vector<input_event>& written) {
   std::string words;
   for (const ControlEvent& event : events.take(std::as_bytes(std::span(written)))) {
@@ -42,7 +42,8 @@ TEST(InputEvents, TellsPressesWithTheKernelsTime) {
   EXPECT_EQ(told[1].monotonic_ns, 5'100'456'000);
 }
 
-// A held key goes on; a pedal that bounces in its own report is told as it is.
+// A held key repeats, which is no press. A pedal that bounces within its own report is reported
+// as it is.
 TEST(InputEvents, ARepeatIsNoPress) {
   InputEvents events("a pedal");
   EXPECT_EQ(told(events, {one(EV_KEY, KEY_B, 1), one(EV_KEY, KEY_B, 2), one(EV_KEY, KEY_B, 2),
@@ -71,7 +72,7 @@ TEST(InputEvents, AnEventThatComesInPiecesIsOne) {
   EXPECT_TRUE(events.any_down());
 }
 
-// Nobody knows what was let go meanwhile: a stop that is held counts as let go.
+// Nobody knows what was released meanwhile, so a key that is held counts as released.
 TEST(InputEvents, WhatWasDownIsLetGoWhereTheKernelDroppedEvents) {
   InputEvents events("a pedal");
   EXPECT_EQ(

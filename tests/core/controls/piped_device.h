@@ -35,7 +35,7 @@ inline input_event test_event(unsigned type, unsigned code, int value, std::int6
   return event;
 }
 
-/// An input device whose kernel is the test: what is written into one end of a pipe is read
+/// An input device whose kernel is the test. What is written into one end of a pipe is read
 /// from the other, as `struct input_event`.
 class PipedDevice {
  public:
@@ -47,7 +47,8 @@ class PipedDevice {
   PipedDevice(const PipedDevice&) = delete;
   PipedDevice& operator=(const PipedDevice&) = delete;
 
-  /// Pressed or let go at this time of CLOCK_MONOTONIC, with the report that ends it.
+  /// Presses or releases a key at this time of CLOCK_MONOTONIC, and sends the report that ends
+  /// it.
   void key(unsigned code, bool is_down, std::int64_t time_ns = test_clock_ns()) {
     write(test_event(EV_KEY, code, is_down ? 1 : 0, time_ns));
     write(test_event(EV_SYN, SYN_REPORT, 0, time_ns));

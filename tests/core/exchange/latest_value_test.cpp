@@ -42,7 +42,7 @@ TEST(LatestValue, AReaderNeverSeesHalfAValueNorAnOlderOne) {
   std::atomic<bool> enough{false};
   std::atomic<std::uint64_t> last_published{0};
   std::thread writer([&] {
-    // Long enough for both to run at once, even on a busy machine.
+    // This takes long enough for both threads to run at once, even on a busy machine.
     Wide wide;
     std::uint64_t i = 0;
     while (!enough && i < 3'000'000) {
@@ -63,8 +63,8 @@ TEST(LatestValue, AReaderNeverSeesHalfAValueNorAnOlderOne) {
     const Wide& wide = latest.value();
     const std::uint64_t first_look = wide.copies[0];
     if (++num_fetched >= 20'000) enough = true;
-    // A reader so slow that the writer overtakes it many times while it looks, on a machine
-    // with one free core, too.
+    // The reader is so slow that the writer overtakes it many times while it looks, even on a
+    // machine with one free core.
     std::this_thread::yield();
     for (const std::uint64_t copy : wide.copies) torn += copy != first_look ? 1 : 0;
     older += wide.copies[0] <= last ? 1 : 0;

@@ -70,7 +70,7 @@ TEST(SpscQueue, UnderTwoThreadsEverythingArrivesOrIsCounted) {
   };
   int num_empty = 0;
   while (num_arrived + queue.num_dropped() < kNumPushed) {
-    // Pounces on a new value, but leaves a single core to the writer in the end.
+    // The reader takes a new value at once, but finally leaves a single core to the writer.
     num_empty = queue.drain(visit) == 0 ? num_empty + 1 : 0;
     if (num_empty > 1000) std::this_thread::yield();
   }

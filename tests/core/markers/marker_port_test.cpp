@@ -33,7 +33,7 @@ std::string refusal_of(const WantedMarkers& wanted) {
 TEST(MarkerPort, ABytePortSendsTheCodeAndZeroAtItsEnd) {
   const PseudoTerminal terminal;
   const auto port = open_marker_port({.port = terminal.path()});
-  port->set(10);  // A line feed, a carriage return, XOFF and a delete: bytes as they are.
+  port->set(10);  // A line feed, a carriage return, XOFF and a delete must pass as plain bytes.
   port->clear();
   port->set(13);
   port->set(19);

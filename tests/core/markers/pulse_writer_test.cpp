@@ -22,11 +22,12 @@ double clock_s() {
       .count();
 }
 
-/// What a parallel port, or any other, was told: codes with their times, 0 for an end.
+/// What a port was told: codes with their times, where 0 ends a pulse.
 struct Told {
   std::mutex mutex;
   std::vector<std::pair<int, double>> codes;
-  std::atomic<int> fails_after{1000};  ///< So many pulses are written.
+  std::atomic<int> fails_after{1000};  ///< The number of pulses that are written before the
+                                       ///< port fails.
 
   [[nodiscard]] std::vector<std::pair<int, double>> all() {
     const std::lock_guard guard(mutex);
@@ -126,7 +127,7 @@ TEST(PulseWriter, APortThatFailsLaterKeepsWhatWasWrittenBefore) {
   EXPECT_EQ(writer.num_dropped(), 4);
 }
 
-// The session's thread sends, and must not wait for a port that hangs.
+// The session's thread sends the pulses and must not wait for a port that hangs.
 TEST(PulseWriter, WhoSendsWaitsForNobody) {
   std::atomic<bool> may_open{false};
   Told told;

@@ -61,8 +61,8 @@ TEST(EllipsoidDrag, OfAThinDiscIsThePublishedLimit) {
 }
 
 TEST(EllipsoidDrag, HasPerrinsShapeFactor) {
-  // Perrin (1936): relative to the sphere of the same volume, over all orientations,
-  // F = sqrt(1 - q^2) / (q^(2/3) ln((1 + sqrt(1 - q^2)) / q)), q = minor / major.
+  // Perrin (1936): relative to the sphere of the same volume, over all orientations, F = sqrt(1
+  // - q^2) / (q^(2/3) ln((1 + sqrt(1 - q^2)) / q)), q = minor / major.
   for (const double ratio : {2.0, 5.0, 10.0}) {
     const double q = 1.0 / ratio;
     const double root = std::sqrt(1.0 - q * q);
@@ -77,7 +77,7 @@ TEST(EllipsoidDrag, AFlatHandIsEasiestAlongItsFingersAndHardestHeadOn) {
   const auto k = EllipsoidDrag({.viscosity_pa_s = 1.0}).damping_n_s_per_m();
   EXPECT_LT(k[0], k[1]);
   EXPECT_LT(k[1], k[2]);
-  // All between the spheres inside and outside of it.
+  // All values lie between those of the spheres inside and outside of the ellipsoid.
   EXPECT_GT(k[0], 6.0 * kPi * 0.014);
   EXPECT_LT(k[2], 6.0 * kPi * 0.10);
 }

@@ -17,7 +17,7 @@ namespace fluid_force_test {
 constexpr double kRightAngle = std::numbers::pi / 2.0;
 constexpr std::uint8_t kAllImmersed = 0b11111;
 
-/// A plate's: C_L = sin 2 alpha, C_D = 1.
+/// Returns the map of a plate with C_L = sin 2 alpha and C_D = 1.
 ForceMap plate() {
   std::vector<ForceMap::Row> rows;
   for (int i = 0; i <= 90; ++i) {
@@ -27,7 +27,8 @@ ForceMap plate() {
   return ForceMap(rows);
 }
 
-/// Fingers along y, hand plane's normal along x; 10 cm deep.
+/// Returns a moving hand 10 cm deep, with the fingers along y and the normal of the hand plane
+/// along x.
 HapticState hand_moving(const Eigen::Vector3d& velocity_m_per_s) {
   HapticState state;
   state.tip_position_m = {Eigen::Vector3d(0, -0.061, -0.1), Eigen::Vector3d(0, -0.061, -0.16),
@@ -113,13 +114,13 @@ TEST(Lift, IsAtRightAnglesToThePointsMotion) {
 }
 
 TEST(Lift, OfAHandAtFortyFiveDegreesIsWorkedByHand) {
-  // v = (1, 0, 1)/sqrt 2: half of it along the normal. The plate is driven back from where it
-  // meets the fluid, so to -x, and at right angles to v: along (-1, 0, 1).
+  // v = (1, 0, 1)/sqrt 2, half of which is along the normal. The plate is driven away from
+  // where it meets the fluid, so to -x, and at right angles to v: along (-1, 0, 1).
   const ForceMap map = plate();
   const HapticState state = hand_moving(Eigen::Vector3d(1.0, 0.0, 1.0) / std::sqrt(2.0));
   const Eigen::Vector3d force = total(force_of({.lift_kg_per_m = 7.4}, state, &map));
   EXPECT_LT((force - 7.4 * Eigen::Vector3d(-1.0, 0.0, 1.0) / std::sqrt(2.0)).norm(), 1e-9);
-  // The plane's normal has no sign, and neither does the lift.
+  // The plane's normal has no sign, so the lift must not depend on it.
   HapticState mirrored = state;
   std::swap(mirrored.tip_position_m[0], mirrored.tip_position_m[1]);
   mirrored.tip_position_m[3].z() = mirrored.tip_position_m[0].z();
@@ -213,7 +214,8 @@ TEST(Buoyancy, LiftsTheImmersedPointsAndGrowsFromTheSurface) {
 }
 
 TEST(Buoyancy, GivesBackNoMoreThanTheHandPutIn) {
-  // A hand that begins 20 cm deep is not driven up; pushed down and let up, it gets that back.
+  // A hand that begins 20 cm deep is not driven up. If it is pushed down and released, it gets
+  // back this energy.
   PassivityController passivity({}, 0.001);
   HapticState state = hand_moving(Eigen::Vector3d::Zero());
   double given_j = 0.0;

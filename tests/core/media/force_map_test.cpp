@@ -19,7 +19,7 @@ constexpr double kRightAngle = std::numbers::pi / 2.0;
 
 double thesis_fit(double angle) { return 0.5794 - 0.3105 * std::cos(2.0 * angle); }
 
-/// Every 5 degrees, as the shipped one.
+/// Returns a map with a row every 5 degrees, as in the shipped one.
 ForceMap thesis_map() {
   std::vector<ForceMap::Row> rows;
   for (int i = 0; i <= 18; ++i) {
@@ -73,7 +73,7 @@ TEST(ForceMap, DragIsFlatWhereItIsEven) {
   EXPECT_NEAR((map.at(1e-4, 1.0).drag - map.at(0.0, 1.0).drag) / 1e-4, 0.0, 1e-3);
   EXPECT_NEAR((map.at(kRightAngle, 1.0).drag - map.at(kRightAngle - 1e-4, 1.0).drag) / 1e-4,
               0.0, 1e-3);
-  // A map that ends before them goes on as it came.
+  // A map that ends before these angles keeps its slope up to its ends.
   const ForceMap part({{0.3, 1.0, 0.2, 0.0}, {0.5, 1.0, 0.4, 0.0}});
   EXPECT_NEAR(part.at(0.4, 1.0).drag, 0.3, 1e-12);
   EXPECT_NEAR(part.at(0.35, 1.0).drag, 0.25, 1e-12);

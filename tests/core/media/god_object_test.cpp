@@ -15,7 +15,7 @@ namespace god_object_test {
 constexpr double kPeriodS = 0.001;
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 
-/// A point on the plane z = 0 that begins just above it.
+/// A point that begins just above the plane z = 0.
 struct Touch {
   explicit Touch(const SolidParameters& parameters) : amounts(solid_amounts(parameters)) {
     (void)at({0.0, 0.0, 0.001}, Eigen::Vector3d::Zero());
@@ -47,10 +47,10 @@ TEST(GodObject, WithoutFrictionItOnlyPushesOutward) {
 TEST(GodObject, SticksWithinTheFrictionAndSlidesBeyondIt) {
   Touch touch({.stiffness_n_per_m = 1000.0, .friction_ratio = 0.5});
   EXPECT_NEAR(touch.at({0.0, 0.0, -0.004}).z(), 4.0, 1e-12);
-  // 1 mm aside: 1 N of at most 2 N, and back again without a trace.
+  // 1 mm aside, friction gives 1 N of at most 2 N, and on the way back it leaves no trace.
   EXPECT_NEAR(touch.at({0.001, 0.0, -0.004}).x(), -1.0, 1e-12);
   EXPECT_NEAR(touch.at({0.0, 0.0, -0.004}).x(), 0.0, 1e-12);
-  // 10 mm aside: it has slid to 2 mm behind the point.
+  // 10 mm aside, the surface point has slid to 2 mm behind the point.
   EXPECT_NEAR(touch.at({0.010, 0.0, -0.004}).x(), -2.0, 1e-12);
   EXPECT_NEAR(touch.at({0.008, 0.0, -0.004}).x(), 0.0, 1e-12);
   EXPECT_NEAR(touch.at({0.006, 0.0, -0.004}).x(), 2.0, 1e-12);
@@ -104,7 +104,7 @@ TEST(GodObject, APointThatBeginsInsideIsPushedOutGently) {
   for (int tick = 0; tick < 1000; ++tick) {
     const double force =
         point.force_n(amounts, kUp, 0.02, inside, Eigen::Vector3d::Zero(), kPeriodS).z();
-    // 5 cm/s of 1000 N/m.
+    // 5 cm/s into 1000 N/m is 0.05 N in each millisecond.
     ASSERT_LE(force - last, 0.05 + 1e-9);
     ASSERT_GE(force, last - 1e-12);
     last = force;
@@ -142,7 +142,8 @@ TEST(GodObject, OnTheWayOutItKeepsWhatItHasSunk) {
   };
   (void)at_depth(0.02);
   (void)at_depth(0.005);
-  // It came out by itself: pressed in again, the surface is where it got to.
+  // The point came out by itself. When it is pressed in again, the surface is where the point
+  // had got to.
   EXPECT_NEAR(at_depth(0.010), 5.0, 0.11);
 }
 

@@ -18,7 +18,8 @@ TEST(Immersion, TheInfiniteSurfaceAsksForTheHeightAlone) {
 TEST(Immersion, ACylinderIsRoundAndHasABottom) {
   const Immersion immersion{.radius_m = 0.1, .depth_m = 0.2};
   EXPECT_TRUE(immersion.contains({0.07, 0.07, -0.1}));
-  // Inside the square that the thesis tests, outside the cylinder it describes.
+  // This point is inside the square that the thesis tests, and outside the cylinder that it
+  // describes.
   EXPECT_FALSE(immersion.contains({0.08, 0.08, -0.1}));
   EXPECT_TRUE(immersion.contains({0.0, 0.0, -0.199}));
   EXPECT_FALSE(immersion.contains({0.0, 0.0, -0.2}));

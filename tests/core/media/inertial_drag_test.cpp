@@ -28,7 +28,8 @@ TEST(InertialDrag, IsTheDragEquationWithSchillerAndNaumannsCoefficient) {
 }
 
 TEST(InertialDrag, AtAReynoldsNumberOfOneItAddsFifteenPercent) {
-  // 100 v / mu = 1 at 0.1 m/s in 10 Pa s; creeping flow alone: 17.76 N s/m, 1.776 N.
+  // 100 v / mu = 1 at 0.1 m/s in 10 Pa s. Creeping flow alone gives 17.76 N s/m, which is 1.776
+  // N.
   const InertialDrag drag({.viscosity_pa_s = 10.0});
   EXPECT_NEAR(drag_n(drag, 0.1), 1.15 * 1.776, 1e-12);
 }

@@ -49,7 +49,7 @@ TEST(MediumRamp, StartsInFreeSpaceAndHasArrived) {
   EXPECT_EQ(ramp.advance(0.001).damping_n_s_per_m, 0.0);
 }
 
-/// Every amount another number.
+/// Returns amounts that are all different.
 MediumAmounts all_different(double scale = 1.0) {
   MediumAmounts amounts;
   double value = 0.0;
@@ -69,7 +69,7 @@ TEST(MediumRamp, IsAStraightLineInEveryAmountAndEndsExactly) {
     }
   }
   ramp.advance(0.001);
-  ramp.advance(0.001);  // Rounding may leave a hair of the ramp to the 51st tick.
+  ramp.advance(0.001);  // Rounding may leave a very small part of the ramp to the 51st tick.
   EXPECT_TRUE(ramp.finished());
   for (const auto amount : kAmounts) EXPECT_EQ(ramp.current().*amount, target.*amount);
 }

@@ -13,7 +13,7 @@ namespace solid_surfaces_test {
 constexpr double kPeriodS = 0.001;
 const Immersion kBucket{.radius_m = 0.15, .depth_m = 0.30};
 
-/// All five points in one place, in a bucket or on a plane of 1000 N/m.
+/// A hand with all five points in one place, in a bucket or on a plane of 1000 N/m.
 struct Hand {
   PointVectors at(const Eigen::Vector3d& position_m, const Immersion& immersion = kBucket) {
     state.tip_position_m.fill(position_m);

@@ -12,18 +12,18 @@ namespace jnd::core {
 namespace water_drag_test {
 
 TEST(WaterDrag, HeadOnAtOneMetrePerSecondIsTheForceOfTheThesis) {
-  // Thesis, sec. 4.1: 6.585 N; 7.4 * 0.8899 worked by hand.
+  // Thesis, sec. 4.1: 6.585 N, which is 7.4 * 0.8899 worked by hand.
   EXPECT_NEAR(WaterDrag({}).drag_n(1.0, 1.0), 6.58526, 1e-12);
 }
 
 TEST(WaterDrag, EdgeOnItIsTheSmallestForce) {
-  // 7.4 * (0.5794 - 0.3105).
+  // The force is 7.4 * (0.5794 - 0.3105).
   EXPECT_NEAR(WaterDrag({}).drag_n(1.0, 0.0), 1.98986, 1e-12);
 }
 
 TEST(WaterDrag, TheCoefficientIsTheCosineOfTwiceTheAngle) {
   for (double angle = 0.0; angle <= std::numbers::pi; angle += 0.01) {
-    // Thesis, eq. B.4; and B.5 with its sign put right.
+    // Thesis, eq. B.4, and eq. B.5 with the correct sign.
     const double expected = 0.5794 - 0.3105 * std::cos(2.0 * angle);
     const double sine = std::sin(angle);
     EXPECT_NEAR(WaterDrag::drag_coefficient(sine), expected, 1e-15);

@@ -33,7 +33,7 @@ TEST(ForceDistribution, AHandMovingAsOneGetsTheWholeDragAgainstItsMotion) {
   for (const Eigen::Vector3d& point : force) sum += point;
   EXPECT_NEAR(sum.x(), -6.0, 1e-12);
   EXPECT_NEAR(sum.y(), -8.0, 1e-12);
-  // 0.35 of 10 N at the palm, 0.1 at the thumb.
+  // The palm gets 0.35 and the thumb 0.1 of 10 N.
   EXPECT_NEAR(force[0].norm(), 3.5, 1e-12);
   EXPECT_NEAR(force[2].norm(), 1.0, 1e-12);
 }
@@ -66,7 +66,7 @@ TEST(ForceDistribution, TakesEnergyFromEveryPointAndNeverGivesAny) {
   for (int trial = 0; trial < 2000; ++trial) {
     HapticState state;
     for (int i = 0; i < kNumContactPoints; ++i) {
-      // From far below the fading speed to far above it.
+      // The speeds go from far below the fading speed to far above it.
       const double scale = std::pow(10.0, random.uniform(-9.0, 1.0));
       state.tip_velocity_m_per_s[i] =
           scale * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
@@ -84,11 +84,11 @@ TEST(ForceDistribution, IsContinuousWhereOneTipTurnsWhileTheHandMovesOn) {
   HapticState state = moving({0.4, 0.0, 0.0});
   Eigen::Vector3d last;
   bool first = true;
-  // The tip's velocity passes through zero in steps of 0.1 mm/s.
+  // The velocity of the tip passes through zero in steps of 0.1 mm/s.
   for (double velocity = -0.02; velocity <= 0.02; velocity += 0.0001) {
     state.tip_velocity_m_per_s[3] = {velocity, 0.0, 0.0};
     const Eigen::Vector3d force = distributed(20.0, state)[3];
-    // 2 N fade over 5 mm/s: no more than 0.04 N a step. Without the fade it would jump by 4 N.
+    // 2 N fade over 5 mm/s, so a step is no more than 0.04 N. Without the fade it would be 4 N.
     if (!first) {
       EXPECT_LE((force - last).norm(), 0.0401) << velocity;
     }

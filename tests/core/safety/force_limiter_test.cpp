@@ -22,7 +22,7 @@ PointVectors five_of(const Eigen::Vector3d& vector) {
 
 ForceLimiter limiter() { return {ForceLimiter::Parameters{}, kPeriodS}; }
 
-/// One with a slew so high that it does not matter.
+/// Returns a limiter whose slew is so high that it has no effect.
 ForceLimiter without_slew() { return {{.slew_n_per_s = 1e9}, kPeriodS}; }
 
 double sum_of_magnitudes(const PointVectors& forces) {
@@ -52,7 +52,7 @@ TEST(ForceLimiter, ScalesAllPointsTogetherWhenTheSumIsTooMuch) {
   PointVectors force = five_of({0.0, 0.0, 8.0});
   force[4] = {4.0, 0.0, 0.0};
   EXPECT_TRUE(limit.limit(kAllAttached, five_of({0, 0, 0}), force));
-  // 36 N in all, so every force becomes 30/36 of itself.
+  // The whole force is 36 N, so every force becomes 30/36 of itself.
   EXPECT_NEAR(force[0].z(), 8.0 * 30.0 / 36.0, 1e-12);
   EXPECT_NEAR(force[4].x(), 4.0 * 30.0 / 36.0, 1e-12);
 }
@@ -121,7 +121,7 @@ TEST(ForceLimiter, AVelocityThatIsNoNumberOrTooHighIsALatchedFault) {
   }
 }
 
-/// Anything a device or a bug may come up with.
+/// Returns any number that a device or an error in the program may produce.
 double wild_number(RandomStream& random) {
   switch (random.below(16)) {
     case 0:

@@ -14,7 +14,7 @@ HapticState held() {
   return state;
 }
 
-/// A hand that is pushed along: 1 N at each point, for `num_mm`.
+/// Pushes a hand along by `num_mm` with 1 N at each point. Returns the fault.
 Fault push(Guards& guards, int num_mm) {
   HapticState state = held();
   state.acted_n.fill({1.0, 0.0, 0.0});
@@ -42,7 +42,8 @@ TEST(Guards, AreTheFaultsThatJudge) {
 }
 
 TEST(Guards, WarnHalfWayToAFault) {
-  // 20 mJ of a point are the bound; what is given is forgotten by 0.4 % a millisecond.
+  // The bound is 20 mJ at a point, and 0.4 % of the given energy is forgotten in each
+  // millisecond.
   Guards guards({}, 0.001);
   EXPECT_EQ(push(guards, 9), Fault::kNone);
   EXPECT_EQ(guards.warning(), Fault::kNone);
@@ -89,7 +90,7 @@ TEST(Guards, SwingsWarnBeforeTheyAreTooMany) {
 TEST(Guards, AVelocityThatIsOffWarnsBeforeItIsAFault) {
   Guards guards({}, 0.001);
   HapticState state = held();
-  state.tip_velocity_m_per_s.fill({0.4, 0.0, 0.0});  // And stands still.
+  state.tip_velocity_m_per_s.fill({0.4, 0.0, 0.0});  // The positions stand still meanwhile.
   Fault found = Fault::kNone;
   int num_warned = 0;
   for (int tick = 0; tick < 200 && found == Fault::kNone; ++tick) {

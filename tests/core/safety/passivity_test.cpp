@@ -19,7 +19,7 @@ PointVectors five_of(const Eigen::Vector3d& vector) {
   return {vector, vector, vector, vector, vector};
 }
 
-/// Upward, of a flat surface at this depth.
+/// Returns the upward force of a flat surface at this depth.
 double surface_n(double stiffness_n_per_m, double damping_n_s_per_m, double depth_m,
                  double velocity_m_per_s) {
   GodObject point;
@@ -39,7 +39,7 @@ TEST(PassivityController, ChangesNothingAboutDragWhateverTheMotion) {
   for (int tick = 0; tick < 20'000; ++tick) {
     const Eigen::Vector3d velocity(random.normal(), random.normal(), random.normal());
     position += kPeriodS * velocity;
-    // Quadratic and linear drag, with damping that jumps about like a ramp gone wild.
+    // The drag is quadratic and linear, and its damping jumps at random.
     const PointVectors drag =
         five_of(-(random.uniform(0.0, 60.0) + 7.0 * velocity.norm()) * velocity);
     PointVectors force = drag;
@@ -54,7 +54,7 @@ TEST(PassivityController, CountsTheEnergyThatWasReallyPutIn) {
   PointVectors force = five_of({-2.0, 0.0, 0.0});
   passivity.control(five_of({0.0, 0.0, 0.0}), five_of({1.0, 0.0, 0.0}), force);
   passivity.sent(force);
-  // 2 N over 3 mm.
+  // The energy is that of 2 N over 3 mm.
   passivity.control(five_of({0.003, 0.0, 0.0}), five_of({1.0, 0.0, 0.0}), force);
   EXPECT_NEAR(passivity.credit_j(ContactPoint::kThumb), 0.006, 1e-15);
 }
@@ -67,13 +67,13 @@ TEST(PassivityController, ForgetsItsCreditWhenReset) {
   passivity.control(five_of({0.003, 0.0, 0.0}), five_of({1.0, 0.0, 0.0}), force);
   passivity.reset();
   EXPECT_EQ(passivity.credit_j(ContactPoint::kThumb), 0.0);
-  // Nor does it count the way from before: 1 m here.
+  // It does not count the earlier way of 1 m either.
   passivity.control(five_of({1.0, 0.0, 0.0}), five_of({1.0, 0.0, 0.0}), force);
   EXPECT_EQ(passivity.credit_j(ContactPoint::kThumb), 0.0);
 }
 
 TEST(PassivityController, GivesBackNoMoreThanWasPutIn) {
-  // A surface that pushes back twice as hard as it was pressed: an active one.
+  // The surface pushes back twice as hard as it was pressed, so it is active.
   PassivityController passivity = controller();
   double put_in_j = 0.0;
   double lowest_j = 0.0;
@@ -90,14 +90,14 @@ TEST(PassivityController, GivesBackNoMoreThanWasPutIn) {
     PointVectors force = five_of({0.0, 0.0, surface_n(stiffness, 0.0, -z, velocity)});
     const double wanted = force[0].z();
     passivity.control(five_of({0.0, 0.0, z}), five_of({0.0, 0.0, velocity}), force);
-    // It only ever takes away, down to nothing, never to a pull.
+    // The controller only takes away force, down to zero, and never makes it a pull.
     EXPECT_LE(force[0].z(), wanted + 1e-12);
     EXPECT_GE(force[0].z(), -1e-12);
     passivity.sent(force);
     last_force = force;
   }
-  // Left alone it would have given 50 mJ more than it got in each of six cycles; what is left
-  // is the error of predicting one period's way from the velocity.
+  // Without control, each of six cycles would give 50 mJ more than it got. What remains is the
+  // error of predicting the way of one period from the velocity.
   EXPECT_GT(lowest_j, -0.5e-3);
 }
 
@@ -118,8 +118,8 @@ TEST(PassivityController, LetsAPassiveSurfaceReturnWhatItStored) {
 }
 
 TEST(PassivityController, DoesNotBuzzWithTheNoiseOfAVelocityAtRest) {
-  // A float that was put around a hand, which has put nothing in yet, and whose measured
-  // velocity is mostly noise. Taking the push away along that velocity sent 3 N to and fro.
+  // A float appears around a hand that has put in no energy yet, and whose measured velocity is
+  // mostly noise. When the push was taken away along that velocity, 3 N were sent to and fro.
   PassivityController passivity = controller();
   RandomStream random(1, "noise");
   passivity.grant_credit(0b01111);
@@ -159,7 +159,7 @@ TEST(PassivityController, LongDragDoesNotPayForAnEndlessPush) {
     x += 0.0005;
   }
   EXPECT_DOUBLE_EQ(passivity.credit_j(ContactPoint::kIndex), 0.1);
-  // 10 N along 0.5 m/s use 5 mJ a tick: after 20 ticks of it the credit is gone.
+  // 10 N at 0.5 m/s use 5 mJ in each tick, so the credit is used up after 20 ticks.
   int pushed_ticks = 0;
   for (int tick = 0; tick < 100; ++tick) {
     force = five_of({10.0, 0.0, 0.0});

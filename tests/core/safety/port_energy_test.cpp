@@ -35,7 +35,7 @@ TEST(PortEnergy, AFluidBanksNothing) {
   energy.observe(along_x(0.0), along_x(0.0), kAll, 0);
   for (int i = 1; i <= 100; ++i) energy.observe(along_x(0.01 * i), along_x(-10.0), kAll, 0);
   EXPECT_EQ(energy.given_j(2), 0.0);
-  // 10 J went in; 21 mJ out are too much all the same.
+  // 10 J went in, and 21 mJ out are too much all the same.
   energy.observe(along_x(1.0 + 0.0021), along_x(10.0), kAll, 0);
   EXPECT_TRUE(energy.is_exceeded());
 }

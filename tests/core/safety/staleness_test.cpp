@@ -14,8 +14,8 @@ HapticState moving_at(double speed_m_per_s) {
   return state;
 }
 
-/// Observes the same positions again and again; the tick, counted from 1, that is stale, 0 if
-/// none of `num_ticks` is.
+/// Observes the same positions again and again. Returns the first stale tick, counted from 1,
+/// or 0 if none of `num_ticks` is stale.
 int stale_at(Staleness& staleness, const HapticState& state, double elapsed_s,
              int num_ticks = 1000, std::int64_t num_missed = 0) {
   for (int tick = 1; tick <= num_ticks; ++tick) {
@@ -42,7 +42,7 @@ TEST(Staleness, AHandAtRestStandsForEver) {
 
 TEST(Staleness, AVelocityThatLeadsNowhereIsFoundAfterThreeMillimetres) {
   Staleness slow(kMaxTicks, kPeriod_s);
-  // 2.8 mm after 10 ticks, 3.08 after 11.
+  // The way is 2.8 mm after 10 ticks and 3.08 mm after 11.
   EXPECT_EQ(stale_at(slow, moving_at(0.28), kPeriod_s), 11);
   Staleness fast(kMaxTicks, kPeriod_s);
   EXPECT_EQ(stale_at(fast, moving_at(2.0), kPeriod_s), 6) << "but never before its ticks";
@@ -65,7 +65,8 @@ TEST(Staleness, AWayThatIsMovedOrAPointThatIsLooseForgetsIt) {
 
 TEST(Staleness, AClockThatLeapsAddsNoMoreThanAMeasurementMayStandIn) {
   Staleness staleness(kMaxTicks, kPeriod_s);
-  // 6 ms at 0.06 m/s a tick: 3 mm are passed at the ninth, whatever the clock says.
+  // A tick counts at most 6 ms, so at 0.06 m/s the 3 mm are passed at the ninth tick, whatever
+  // the clock says.
   EXPECT_EQ(stale_at(staleness, moving_at(0.06), 10.0), 9);
 }
 

@@ -20,7 +20,8 @@ PointVectors along_y(double value) {
   return all;
 }
 
-/// The tick of the contradiction within two seconds of strokes of 0.2 m at 2 Hz; -1: none.
+/// Returns the tick at which the check contradicts within two seconds of strokes of 0.2 m at 2
+/// Hz, or -1 if it does not.
 int contradicted_at(const std::function<double(double t_s)>& reported_m_per_s,
                     const std::array<bool, kNumContactPoints>& attached = kAll) {
   VelocityCheck check({});

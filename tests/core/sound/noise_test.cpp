@@ -21,7 +21,7 @@ double decibels(double ratio) { return 20.0 * std::log10(ratio); }
 
 std::vector<double> samples_of_noise(const NoiseShape& shape, std::size_t count) {
   Noise noise(shape, kRate_hz, 7);
-  // A filter begins with nothing in it.
+  // A filter begins empty, so the first samples are dropped.
   for (int i = 0; i < 24000; ++i) (void)noise.next();
   std::vector<double> samples(count);
   for (double& sample : samples) sample = noise.next();
@@ -34,15 +34,15 @@ double rms_of(const std::vector<double>& samples) {
   return std::sqrt(sum / static_cast<double>(samples.size()));
 }
 
-/// Power between two frequencies, of pieces of 4800 samples (10 Hz a line), by the sums that
-/// define the Fourier transform.
+/// Returns the power between two frequencies. It is computed from pieces of 4800 samples (10 Hz
+/// for each line), by the sums that define the Fourier transform.
 double power_between(const std::vector<double>& samples, double low_hz, double high_hz) {
   constexpr std::size_t kPiece = 4800;
   double power = 0.0;
   std::size_t num_pieces = 0;
   for (std::size_t begin = 0; begin + kPiece <= samples.size(); begin += kPiece, ++num_pieces) {
     for (double hz = low_hz; hz < high_hz; hz += 10.0) {
-      // Goertzel (1958).
+      // The recursion is that of Goertzel (1958).
       const double twice_cosine = 2.0 * std::cos(2.0 * std::numbers::pi * hz / kRate_hz);
       double one = 0.0, two = 0.0;
       for (std::size_t i = 0; i < kPiece; ++i) {
@@ -70,7 +70,7 @@ TEST(Biquad, IsTheButterworthFilterOfSecondOrder) {
   EXPECT_NEAR(decibels(high.gain_at(1000.0, kRate_hz)), -3.0103, 1e-4);
   EXPECT_NEAR(low.gain_at(0.0, kRate_hz), 1.0, 1e-12);
   EXPECT_NEAR(high.gain_at(24000.0, kRate_hz), 1.0, 1e-12);
-  // |H|^2 = 1 / (1 + (tan(pi f / r) / tan(pi c / r))^4), by the bilinear transform.
+  // By the bilinear transform, |H|^2 = 1 / (1 + (tan(pi f / r) / tan(pi c / r))^4).
   for (const double hz : {100.0, 500.0, 2000.0, 8000.0}) {
     const double bent = std::tan(std::numbers::pi * hz / kRate_hz) /
                         std::tan(std::numbers::pi * 1000.0 / kRate_hz);
@@ -117,9 +117,9 @@ TEST(NoiseFilter, OfPinkNoiseFalls3DecibelsPerOctave) {
 }
 
 TEST(NoiseFilter, KnowsHowLoudWhiteNoiseComesOut) {
-  // An ideal band of 2000 Hz lets 2000 / 24000 of the power pass. A Butterworth low pass of
-  // fourth order lets (pi / 8) / sin(pi / 8) = 1.0262 times its corner pass, and a high pass
-  // takes as much away.
+  // An ideal band of 2000 Hz passes 2000 / 24000 of the power. A Butterworth low pass of fourth
+  // order passes (pi / 8) / sin(pi / 8) = 1.0262 times its corner, and a high pass removes as
+  // much.
   const NoiseFilter band({.kind = Kind::kBand, .low_hz = 1000.0, .high_hz = 3000.0}, kRate_hz);
   EXPECT_NEAR(band.noise_gain() * band.noise_gain() * 24000.0, 1.0262 * 2000.0, 30.0);
   EXPECT_NEAR(NoiseFilter({.kind = Kind::kWhite}, kRate_hz).noise_gain(), 1.0, 1e-12);

@@ -22,7 +22,7 @@ using test_support::AllocationCounter;
 constexpr double kRate_hz = 8000.0;
 constexpr std::size_t kPeriod = 64;
 
-/// An output that takes samples as fast as they come.
+/// Returns what an output hears that takes samples as fast as they come.
 std::vector<float> heard_of(SoundMixer& mixer, std::size_t num_periods,
                             std::int64_t first_ns = 0) {
   std::vector<float> all;
@@ -35,7 +35,7 @@ std::vector<float> heard_of(SoundMixer& mixer, std::size_t num_periods,
   return all;
 }
 
-/// The mixer's first noise by itself, of root mean square 1.
+/// Returns the mixer's first noise alone, with a root mean square of 1.
 Noise first_noise(const NoiseShape& shape, std::uint64_t seed) {
   return {shape, kRate_hz, derived_seed(seed, "noise", {0})};
 }
@@ -75,7 +75,7 @@ TEST(SoundMixer, ANoiseGoesInItsRampAndLeavesSilence) {
   EXPECT_EQ(loudest(801, heard.size()), 0.0f);
 }
 
-// Whatever comes after whatever: at no time is there less of both together.
+// While one noise replaces another, the power of both together never falls, whatever they are.
 TEST(SoundMixer, WhereANoiseTakesAnothersPlaceThePowerStays) {
   SoundMixer mixer(
       {.rate_hz = kRate_hz, .noises = {{.level_dbfs = -30.0}, {.level_dbfs = -30.0}}});
@@ -95,7 +95,7 @@ TEST(SoundMixer, WhereANoiseTakesAnothersPlaceThePowerStays) {
 TEST(SoundMixer, ACueIsHeardAfterItsDelayWhateverPeriodItCameIn) {
   const Tone tone{.frequency_hz = 1000.0, .duration_s = 0.05, .level_dbfs = -20.0};
   SoundMixer mixer({.rate_hz = kRate_hz, .cues = {tone}, .cue_delay_s = 0.020});
-  // Asked for at 3 ms: heard at 23 ms, which is sample 184.
+  // The cue is requested at 3 ms and heard at 23 ms, which is sample 184.
   ASSERT_TRUE(mixer.play_cue(0, 7, 3'000'000));
   const std::vector<float> heard = heard_of(mixer, 20);
   const std::vector<float> expected = samples_of(tone, kRate_hz);
@@ -157,8 +157,8 @@ TEST(SoundMixer, NothingClipsAtTheLoudestThatAStudyMayAskFor) {
   EXPECT_EQ(mixer.num_limited(), 0);
 }
 
-// Eight cues at once are more than any study asks for; the limiter is there for what nobody
-// foresaw.
+// Eight cues at once are more than any study asks for. The limiter is there for unforeseen
+// cases.
 TEST(SoundMixer, EightOfTheLoudestCuesAtOnceAreTurnedDown) {
   const Tone tone{.frequency_hz = 700.0, .duration_s = 0.5, .level_dbfs = kLoudestCue_dbfs};
   SoundMixer mixer({.rate_hz = kRate_hz, .cues = {tone}});
@@ -192,8 +192,8 @@ TEST(SoundMixer, TakesNoHeapWhileItPlays) {
   EXPECT_EQ(counter.frees(), 0U);
 }
 
-// An hour as a session has it, played as fast as it can be: each of its 28.8 million samples is
-// what it has to be, so that nowhere is a gap, a click or a step.
+// Plays an hour as a session has it, as fast as possible. Each of its 28.8 million samples must
+// have its expected value, so there is no gap, click or step.
 TEST(SoundMixer, HasNoGapInAnHour) {
   const Tone tone{.frequency_hz = 440.0, .duration_s = 0.1, .level_dbfs = -25.0};
   SoundMixer mixer({.rate_hz = kRate_hz,
@@ -211,7 +211,7 @@ TEST(SoundMixer, HasNoGapInAnHour) {
   int num_cues = 0;
   for (std::int64_t frame = 0; frame < hour; frame += static_cast<std::int64_t>(kPeriod)) {
     const std::int64_t now_ns = frame * 125'000;
-    // Every 7.3 seconds somebody asks for a cue.
+    // A cue is requested every 7.3 seconds.
     if (frame / 58'400 >= num_cues) {
       ASSERT_TRUE(mixer.play_cue(0, static_cast<std::uint64_t>(++num_cues), now_ns));
     }
@@ -259,7 +259,8 @@ TEST(Tone, HasItsLevelAndBeginsAndEndsInSilence) {
     sum += static_cast<double>(samples[i]) * static_cast<double>(samples[i]);
   }
   EXPECT_NEAR(level_of_rms(std::sqrt(sum / 1440.0)), -20.0, 1e-6);
-  // Half way up the ramp of 10 ms half of it is there: sample 40, where the sine is 0, and 42.
+  // Half way up the ramp of 10 ms, half of the tone is there. This is at sample 40, where the
+  // sine is 0, so sample 42 is compared.
   EXPECT_NEAR(samples[42], 0.1 * (0.5 - 0.5 * std::cos(std::numbers::pi * 0.525)), 1e-6);
   float steepest = 0.0f;
   for (std::size_t i = 1; i < samples.size(); ++i) {

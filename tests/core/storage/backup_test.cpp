@@ -87,7 +87,7 @@ TEST_F(BackupTest, ACopyThatHoldsMoreThanTheStudyIsLeftAsItIs) {
   (void)back_up_now();
   kept_.add_session("P02");
   (void)withdraw(kept_.folder(), "P01", 5);
-  // The arguments the wrong way round: P02 and the withdrawal would be undone.
+  // The arguments are exchanged. This would undo P02 and the withdrawal.
   const std::string before = read_file(kept_.folder() / "study.sqlite");
   try {
     (void)back_up(copy(), kept_.folder(), 9);
@@ -98,7 +98,7 @@ TEST_F(BackupTest, ACopyThatHoldsMoreThanTheStudyIsLeftAsItIs) {
   }
   EXPECT_EQ(read_file(kept_.folder() / "study.sqlite"), before);
 
-  // A session that went on in its backup.
+  // Here a session went on in its backup.
   kept_.add_session("P03");
   (void)back_up(kept_.folder(), kept_.beside("second"), 10);
   fs::remove(kept_.beside("second") / kBackupMark);
@@ -113,7 +113,7 @@ TEST_F(BackupTest, ACopyThatHoldsMoreThanTheStudyIsLeftAsItIs) {
 TEST_F(BackupTest, AnEarlierCopyStaysWholeWhenALaterOneFails) {
   (void)back_up_now();
   kept_.add_session("P02");
-  // The recording of the second session cannot be copied to where a folder stands.
+  // The recording of the second session cannot be copied, because a folder is in its place.
   fs::create_directory(copy() / "recordings" / "0002.sqlite");
   EXPECT_THROW((void)back_up_now(), Error);
   fs::remove(copy() / "recordings" / "0002.sqlite");
@@ -137,7 +137,7 @@ TEST_F(BackupTest, AnInterruptedOneIsToldAndTheEarlierCopyIsWhole) {
   const BackupReport report = back_up_now();
   EXPECT_TRUE(report.integrity.complete);
   EXPECT_TRUE(report.integrity.remarks.empty());
-  // Without such a mark the recording of no session is a problem.
+  // Without such a mark, a recording that belongs to no session is a problem.
   fs::copy_file(kept_.recording(2), copy() / "recordings" / "0009.sqlite");
   EXPECT_FALSE(verify(StudyStore(copy(), StudyStore::Mode::kReadOnly)).complete);
 }
@@ -191,7 +191,7 @@ TEST_F(BackupTest, ACopyWithoutItsMarkIsKnownByTheListInIt) {
   fs::remove(copy() / kBackupMark);
   EXPECT_TRUE(is_backup(copy()));
   EXPECT_THROW(StudyStore(copy(), StudyStore::Mode::kReadWrite), Error);
-  // The study was moved to where a backup was once.
+  // The study was moved to a place where a backup had been.
   forget_backup(copy(), copy(), ++time_ns_);
   EXPECT_FALSE(is_backup(copy()));
   EXPECT_NO_THROW(StudyStore(copy(), StudyStore::Mode::kReadWrite));
@@ -211,7 +211,7 @@ TEST_F(BackupTest, OfACopyAStudyIsMadeInWhichSessionsCanBeRun) {
   EXPECT_EQ(report.integrity.num_samples, 1000);
   EXPECT_FALSE(is_backup(restored));
   EXPECT_NO_THROW(StudyStore(restored, StudyStore::Mode::kReadWrite));
-  // The copy goes on as the restored study's copy, and a withdrawal reaches it.
+  // The copy continues as the copy of the restored study, and a withdrawal reaches it.
   EXPECT_TRUE(back_up(restored, copy(), ++time_ns_).integrity.complete);
   EXPECT_EQ(withdraw(restored, "P01", ++time_ns_).backups.size(), 1U);
 }

@@ -20,7 +20,7 @@ class ExportNoteTest : public ::testing::Test {
     kept_.add_session("P01");
     kept_.add_session("P02");
   }
-  /// As an export does: remembered, then written.
+  /// Notes an export and then writes it, as the program does.
   void write(const std::string& name, const std::vector<std::int64_t>& sessions,
              const fs::path& folder) {
     note_export(folder, {.place = kept_.beside(name),
@@ -33,7 +33,7 @@ class ExportNoteTest : public ::testing::Test {
   void write(const std::string& name, const std::vector<std::int64_t>& sessions) {
     write(name, sessions, kept_.folder());
   }
-  /// The names of the places that a withdrawal tells.
+  /// Returns the names of the places that a withdrawal reports.
   std::vector<std::string> named(const std::string& participant) {
     std::vector<std::string> names;
     for (const ExportNote& one : withdraw(kept_.folder(), participant, ++time_ns_).exports) {
@@ -77,7 +77,7 @@ TEST_F(ExportNoteTest, WhatAnInterruptedExportLeftBesideItsPlaceIsNamed) {
   fs::create_directory(kept_.beside("other.unfinished-Ab12Cd"));
   EXPECT_EQ(named("P01"), Names{"cut.unfinished-Ab12Cd"});
   EXPECT_EQ(named("P02"), Names{});
-  // The place itself is written anew, without the person; what was left is still there.
+  // The place is written again without the person, but the unfinished folder is still there.
   write("cut", {2});
   EXPECT_EQ(named("P01"), Names{"cut.unfinished-Ab12Cd"});
 }

@@ -16,7 +16,8 @@ namespace integrity_test {
 
 namespace fs = std::filesystem;
 
-/// One completed session of one trial: ticks 0 to 4999 explored, 5000 to 9999 presented.
+/// Makes a study with one completed session of one trial. Ticks 0 to 4999 were explored, and
+/// 5000 to 9999 presented.
 class IntegrityTest : public ::testing::Test {
  protected:
   IntegrityTest() {
@@ -77,7 +78,7 @@ class IntegrityTest : public ::testing::Test {
   [[nodiscard]] Integrity verified() const {
     return verify(StudyStore(folder(), StudyStore::Mode::kReadOnly));
   }
-  /// The one problem there is, which has to be of session 1.
+  /// Returns the only problem, which must be one of session 1.
   [[nodiscard]] std::string only_problem() const {
     const Integrity integrity = verified();
     EXPECT_FALSE(integrity.complete);
@@ -154,7 +155,7 @@ TEST_F(IntegrityTest, ADamagedChunkIsNamedWithItsTicks) {
   EXPECT_EQ(integrity.problems[0].session, 1);
   EXPECT_NE(integrity.problems[0].message.find("ticks 0 to 4095"), std::string::npos)
       << integrity.problems[0].message;
-  // And what was explored in them is missing.
+  // What was explored in these ticks is missing as well.
   EXPECT_NE(integrity.problems[1].message.find("ticks 0 to 4999"), std::string::npos)
       << integrity.problems[1].message;
 }
@@ -249,7 +250,7 @@ TEST_F(IntegrityTest, ReadsAStudyInAFolderThatNobodyCanWriteTo) {
   fs::permissions(temporary_.path(), fs::perms(0755));
   const pid_t child = ::fork();
   if (child == 0) {
-    // Root may write anywhere, so the reader is nobody.
+    // Root may write anywhere, so the reader becomes the user nobody.
     if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);
     try {
       ::_exit(verified().complete ? 0 : 1);
@@ -266,7 +267,8 @@ TEST_F(IntegrityTest, ReadsAStudyInAFolderThatNobodyCanWriteTo) {
 }
 
 TEST_F(IntegrityTest, AStudyIsMadeAnewWhereTheDeathCameBeforeItsFirstTable) {
-  // What a program leaves that was killed between making the file and filling it.
+  // This is what a program leaves if it is killed after it has made the file and before it has
+  // filled it.
   const fs::path half_made = temporary_.path() / "half.study";
   fs::create_directories(half_made / "recordings");
   execute(half_made / "study.sqlite", "PRAGMA journal_mode = WAL; VACUUM;");

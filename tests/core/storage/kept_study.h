@@ -10,7 +10,7 @@
 
 namespace jnd::core {
 
-/// A study folder with completed sessions to back up, withdraw and verify.
+/// Makes a study folder with completed sessions to back up, withdraw and verify.
 class KeptStudy {
  public:
   [[nodiscard]] std::filesystem::path folder() const { return temporary_.path() / "x.study"; }
@@ -21,7 +21,8 @@ class KeptStudy {
     return folder() / "recordings" / ("000" + std::to_string(session) + ".sqlite");
   }
 
-  /// One trial of 1000 ticks, with an answer and a note that name the participant.
+  /// Adds a session with one trial of 1000 ticks, and with an answer and a note that contain
+  /// the participant's name.
   std::int64_t add_session(const std::string& participant) const {
     StudyStore store(folder(), StudyStore::Mode::kCreate, Durability::kAtClose);
     const std::string hash = store.add_protocol("x.json", "{}");
@@ -65,7 +66,7 @@ class KeptStudy {
     return session;
   }
 
-  /// A new segment, as after a resumption.
+  /// Records a new segment, as after a resumption.
   static void record(const std::filesystem::path& file, std::int64_t first_tick,
                      std::int64_t last_tick) {
     RecordingWriter writer(file, 1000.0, Durability::kAtClose);
@@ -81,7 +82,7 @@ class KeptStudy {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
-/// The bytes of every file under the folder, one after the other.
+/// Returns the bytes of every file in the folder, one after the other.
 inline std::string all_bytes(const std::filesystem::path& folder) {
   std::string bytes;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

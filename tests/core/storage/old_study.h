@@ -8,7 +8,7 @@
 
 namespace jnd::core {
 
-/// Puts the study of an older layout (see README.md) into `folder`, which is made.
+/// Makes `folder` and copies the study of an older layout (see README.md) into it.
 inline void copy_old_study(std::int64_t layout, const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   const fs::path here = test_support::source_folder() / "tests" / "core" / "storage";

@@ -59,7 +59,7 @@ TEST(Recording, CountsTheTicksThatAreMissingInBetween) {
   EXPECT_EQ(RecordingReader(file).missing_ticks(), 3 + 5);
 }
 
-/// Tick 5010 of real time, before which five never ran.
+/// Returns tick 5010 in real time, after five ticks that never ran.
 Sample after_five_missed() {
   Sample sample = at(5010);
   sample.num_missed_before = 5;
@@ -161,7 +161,8 @@ TEST(Recording, TellsADamagedChunkFromAnIntactOne) {
   EXPECT_THROW(reader.read(0, 9000, [](const Sample&) {}), Error);
 }
 
-/// Bytes that decode, but are not those that were written: only the hash knows.
+/// The changed bytes can be decoded. Only the hash shows that they are not those that were
+/// written.
 TEST(Recording, ReadsNoSampleOfAChunkThatDoesNotFitItsHash) {
   const test_support::TemporaryFolder folder;
   const fs::path file = folder.path() / "0001.sqlite";

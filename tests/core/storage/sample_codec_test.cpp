@@ -11,7 +11,7 @@
 namespace jnd::core {
 namespace sample_codec_test {
 
-/// A hand that sweeps back and forth in a viscous fluid.
+/// Returns the samples of a hand that sweeps back and forth in a viscous fluid.
 std::vector<Sample> sweep(int num_samples, std::int64_t first_tick) {
   std::vector<Sample> samples;
   for (int i = 0; i < num_samples; ++i) {
@@ -52,7 +52,7 @@ void expect_near(const Sample& found, const Sample& expected) {
   }
 }
 
-/// The same hand on a device with joints.
+/// Returns the same hand on a device with joints.
 std::vector<Sample> sweep_with_joints(int num_samples) {
   std::vector<Sample> samples = sweep(num_samples, 0);
   for (Sample& sample : samples) {
@@ -146,7 +146,8 @@ TEST(SampleCodec, RefusesNumbersOfADamagedRowInsteadOfAskingForAllMemory) {
   EXPECT_THROW((void)decode_samples(bytes, kLargest - 5, 10, "test"), Error);
 }
 
-/// Of a real loop: each tick late by some microseconds, the device's clock with its own.
+/// Adds times as in a real loop: each tick is late by some microseconds, and the device has its
+/// own clock.
 std::vector<Sample> timed(std::vector<Sample> samples) {
   RandomStream random(3, "lateness", {});
   for (Sample& sample : samples) {
@@ -200,7 +201,7 @@ TEST(SampleCodec, TimesThatAreDamagedAreRefused) {
   EXPECT_EQ(decode_samples(bytes.substr(0, without), 0, 64, "chunk")[5].monotonic_ns, 0);
 }
 
-/// The same hand on a device that measures more.
+/// Returns the same hand on a device that measures more.
 std::vector<Sample> sweep_with_channels(int num_samples, ChannelBits bits) {
   std::vector<Sample> samples = sweep(num_samples, 5);
   for (Sample& sample : samples) {
@@ -267,7 +268,7 @@ TEST(SampleCodec, AChannelThatNobodyKnowsIsDamage) {
   EXPECT_THROW((void)decode_samples(encode_samples(samples), 5, 10, "here"), Error);
   const std::string good = encode_samples(sweep_with_channels(10, kAllChannels));
   for (std::size_t cut = 0; cut < good.size(); ++cut) {
-    // Without its last frames it is a chunk of a device without channels, or times.
+    // Without its last frames, a chunk is that of a device without channels or times.
     try {
       const std::vector<Sample> back = decode_samples(good.substr(0, cut), 5, 10, "here");
       EXPECT_EQ(back.front().channels.bits, 0) << cut;

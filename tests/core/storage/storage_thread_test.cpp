@@ -39,7 +39,7 @@ TEST(StorageThread, CallsBackWhileItIsWaitedFor) {
   SpscQueue<Sample> samples(16);
   StorageThread storage(samples, {});
   std::atomic<int> num_calls{0};
-  // The work ends when it was heard of twice; without the calls it would end the test's time.
+  // The work ends after two calls. Without the calls, the test would run into its time limit.
   storage.after(
       -1,
       [&] {

@@ -36,7 +36,7 @@ StreamSample numbered(int number) {
   return sample;
 }
 
-/// Writes so many samples and an offset a hundred.
+/// Writes `num_samples` samples, and an offset for every hundred of them.
 StreamFileSeal write(const fs::path& file, int num_samples) {
   StreamFileWriter writer(file, amplifier());
   for (int i = 0; i < num_samples; ++i) {
@@ -80,7 +80,7 @@ TEST_F(StreamFileTest, HoldsTextsOfAnyLength) {
   {
     StreamFileWriter writer(file_, info);
     for (const StreamSample& sample : sent) writer.append(sample);
-  }  // Without a seal, as where a program ended: what came is there.
+  }  // The file has no seal, as if the program had ended. It holds what had come until then.
   const StreamFileReader reader(file_);
   EXPECT_FALSE(reader.seal());
   std::vector<StreamSample> came;

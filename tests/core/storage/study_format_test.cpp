@@ -26,7 +26,7 @@ std::int64_t format_of(const fs::path& folder) {
   return study_format_of(database);
 }
 
-/// Every table, column, view, index and trigger.
+/// Returns every table, column, view, index and trigger.
 std::string schema_of(const fs::path& folder) {
   Database database(folder / "study.sqlite", Database::Mode::kReadOnly,
                     Durability::kEveryCommit);
@@ -36,14 +36,14 @@ std::string schema_of(const fs::path& folder) {
   return text;
 }
 
-/// A study of the layout that is the test's parameter.
+/// Tests a study of the layout that is the test's parameter.
 class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
  protected:
   OldLayoutTest() { copy_old_study(GetParam(), old()); }
   [[nodiscard]] fs::path old() const { return temporary_.path() / "old.study"; }
   [[nodiscard]] static bool has(std::int64_t layout) { return GetParam() >= layout; }
 
-  /// What each layout holds that the one before does not; what there was before stays.
+  /// Expects what each layout adds to the one before. Nothing of the earlier ones may be lost.
   static void expect_all_of(const StudyStore& store) {
     ASSERT_FALSE(store.sessions().empty());
     EXPECT_EQ(store.sessions()[0].participant, "P01");
@@ -182,7 +182,7 @@ TEST_P(OldLayoutTest, KeepsWhatTheStepsBeforeABadOneDid) {
   {
     Database database(old() / "study.sqlite", Database::Mode::kReadWrite,
                       Durability::kEveryCommit);
-    // The last table of the sixth step, which can make all but it.
+    // This is the last table of the sixth step, which can make its other tables.
     database.execute("CREATE TABLE adverse_event (in_the_way INTEGER)");
     EXPECT_THROW(bring_up_to_date(database), Error);
     EXPECT_EQ(study_format_of(database), 5);
@@ -208,7 +208,7 @@ class StudyFormatTest : public ::testing::Test {
 TEST_F(StudyFormatTest, EachStepOrNothing) {
   Database database(old() / "study.sqlite", Database::Mode::kReadWrite,
                     Durability::kEveryCommit);
-  // The second step makes this table; that it cannot leaves the first layout behind, whole.
+  // The second step makes this table. When it cannot, it must leave the first layout complete.
   database.execute("CREATE TABLE backup (in_the_way INTEGER)");
   EXPECT_THROW(bring_up_to_date(database), Error);
   EXPECT_EQ(study_format_of(database), 1);

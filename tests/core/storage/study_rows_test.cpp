@@ -72,7 +72,7 @@ TYPED_TEST(StudyRowsTest, EveryColumnHasANameOfItsOwn) {
   EXPECT_EQ(names.size(), num_columns);
 }
 
-/// Another value than that of a fresh row in every column.
+/// Returns a row in which every column differs from that of a new row.
 template <typename Row>
 Row filled() {
   Row row;

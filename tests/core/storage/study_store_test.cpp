@@ -18,7 +18,7 @@ class StudyStoreTest : public ::testing::Test {
  protected:
   fs::path folder() const { return temporary_.path() / "water.study"; }
 
-  /// A store with one session, ready for events.
+  /// Returns a store with one session that is ready for events.
   std::unique_ptr<StudyStore> with_session() const {
     auto store = std::make_unique<StudyStore>(folder(), StudyStore::Mode::kCreate);
     const std::string hash = store->add_protocol("water.json", "{}");
@@ -329,7 +329,7 @@ TEST_F(StudyStoreTest, AnOverviewCountsTheAnswersThatStand) {
   EXPECT_EQ(now.last_time_ns, 77);
   EXPECT_FALSE(now.completed || now.ended_early);
 
-  // A trial set aside is answered all the same, and whoever did that was no visitor.
+  // An excluded trial still counts as answered, and excluding it does not count as a visit.
   Commit excluded = event(5, "trial_excluded");
   excluded.event.trial = 1;
   excluded.event.time_ns = 99;
@@ -350,7 +350,7 @@ TEST_F(StudyStoreTest, AnOverviewCountsTheAnswersThatStand) {
   EXPECT_FALSE(store->overview()[1].completed);
 }
 
-/// Trials that are drawn one after the other, each when the one before is answered.
+/// Tests trials that are drawn one after the other, each when the one before is answered.
 class AdaptiveTrialsTest : public StudyStoreTest {
  protected:
   AdaptiveTrialsTest() : store_(with_session()) {}
@@ -408,7 +408,7 @@ TEST_F(AdaptiveTrialsTest, WhatWasDrawnWithTheTrialStays) {
   EXPECT_EQ(in_force(), (Trials{1, 2, 3}));
 }
 
-/// Of blocks whose trials are mixed.
+/// The trials of several blocks are mixed here.
 TEST_F(AdaptiveTrialsTest, WhatWasDrawnForAnotherBlockStays) {
   draw(1, 1);
   draw(2, 2);
@@ -423,7 +423,7 @@ TEST_F(AdaptiveTrialsTest, WhatWasDrawnForAnotherBlockStays) {
   EXPECT_EQ(store_->overview().front().num_trials, 2);
 }
 
-/// The store looks for them in another order than the view does.
+/// The store looks for the trials in another order than the view does.
 TEST_F(AdaptiveTrialsTest, WhatIsInForceIsWhatTheViewSays) {
   RandomStream random(7, "acts of a session");
   std::int64_t num_trials = 0;

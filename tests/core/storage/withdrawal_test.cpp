@@ -55,7 +55,7 @@ TEST_F(WithdrawalTest, NothingOfThePersonIsLeftButTheTombstone) {
   EXPECT_TRUE(verified(kept_.folder()).complete);
 }
 
-// It is of a device, and of sessions of others.
+// A profile belongs to a device, and to sessions of other people.
 TEST_F(WithdrawalTest, DeviceProfilesStayHereAndInEveryBackup) {
   {
     StudyStore store(kept_.folder(), StudyStore::Mode::kReadWrite, Durability::kAtClose);
@@ -104,13 +104,14 @@ TEST_F(WithdrawalTest, NeitherItsNumberIsGivenAgainNorRowsCanBeDeletedAfterwards
   }
 }
 
-/// A new table of people's data has to go with them.
+/// A new table of people's data must be emptied, too.
 TEST_F(WithdrawalTest, EmptiesEveryTableThatHoldsSessionsButThoseThatAreKept) {
   const std::set<std::string> emptied = {"acknowledgement", "question_answer", "answer",
                                          "presentation",    "trial",           "design",
                                          "event",           "session"};
-  // Tombstones, what an ethics committee is owed, which exports the session is in, and which
-  // numbers of sessions a planned look counted: no more than the tombstone tells.
+  // These are tombstones, what an ethics committee must be told, the exports that contain the
+  // session, and the numbers of the sessions that a planned look counted. They reveal no more
+  // than the tombstone.
   const std::set<std::string> kept = {"withdrawal", "adverse_event", "export_session",
                                       "sequential_look_session"};
   Database database(kept_.folder() / "study.sqlite", Database::Mode::kReadOnly,
@@ -161,14 +162,15 @@ TEST_F(WithdrawalTest, ABackupThatWasDeletedCanBeForgotten) {
   EXPECT_THROW(forget_backup(kept_.folder(), kept_.beside("other"), 6), Error);
   forget_backup(kept_.folder(), kept_.beside("gone"), 6);
   EXPECT_TRUE(withdraw(kept_.folder(), "P01", 7).remaining.empty());
-  (void)back_up(kept_.folder(), kept_.beside("gone"), 8);  // Made again, it is known again.
+  // It was made again, so it is known again.
+  (void)back_up(kept_.folder(), kept_.beside("gone"), 8);
   EXPECT_EQ(known_backups(kept_.folder()), std::vector<fs::path>{kept_.beside("gone")});
 }
 
 TEST_F(WithdrawalTest, ReachesTheBackupsOfBackups) {
   (void)back_up(kept_.folder(), kept_.beside("b"), 1);
   (void)back_up(kept_.beside("b"), kept_.beside("c"), 2);
-  (void)back_up(kept_.folder(), kept_.beside("b"), 3);  // Which forgets nothing.
+  (void)back_up(kept_.folder(), kept_.beside("b"), 3);  // This forgets nothing.
   (void)withdraw(kept_.folder(), "P01", 5);
   EXPECT_FALSE(holds(kept_.beside("c"), "secret of P01"));
 }
@@ -190,7 +192,8 @@ TEST_F(WithdrawalTest, OneBackupOutOfOrderDoesNotKeepTheOthers) {
   (void)back_up(kept_.folder(), kept_.beside("a"), 1);
   (void)back_up(kept_.folder(), kept_.beside("z"), 2);
   fs::remove_all(kept_.beside("a"));
-  fs::create_symlink("a", kept_.beside("a"));  // Around in a circle: no status at all.
+  // The links form a circle, so there is no status.
+  fs::create_symlink("a", kept_.beside("a"));
   const WithdrawalReport report = withdraw(kept_.folder(), "P01", 5);
   EXPECT_EQ(report.remaining.size(), 1U);
   EXPECT_EQ(report.backups, std::vector<fs::path>{kept_.beside("z")});
@@ -251,7 +254,7 @@ TEST_F(WithdrawalTest, WhileItsBytesMayBeInTheFileVerifySaysSo) {
   EXPECT_TRUE(verified(kept_.folder()).complete);
 }
 
-/// The copy has the recording already, and not yet the session that it is of.
+/// The copy already has the recording, and does not have its session yet.
 TEST_F(WithdrawalTest, ReachesWhatAnInterruptedBackupLeft) {
   (void)back_up(kept_.folder(), kept_.beside("copy"), 1);
   kept_.add_session("P03");

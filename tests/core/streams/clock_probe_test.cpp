@@ -16,23 +16,24 @@
 namespace jnd::core {
 namespace clock_probe_test {
 
-/// A clock elsewhere that runs off, behind ways that take their time.
+/// A clock on another machine that drifts, with delays on both ways.
 struct FarClock {
-  double offset_s = -1234.5;  ///< To be added to its times.
-  double drift_ppm = 0.0;     ///< By which it is faster.
-  double mean_delay_s = 0.0;  ///< Of each way, exponential, on top of 50 us.
+  double offset_s = -1234.5;  ///< This is added to the clock's times.
+  double drift_ppm = 0.0;     ///< By this much the clock is faster.
+  double mean_delay_s = 0.0;  ///< The mean of each way's exponential delay, which comes on top
+                              ///< of 50 us.
   double loss_ratio = 0.0;
 
   [[nodiscard]] double theirs_s(double ours_s) const {
     return (ours_s - offset_s) * (1.0 + 1e-6 * drift_ppm);
   }
-  /// That makes this time of theirs one of ours.
+  /// Returns the offset that turns this time of the clock into one of ours.
   [[nodiscard]] double true_offset_s(double theirs) const {
     return theirs / (1.0 + 1e-6 * drift_ppm) + offset_s - theirs;
   }
 };
 
-/// All offsets of so many seconds, in virtual time.
+/// Returns all offsets within this duration, in virtual time.
 std::vector<ClockOffset> compared(const FarClock& far, double duration_s, unsigned seed) {
   std::mt19937 random(seed);
   std::exponential_distribution<double> jitter(far.mean_delay_s > 0.0 ? 1.0 / far.mean_delay_s
@@ -41,7 +42,8 @@ std::vector<ClockOffset> compared(const FarClock& far, double duration_s, unsign
   const auto way_s = [&] { return 50e-6 + (far.mean_delay_s > 0.0 ? jitter(random) : 0.0); };
   ClockProbe probe(7);
   std::vector<ClockOffset> offsets;
-  std::multimap<double, std::string> under_way;  // Answers, by when they arrive.
+  // The answers, by the time at which they arrive.
+  std::multimap<double, std::string> under_way;
   for (double now_s = 1000.0; now_s < 1000.0 + duration_s;) {
     for (auto next = under_way.begin(); next != under_way.end() && next->first <= now_s;
          next = under_way.erase(next)) {
@@ -81,7 +83,8 @@ TEST(ClockProbe, OfAWaveTheShortestWayCounts) {
   const auto first = time_question_of(probe.due_question(10.0));
   const auto second = time_question_of(probe.due_question(10.1));
   ASSERT_TRUE(first && second);
-  // There at once and back late: half of the way back is taken for an offset.
+  // The answer goes there at once and comes back late, so half of the way back is taken for an
+  // offset.
   probe.take_answer(time_answer_message({first->wave, first->t0_s, 10.0, 10.0}), 10.05);
   probe.take_answer(time_answer_message({second->wave, second->t0_s, 10.1, 10.1}), 10.102);
   const auto offset = probe.finished(10.102);
@@ -95,17 +98,21 @@ TEST(ClockProbe, HearsOnlyWhatAnswersItsOwnQuestions) {
   const auto asked = time_question_of(probe.due_question(10.0));
   ASSERT_TRUE(asked);
   const int wave = asked->wave;
-  probe.take_answer(time_answer_message({wave + 1, 10.0, 5.0, 5.0}), 10.01);  // Another wave.
-  probe.take_answer(time_answer_message({wave, 9.0, 5.0, 5.0}), 10.01);       // Never asked.
-  probe.take_answer(time_answer_message({wave, 10.0, 5.0, 4.0}), 10.01);      // Runs back.
-  probe.take_answer(time_answer_message({wave, 10.0, 5.0, 9.0}), 10.01);      // Took too long.
+  // This is another wave.
+  probe.take_answer(time_answer_message({wave + 1, 10.0, 5.0, 5.0}), 10.01);
+  // This was never asked.
+  probe.take_answer(time_answer_message({wave, 9.0, 5.0, 5.0}), 10.01);
+  // This clock runs back.
+  probe.take_answer(time_answer_message({wave, 10.0, 5.0, 4.0}), 10.01);
+  probe.take_answer(time_answer_message({wave, 10.0, 5.0, 9.0}), 10.01);  // This took too long.
   probe.take_answer("nonsense", 10.01);
   EXPECT_FALSE(probe.finished(10.02)) << "the answer may still come";
   EXPECT_FALSE(probe.finished(11.0)) << "it did not";
   const auto next = time_question_of(probe.due_question(12.0));
   ASSERT_TRUE(next);
   probe.take_answer(time_answer_message({next->wave, 12.0, 5.0, 5.0}), 12.01);
-  probe.take_answer(time_answer_message({next->wave, 12.0, 9.0, 9.0}), 12.001);  // Again.
+  // This answer comes again.
+  probe.take_answer(time_answer_message({next->wave, 12.0, 9.0, 9.0}), 12.001);
   ASSERT_TRUE(probe.finished(12.02));
 }
 
@@ -115,7 +122,7 @@ TEST(ClockProbe, AWaveThatLostMostOfItsAnswersIsNone) {
   EXPECT_GT(compared({.loss_ratio = 0.3}, 200.0, 3).size(), 90U);
 }
 
-/// What the page on streams promises: within 0.2 ms in 99 of 100 moments.
+/// The page on streams promises an error within 0.2 ms in 99 of 100 moments.
 TEST(ClockProbe, DriftAndJitterAreCorrectedToAFifthOfAMillisecond) {
   const FarClock far{.drift_ppm = 40.0, .mean_delay_s = 0.4e-3, .loss_ratio = 0.05};
   const auto offsets = compared(far, 600.0, 5);

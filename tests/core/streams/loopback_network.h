@@ -14,7 +14,7 @@
 
 namespace jnd::core {
 
-/// Streams of this machine alone: nothing is sent beyond it.
+/// Returns a network of this machine alone, so that nothing leaves it.
 inline StreamNetwork loopback_network() {
   StreamNetwork network;
   network.groups.clear();
@@ -23,7 +23,8 @@ inline StreamNetwork loopback_network() {
   return network;
 }
 
-/// Whether it came about within ten seconds, which only a failure takes.
+/// Returns whether the condition becomes true within ten seconds. Only a failure takes that
+/// long.
 inline bool comes_about(const std::function<bool()>& holds) {
   for (int i = 0; i < 2000; ++i) {
     if (holds()) return true;
@@ -32,7 +33,7 @@ inline bool comes_about(const std::function<bool()>& holds) {
   return holds();
 }
 
-/// So many samples of an inlet, or what came within ten seconds.
+/// Returns this number of samples from an inlet, or those that came within ten seconds.
 inline std::vector<StreamSample> take_from(StreamInlet& inlet, std::size_t count) {
   std::vector<StreamSample> all;
   (void)comes_about([&] {

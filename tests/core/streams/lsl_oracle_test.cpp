@@ -20,15 +20,15 @@ namespace lsl_oracle_test {
 
 namespace fs = std::filesystem;
 
-/// liblsl of others, where somebody names it (JND_LIBLSL) or has put it into the build folder:
-/// `npm install --ignore-scripts --prefix build/oracle node-lsl`.
+/// Returns the file of liblsl by other people, if JND_LIBLSL names one or the build folder has
+/// one: `npm install --ignore-scripts --prefix build/oracle node-lsl`.
 fs::path library_file() {
   if (const char* named = std::getenv("JND_LIBLSL")) return named;
   return test_support::source_folder() /
          "build/oracle/node_modules/node-lsl/prebuilt/liblsl64.so";
 }
 
-/// Loaded once, with settings that keep it on this machine.
+/// Returns the library, which is loaded once, with settings that keep it on this machine.
 std::shared_ptr<const LslLibrary> library() {
   static const test_support::TemporaryFolder folder;
   static const std::shared_ptr<const LslLibrary> loaded = [] {

@@ -73,7 +73,7 @@ TEST(OwnStream, IsFoundByNameAndSessionAlone) {
       << "of another session";
 }
 
-/// As other programs look for streams: by a group, on an interface of this machine.
+/// Other programs look for streams in this way: by a group, on an interface of this machine.
 TEST(OwnStream, IsFoundByAGroupWhereTheMachineHasOne) {
   StreamNetwork network = loopback_network();
   network.peers.clear();
@@ -148,11 +148,11 @@ TEST(OwnStream, WhoLeavesIsForgottenAndMayComeBack) {
     EXPECT_EQ(count_of(came[0]), 10 * round) << "nothing of before";
     inlet.reset();
     ASSERT_TRUE(comes_about([&] { return outlet->num_consumers() == 0; })) << round;
-    push(*outlet, 1000, 1010);  // To nobody.
+    push(*outlet, 1000, 1010);  // This is sent to nobody.
   }
 }
 
-/// The program on the other side was started anew, with other ports and another identity.
+/// The program on the other side was restarted, with other ports and another identity.
 TEST(OwnStream, AnInletFindsAStreamAgainThatWentAway) {
   const StreamNetwork network = loopback_network();
   auto outlet = open_own_outlet(numbers("returning", "source"), network);
@@ -182,7 +182,7 @@ TEST(OwnStream, WhatIsStillToBeSentIsSentAtTheEnd) {
   EXPECT_EQ(take_from(*inlet, 20'000).size(), 20'000U);
 }
 
-/// A consumer by hand, that reads when the test says so.
+/// A consumer of the test's own, which reads when the test says so.
 class SlowConsumer {
  public:
   SlowConsumer(const StreamInfo& info, int max_buffered)
@@ -202,7 +202,8 @@ class SlowConsumer {
 TEST(OwnStream, OfASlowConsumerTheOldestSamplesAreDroppedAndCounted) {
   const StreamNetwork network = loopback_network();
   StreamInfo info = numbers("slow");
-  info.channel_count = 200;  // So that the buffers of the system take little of it.
+  // With so many channels, the system's buffers hold only a small part.
+  info.channel_count = 200;
   info.channels.clear();
   const auto outlet = open_own_outlet(info, network, /*seconds_kept=*/2.0);
   const auto quick = inlet_of(*outlet, network);
@@ -224,7 +225,8 @@ TEST(OwnStream, OfASlowConsumerTheOldestSamplesAreDroppedAndCounted) {
     })) << "the slow one keeps nobody else from anything";
   }
   EXPECT_GT(outlet->num_dropped(), 0);
-  // What it gets in the end is in order, with the newest, and a gap where it was too slow.
+  // What the consumer finally gets is in order, with the newest sample, and with a gap where it
+  // was too slow.
   FeedReader reader(outlet->info());
   int last = -1;
   std::int64_t num_came = 0;
@@ -322,7 +324,7 @@ TEST(OwnStream, ClocksAreComparedWhileItRuns) {
     for (const ClockOffset& one : inlet->take_offsets()) offsets.push_back(one);
     return !offsets.empty();
   }));
-  // Whatever the machine does meanwhile, half of the round trip bounds the error.
+  // Whatever the machine does meanwhile, the error is at most half of the round trip.
   EXPECT_NEAR(offsets[0].offset_s, kBehind_s, 0.5 * offsets[0].round_trip_s + 1e-9);
   EXPECT_LT(offsets[0].time_s, stream_clock_s() - kBehind_s);
 }

@@ -63,7 +63,7 @@ std::vector<float> values_of(const StreamSample& sample) {
   return values;
 }
 
-/// Two of five points, as a pincer has them.
+/// Returns a sample of a pincer, which has two of the five points.
 Sample pincer() {
   Sample sample{.tick = 9, .command_sequence = 4, .attached_bits = 0b01100};
   sample.tip_position_m[2] = {0.1, 0.2, 0.3};
@@ -88,7 +88,7 @@ TEST(SampleStream, TheUsualChannelsAreThoseOfTheHand) {
   EXPECT_EQ(info.source_id, "jnd-samples-s-3");
 }
 
-/// Sensors of force are believed before what was sent to the motors.
+/// Force sensors count more than what was sent to the motors.
 TEST(SampleStream, TheForceIsTheOneThatWasDelivered) {
   Sample sample = pincer();
   sample.channels.bits = kMeasuredForce;

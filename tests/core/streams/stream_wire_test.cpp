@@ -42,7 +42,7 @@ TEST(StreamWire, EverySampleIsReadBackFromAnyBeginningOfItsBytes) {
   }
 }
 
-/// As a machine sends it that has its numbers the other way round.
+/// These bytes come from a machine with the other byte order.
 TEST(StreamWire, NumbersOfTheOtherByteOrderAreTurnedRound) {
   const std::string bytes("\x02\x40\x09\x21\xFB\x54\x44\x2D\x18\x00\x01\xFF\xFE", 13);
   const auto taken = take_sample(bytes, ChannelFormat::kInt16, 2, /*big_endian=*/true);
@@ -52,7 +52,7 @@ TEST(StreamWire, NumbersOfTheOtherByteOrderAreTurnedRound) {
 }
 
 TEST(StreamWire, TheTestSamplesAreThoseOfTheProtocol) {
-  // By the definition: channel plus offset, every other one below zero.
+  // By definition, a value is channel plus offset, and every other one is negative.
   float floats[3];
   std::memcpy(floats, test_sample(ChannelFormat::kFloat32, 3, 4).values.data(), sizeof floats);
   EXPECT_EQ(floats[0], 4.0F);
@@ -117,8 +117,8 @@ TEST(FeedReader, ReadsAFeedByteByByteAndWorksTimesOut) {
   EXPECT_EQ(came[2].values, "c");
 }
 
-/// As liblsl 1.10 sent it to a consumer whose texts have another size in memory than its own;
-/// the description is shortened, with its length.
+/// liblsl 1.10 sent this to a consumer whose texts have another size in memory than its own.
+/// The description is shortened, with its length.
 TEST(FeedReader, ReadsTextsByTheOlderProtocol) {
   const StreamInfo info{
       .name = "xs", .channel_count = 2, .format = ChannelFormat::kString, .uid = "224e592d"};
