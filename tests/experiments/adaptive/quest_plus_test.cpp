@@ -190,9 +190,8 @@ TEST(QuestPlus, EndsAfterTrialsOrAtAnEntropyOrAStandardDeviation) {
   rule.min_trials = 0;
   rule.entropy_bits.reset();
   rule.marginal = {"which", 0.4};
-  EXPECT_EQ(end_after({{3, true}}), QuestPlusEnd::kNotFinished);  // The marginal is 0.43.
-  // The marginal is below 0.3.
-  EXPECT_EQ(end_after({{3, true}, {3, true}}), QuestPlusEnd::kMarginal);
+  EXPECT_EQ(end_after({{3, true}}), QuestPlusEnd::kNotFinished);          // The sd is 0.43.
+  EXPECT_EQ(end_after({{3, true}, {3, true}}), QuestPlusEnd::kMarginal);  // The sd is 0.3.
 }
 
 TEST(QuestPlus, RecoversAKnownObserverWithoutBiasOver200Runs) {

@@ -215,7 +215,7 @@ TEST_F(AnsweringSessionTest, NobodyGoesBackMoreOftenThanTheBlockAllows) {
   EXPECT_EQ(log_.events.size(), before);
   present(s, "free_space");
   answer(s, 1.0);
-  feel(s);  // Of the next trial nothing was felt yet.
+  feel(s);  // Nothing of the next trial was felt.
   EXPECT_EQ(num_returns(s.state().trial(now(s))), 0);
 }
 
