@@ -40,9 +40,9 @@ const std::map<std::string, std::string> kWithout = {
 
 // Whole literals that look like words for people and are none.
 const std::vector<std::regex> kNoWords = {
-    std::regex(R"(((Ctrl|Shift|Esc|Enter|F\d+|[A-Z+-]) *)+)"),  // Keys, as printed on them.
+    std::regex(R"(((Ctrl|Shift|Esc|Enter|F\d+|[A-Z+-]) *)+)"),  // Names of keys.
     std::regex("jnd"),               // This is the name of the program.
-    std::regex(R"(N m|\{:g\} Hz)"),  // Units.
+    std::regex(R"(N m|\{:g\} Hz)"),  // These are units.
     std::regex("Software"),          // OpenGL names a renderer so.
 };
 

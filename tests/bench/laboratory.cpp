@@ -108,8 +108,8 @@ struct Findings {
   std::vector<double> stream_errors_s;  ///< The largest error in each second.
   std::int64_t num_markers = 0;
   std::int64_t num_pulses_stored = 0, num_pulses_received = 0;
-  std::vector<double> pulse_delays_s;  ///< The delay from when the writing of the pulse began,
-                                       ///< as stored.
+  /// The delay from when the writing of the pulse began, as stored.
+  std::vector<double> pulse_delays_s;
   std::int64_t num_amplified = 0, num_lost_amplified = 0;
   std::vector<double> amplifier_errors_s;
   std::vector<double> press_to_read_s, press_to_stored_s;

@@ -22,8 +22,8 @@ inline constexpr const char* kAnswerAction = "yes";
 struct LaboratorySession {
   std::filesystem::path folder;  ///< The folder in which the session's study is made.
   double duration_s = 60.0;
-  bool has_everything = false;  ///< Whether there are streams, pulses, a pedal and sound.
-                                ///< Otherwise there is none of them.
+  /// Whether there are streams, pulses, a pedal and sound. Otherwise there is none of them.
+  bool has_everything = false;
   std::string marker_port, answer_port, stream_name;
 };
 

@@ -198,8 +198,8 @@ void an_hour_of_samples(benchmark::State& state) {
 BENCHMARK(an_hour_of_samples)->Iterations(1)->Unit(benchmark::kSecond)->UseRealTime();
 
 struct SessionLateness {
-  std::vector<std::pair<double, double>> buckets_us;  ///< The upper end of each class, and the
-                                                      ///< number of values in it.
+  /// The upper end of each class, and the number of values in it.
+  std::vector<std::pair<double, double>> buckets_us;
   double missed = 0.0;
 };
 

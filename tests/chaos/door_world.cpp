@@ -24,8 +24,8 @@ using test_support::RunningProgram;
 /// A machine that is too busy for real time also interrupts a session. If this many tries in a
 /// row add no answer, the machine is not the cause.
 constexpr int kMostTries = 20;
-constexpr int kEnvironmentLacks = 3;  ///< The exit code if this machine or device lacks
-                                      ///< something.
+/// The exit code if this machine or device lacks something.
+constexpr int kEnvironmentLacks = 3;
 /// The longest time from the start of a program to its first force.
 constexpr std::chrono::seconds kLongestWait(30);
 

@@ -67,13 +67,14 @@ struct Revocation {
 struct Happenings {
   double most_per_point_n = 0.0;
   double most_in_all_n = 0.0;
-  double most_step_n = 0.0;  ///< The largest change at one point from one record to the next.
-                             ///< An end of the force may be any step.
+  /// The largest change at one point from one record to the next. An end of the force may be
+  /// any step.
+  double most_step_n = 0.0;
   /// How long a force may stand without being renewed. This does not apply to a device that
   /// writes a record in each tick.
   int longest_standing_ms = 0;
-  std::vector<std::int64_t> program_starts_ns;  ///< These are in ascending order. Each program
-                                                ///< arms the device that it finds.
+  /// These are in ascending order. Each program arms the device that it finds.
+  std::vector<std::int64_t> program_starts_ns;
   std::vector<Revocation> revocations;
 };
 

@@ -21,14 +21,14 @@ struct Arguments {
   std::uint64_t num_schedules = 1000;
   std::uint64_t first_seed = 1;
   bool in_virtual_time = false;  ///< Leaves out the real program.
-  bool through_doors = false;    ///< Plays nothing but the real program on other people's
-                                 ///< devices.
-  bool tells_all = false;  ///< Prints each schedule through a door before it is played, and how
-                           ///< long it took.
-  bool wrong_devices = false;    ///< Plays devices that are wrong on purpose and must be found.
-  bool ends_at_first = false;    ///< Ends at the first violation.
-  bool measures_energy = false;  ///< Prints a line for each schedule, from which the bound of
-                                 ///< the energy is derived.
+  /// Plays nothing but the real program on other people's devices.
+  bool through_doors = false;
+  /// Prints each schedule through a door before it is played, and how long it took.
+  bool tells_all = false;
+  bool wrong_devices = false;  ///< Plays devices that are wrong on purpose and must be found.
+  bool ends_at_first = false;  ///< Ends at the first violation.
+  /// Prints a line for each schedule, from which the bound of the energy is derived.
+  bool measures_energy = false;
 };
 
 std::optional<std::uint64_t> number(std::string_view text) {

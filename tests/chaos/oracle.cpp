@@ -21,10 +21,10 @@ constexpr int kStaleReadingsByNet = 20;   ///< The same bound across a network.
 /// How far a point that stands still would have moved by its velocity: 3 mm, and one mm for
 /// what the network loses.
 constexpr double kStuckWay_m = 0.004;
-constexpr int kQuietNetwork_ms = 2;        ///< The way of a command, in ticks of both sides.
-constexpr int kDisturbedNetwork_ms = 45;   ///< No force answers to a state older than 40 ms.
-constexpr int kDisturbanceLasts_ms = 120;  ///< Datagrams that were on their way may arrive so
-                                           ///< much later.
+constexpr int kQuietNetwork_ms = 2;       ///< The way of a command, in ticks of both sides.
+constexpr int kDisturbedNetwork_ms = 45;  ///< No force answers to a state older than 40 ms.
+/// Datagrams that were on their way may arrive so much later.
+constexpr int kDisturbanceLasts_ms = 120;
 
 constexpr const char* kBrokenMedium = "the medium was no number";
 

@@ -21,8 +21,8 @@ enum class Trouble : std::uint8_t {
   kDisarm,
   kPressStop,
   kReleaseStop,
-  kPressStopWithinTick,  ///< The stop is pressed after the device was read and before its force
-                         ///< is written.
+  /// The stop is pressed after the device was read and before its force is written.
+  kPressStopWithinTick,
   kNewMedium,
   kBrokenMedium,  ///< A command whose amount is no number.
   kLoopStalls,
@@ -76,16 +76,16 @@ struct Schedule {
   World world = World::kDirect;
   int lasts_ms = 0;
   double hand_mass_kg = 0.3;
-  double stroke_m = 0.1;    ///< The amplitude of the person's strokes.
-  double stroke_hz = 1.0;   ///< The frequency of strokes to and fro.
-  double filter_hz = 0.0;   ///< The cut-off frequency of the device's velocity filter, or 0 for
-                            ///< none.
+  double stroke_m = 0.1;   ///< The amplitude of the person's strokes.
+  double stroke_hz = 1.0;  ///< The frequency of strokes to and fro.
+  /// The cut-off frequency of the device's velocity filter, or 0 for none.
+  double filter_hz = 0.0;
   int reading_late_ms = 0;  ///< The constant delay. Events add to it.
   int force_late_ms = 0;
   double viscosity_pa_s = 8.0;
-  bool zeroes_by_itself = true;  ///< Whether the device ends the force by itself, 20 ms after
-                                 ///< the last write.
-  std::vector<Event> events;     ///< The events are in the order of their time.
+  /// Whether the device ends the force by itself, 20 ms after the last write.
+  bool zeroes_by_itself = true;
+  std::vector<Event> events;  ///< The events are in the order of their time.
 
   /// Returns the first event of this kind that is on at this time, or nullptr if there is none.
   [[nodiscard]] const Event* on(Trouble what, int now_ms) const noexcept;

@@ -24,11 +24,11 @@ class LateDevice final : public HapticDevice {
  public:
   struct Parameters {
     double mass_kg = 0.1;
-    double cutoff_hz = 40.0;  ///< The cut-off frequency of the velocity's first-order filter,
-                              ///< or 0 for none.
+    /// The cut-off frequency of the velocity's first-order filter, or 0 for none.
+    double cutoff_hz = 40.0;
     int velocity_lag_ticks = 5;  ///< The delay after the filter.
-    int reading_lag_ticks = 0;   ///< The delay of the whole measurement, including its own time
-                                 ///< stamp.
+    /// The delay of the whole measurement, including its own time stamp.
+    int reading_lag_ticks = 0;
     int force_lag_ticks = 0;
     double velocity_sign = 1.0;
     double begins_m_per_s = 0.3;

@@ -21,12 +21,12 @@ struct Wear {
   double filter_hz = 40.0;      ///< The cut-off frequency of the velocity's first-order filter.
   double tremor_m = 100e-6;     ///< The amplitude by which a free hand would shake.
   double tremor_hz = 10.0;
-  double jitter_s = 100e-6;         ///< The largest deviation of a measurement's time in either
-                                    ///< direction.
-  double lost_ratio = 0.01;         ///< The share of measurements that are lost.
-  int delay_ticks = 1;              ///< The delay from a command to its force.
-  double slips_per_s = 1.0 / 20.0;  ///< How often a finger slides by some millimetres in its
-                                    ///< holder.
+  /// The largest deviation of a measurement's time in either direction.
+  double jitter_s = 100e-6;
+  double lost_ratio = 0.01;  ///< The share of measurements that are lost.
+  int delay_ticks = 1;       ///< The delay from a command to its force.
+  /// How often a finger slides by some millimetres in its holder.
+  double slips_per_s = 1.0 / 20.0;
   double comes_off_per_s = 1.0 / 1200.0;
 
   /// Draws the properties of person number `person`, evenly over what occurs in laboratories.
@@ -77,17 +77,17 @@ class WornHandDevice final : public device::HapticDevice {
   std::array<core::PointVectors, kMostDelayTicks> sent_;
 
   struct Finger {
-    Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();  ///< The distance from its place on a
-                                                         ///< stiff hand.
-    Eigen::Vector3d slide_m = Eigen::Vector3d::Zero();   ///< The remaining way in its holder.
+    /// The distance from its place on a stiff hand.
+    Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d slide_m = Eigen::Vector3d::Zero();  ///< The remaining way in its holder.
     int sliding_ticks = 0;
     int loose_ticks = 0;
   };
   std::array<Finger, core::kNumContactPoints> fingers_;
   int num_detachments_ = 0;
 
-  core::PointVectors acted_sum_n_ = core::zero_vectors();  ///< The sum since the last
-                                                           ///< measurement.
+  /// The sum since the last measurement.
+  core::PointVectors acted_sum_n_ = core::zero_vectors();
   int num_acted_ = 0;
   core::HapticState state_;           ///< The state that was measured in the last tick.
   core::HapticState last_delivered_;  ///< The state that was read last.

@@ -26,14 +26,14 @@ namespace jnd::soak {
 class Person {
  public:
   struct Parameters {
-    std::filesystem::path template_study;  ///< A folder with sessions, which is copied for each
-                                           ///< round.
-    std::filesystem::path table;           ///< A table of answers for the view of data.
-    std::filesystem::path folder;          ///< The folder that holds the studies of the rounds.
-    double duration_s = 0.0;  ///< The length of the simulated day, which decides which frames
-                              ///< are the first and the last.
-    double look_s = 0.0;      ///< The simulated time at each view and page. Each act takes a
-                              ///< quarter of it.
+    /// A folder with sessions, which is copied for each round.
+    std::filesystem::path template_study;
+    std::filesystem::path table;   ///< A table of answers for the view of data.
+    std::filesystem::path folder;  ///< The folder that holds the studies of the rounds.
+    /// The length of the simulated day, which decides which frames are the first and the last.
+    double duration_s = 0.0;
+    /// The simulated time at each view and page. Each act takes a quarter of it.
+    double look_s = 0.0;
     bool tells = false;  ///< Whether to print to stderr how long each part of a round took.
   };
   explicit Person(Parameters parameters);

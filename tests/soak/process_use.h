@@ -11,11 +11,11 @@ namespace jnd::soak {
 
 /// What a process holds after a round.
 struct ProcessUse {
-  double allocated_bytes = 0.0;  ///< The memory in use from `malloc` in every arena, or 0 for
-                                 ///< another process.
-  double resident_bytes = 0.0;   ///< The memory that is resident, including free parts of the
-                                 ///< arenas.
-  int num_handles = 0;           ///< The number of open files, sockets and pipes.
+  /// The memory in use from `malloc` in every arena, or 0 for another process.
+  double allocated_bytes = 0.0;
+  /// The memory that is resident, including free parts of the arenas.
+  double resident_bytes = 0.0;
+  int num_handles = 0;  ///< The number of open files, sockets and pipes.
   int num_threads = 0;
 };
 

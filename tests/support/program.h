@@ -19,14 +19,14 @@ struct ProgramOutcome {
 };
 
 struct ProgramOptions {
-  std::filesystem::path folder;  ///< The folder in which the program runs. If empty, it is the
-                                 ///< test's own.
+  /// The folder in which the program runs. If empty, it is the test's own.
+  std::filesystem::path folder;
   /// Variables that are added to the test's own environment, from which displays and JND_SHARE
   /// are removed.
   std::vector<std::pair<std::string, std::string>> environment;
-  std::vector<std::string> wrapper = {};  ///< A program that runs the program, for example
-                                          ///< {"strace", "-f"}.
-  std::filesystem::path out_file = {};    ///< The file that gets stdout in place of the test.
+  /// A program that runs the program, for example {"strace", "-f"}.
+  std::vector<std::string> wrapper = {};
+  std::filesystem::path out_file = {};  ///< The file that gets stdout in place of the test.
   std::string program = {};  ///< Another program in place of jnd: a path, or a name on PATH.
 };
 

@@ -18,8 +18,8 @@ using nlohmann::json;
 
 constexpr std::int64_t kNumTicks = 16000;
 
-using Change = std::function<bool(core::Sample&)>;  ///< It returns whether the sample was
-                                                    ///< recorded.
+/// Returns whether the sample was recorded.
+using Change = std::function<bool(core::Sample&)>;
 
 bool keep(core::Sample&) { return true; }
 

@@ -17,8 +17,8 @@ class RecordedStudy {
  public:
   static constexpr double kWidthM = 0.4;
   static constexpr double kDampingPerPaS = 1.776;
-  using Change = std::function<bool(core::Sample&)>;  ///< It returns whether the sample is
-                                                      ///< recorded.
+  /// It returns whether the sample is recorded.
+  using Change = std::function<bool(core::Sample&)>;
 
   explicit RecordedStudy(double delivered_ratio = 0.9)
       : store_(folder(), core::StudyStore::Mode::kCreate, core::Durability::kAtClose),

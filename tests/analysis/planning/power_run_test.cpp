@@ -89,7 +89,7 @@ TEST(PowerRun, WhoSeparatesTheStimuliPerfectlyIsLeftOutOrGivenHalfAnAnswer) {
   const PlannedRun run = analyse_run(two_blocks(), everybody);
   EXPECT_EQ(run.sizes[1].num_degenerate, (std::vector<int>{1, 0}));
   EXPECT_EQ(run.sizes[1].num_with_answers, (std::vector<int>{6, 6}));
-  // The first test leaves out the person, and with the person the pair.
+  // Only the first test leaves this person out, and with the person the whole pair.
   std::vector<PlannedPerson> without = everybody;
   without.erase(without.begin() + 1);
   PlannedAnalysis five = two_blocks();

@@ -29,11 +29,11 @@ using ::testing::UnorderedElementsAre;
 
 /// Everything that left the program while a session ran.
 struct Outgoing {
-  std::string printed;       ///< What the program printed on the terminal, in lines.
-  std::string stream_bytes;  ///< The description of the stream of markers, and each marker as
-                             ///< it was sent.
-  std::vector<std::string> markers;  ///< The words of the markers, without what counts or names
-                                     ///< the session.
+  std::string printed;  ///< What the program printed on the terminal, in lines.
+  /// The description of the stream of markers, and each marker as it was sent.
+  std::string stream_bytes;
+  /// The words of the markers, without what counts or names the session.
+  std::vector<std::string> markers;
   std::vector<unsigned char> pulses;
 };
 

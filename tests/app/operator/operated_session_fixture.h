@@ -180,18 +180,19 @@ class OperatedSessionTest : public ::testing::Test {
   std::unique_ptr<experiments::Study> study_;
   std::unique_ptr<core::StudyStore> store_;
   std::int64_t session_number_ = 0;
-  std::string device_ = "lumped";  ///< The device of sessions that are opened from now on. The
-                                   ///< following fields hold for them, too.
-  KnownProfile profile_;           ///< A profile without a text means that there is none.
+  /// The device of sessions that are opened from now on. The following fields hold for them,
+  /// too.
+  std::string device_ = "lumped";
+  KnownProfile profile_;  ///< A profile without a text means that there is none.
   std::map<std::string, std::string> fitting_;
   bool realtime_ = false;
-  bool asks_about_answers_ = false;  ///< Off by default, because tests answer sooner than any
-                                     ///< person.
-  bool may_miss_ticks_ = true;   ///< On by default, because the speed of the machine must not
-                                 ///< decide a test in real time.
-  SoundChoice sound_;            ///< The sound of a study that has sound.
-  std::filesystem::path stops_;  ///< The folder in which stops are remembered, or "" for
-                                 ///< nowhere.
+  /// Off by default, because tests answer sooner than any person.
+  bool asks_about_answers_ = false;
+  /// On by default, because the speed of the machine must not decide a test in real time.
+  bool may_miss_ticks_ = true;
+  SoundChoice sound_;  ///< The sound of a study that has sound.
+  /// The folder in which stops are remembered, or "" for nowhere.
+  std::filesystem::path stops_;
   std::function<void(const core::Sample&)> on_sample_;
   std::unique_ptr<OperatedSession> session_;
 };

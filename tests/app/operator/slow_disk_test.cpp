@@ -80,8 +80,8 @@ class SlowDiskTest : public RealtimeSessionTest {
     EXPECT_LT(last_tick_with_force() - asked, kHeldMs / 3);
   }
 
-  std::vector<core::Sample> samples_;  ///< The storage thread writes these while there is a
-                                       ///< session.
+  /// The storage thread writes these while there is a session.
+  std::vector<core::Sample> samples_;
   std::atomic<std::int64_t> held_ms_{0};
   std::atomic<bool> is_holding_{false};
   std::atomic<bool> fails_{false};

@@ -27,8 +27,8 @@ struct Conducted {
   std::int64_t started_ns = kRegistered_ns + 1;
   std::string device = "lumped";
   std::string version{};  ///< The version of the program, or "" for this one.
-  std::string last_ends = "session_completed";  ///< The event that ends the last session, or ""
-                                                ///< to leave it open.
+  /// The event that ends the last session, or "" to leave it open.
+  std::string last_ends = "session_completed";
   bool first_comes_again = false;
   bool sets_a_trial_aside = false;
   bool unblinds = false;

@@ -41,8 +41,8 @@ using test_support::comes_about;
 
 constexpr char kPreloaded[] = "JND_UMOCKDEV_IS_PRELOADED";
 
-/// Returns whether umockdev is preloaded, which must happen at the start of a program. The test
-/// then runs in the program that it turns into.
+/// Returns whether umockdev is preloaded. It must be there when a program starts, so the test
+/// runs in another process, which umockdev-wrapper starts.
 bool is_preloaded() { return std::getenv(kPreloaded) != nullptr; }
 
 int run_preloaded(const char* name) {

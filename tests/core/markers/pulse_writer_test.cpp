@@ -26,8 +26,8 @@ double clock_s() {
 struct Told {
   std::mutex mutex;
   std::vector<std::pair<int, double>> codes;
-  std::atomic<int> fails_after{1000};  ///< The number of pulses that are written before the
-                                       ///< port fails.
+  /// The number of pulses that are written before the port fails.
+  std::atomic<int> fails_after{1000};
 
   [[nodiscard]] std::vector<std::pair<int, double>> all() {
     const std::lock_guard guard(mutex);

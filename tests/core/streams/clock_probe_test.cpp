@@ -20,8 +20,8 @@ namespace clock_probe_test {
 struct FarClock {
   double offset_s = -1234.5;  ///< This is added to the clock's times.
   double drift_ppm = 0.0;     ///< By this much the clock is faster.
-  double mean_delay_s = 0.0;  ///< The mean of each way's exponential delay, which comes on top
-                              ///< of 50 us.
+  /// The mean of each way's exponential delay, which comes on top of 50 us.
+  double mean_delay_s = 0.0;
   double loss_ratio = 0.0;
 
   [[nodiscard]] double theirs_s(double ours_s) const {

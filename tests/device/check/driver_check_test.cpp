@@ -103,8 +103,7 @@ TEST_P(EachWrongDriver, IsFoundByItsRuleAndByNoOther) {
   }
 }
 
-// A device with other units is not in this list. Its positions and velocities agree, but it
-// moves far, so it breaks several rules.
+// A device with other units is tested below, because it breaks more than one rule.
 INSTANTIATE_TEST_SUITE_P(Rules, EachWrongDriver,
                          ::testing::Values("opens", "pace", "time", "velocity", "absent_points",
                                            "force_sign", "halt", "limits", "reopens"),

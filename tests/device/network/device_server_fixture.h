@@ -72,8 +72,8 @@ class Program {
   bool answers = true;
   bool echoes = true;
   std::int64_t heard_ns = 0;  ///< The server's clock in the newest state.
-  std::int64_t late_ns = 0;   ///< The program pretends to have heard the state this much
-                              ///< earlier.
+  /// The program pretends to have heard the state this much earlier.
+  std::int64_t late_ns = 0;
   std::uint32_t last_sequence = 0;
   int num_lost = 0;  ///< The number of lost states, which follows from the numbers in them.
   wire::State state;

@@ -185,8 +185,8 @@ class NetworkTest : public ::testing::Test {
   core::LatestValue<core::Telemetry> published_telemetry;
   core::EmergencyStop stop;
   std::unique_ptr<HapticLoop> loop;
-  std::optional<DeviceKey> key;  ///< The key of both sides, from the next `serve` and
-                                 ///< `make_device` on.
+  /// The key of both sides, from the next `serve` and `make_device` on.
+  std::optional<DeviceKey> key;
   bool loop_runs = true, server_runs = true;
   int num_run = 0;
   std::uint64_t next_stream_id = 0;

@@ -23,8 +23,8 @@ class MemoryLog final : public EventLog {
   }
 
   std::vector<core::Commit> commits;
-  std::vector<core::EventRow> events;  ///< The events of the commits, from which a session is
-                                       ///< resumed.
+  /// The events of the commits, from which a session is resumed.
+  std::vector<core::EventRow> events;
   std::vector<core::DesignRow> design;
   std::vector<core::TrialRow> trials;
   bool refuses = false;
