@@ -235,7 +235,8 @@ class HandMadeStudy {
     }
   }
 
-  /// Everything that is added afterwards happened later by this time.
+  /// Moves the clock on, so that everything that is added afterwards happened later by this
+  /// time.
   void wait(double duration_s) { time_ns_ += static_cast<std::int64_t>(1e9 * duration_s); }
 
  private:

@@ -57,8 +57,8 @@ inline const std::string kBlindOrderStudy = R"json({
   ]
 })json";
 
-/// The revealing words and numbers of both studies, as the files write them and as the program
-/// would show them.
+/// Returns the revealing words and numbers of both studies, as the files write them and as the
+/// program would show them.
 inline std::vector<std::string> telltales() {
   return {"treacly", "gluey",  "Gluey",  "honeyed", "syrupy",  "tarry", "watery", "brothy",
           "soupy",   "0.137",  "0.1372", "0.272",   "0.2719",  "0.191", "0.1913", "0.832",

@@ -66,8 +66,8 @@ std::string rows_text(const std::vector<Row>& rows, std::string_view left_out = 
   return text.text();
 }
 
-/// The event number is left out, because an interruption moves the events that draw and not
-/// what they draw.
+/// Returns the design of a session without the numbers of its events, because an interruption
+/// moves the events that draw and not what they draw.
 inline std::string design_text(const core::StudyStore& store, std::int64_t session) {
   return rows_text(store.design(session), "sequence");
 }

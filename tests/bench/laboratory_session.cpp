@@ -38,7 +38,7 @@ constexpr char kLaboratoryStudy[] = R"json({
      "instruction": {"en": "Compare."}, "question": {"en": "Thicker?"}, "expected_trial_s": 3}]
 })json";
 
-/// Without sound, the study does not require the noise, so that the session begins
+/// Returns the study. Without sound, it does not require the noise, so that the session begins
 /// nevertheless.
 std::string laboratory_study(bool has_sound) {
   std::string text = kLaboratoryStudy;
@@ -182,7 +182,7 @@ class LaboratoryOperator {
     if (view->step == app::Step::kFinished) worker_->request(app::operate::Leave{""});
   }
 
-  /// Without a pedal, this presses at the same moments in place of a person at the window.
+  /// Without a pedal, presses at the same moments in place of a person at the window.
   void press_what_is_due() {
     const double since_s = std::chrono::duration<double>(Clock::now() - *begun_).count();
     if (since_s > wanted_.duration_s) {

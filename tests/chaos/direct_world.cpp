@@ -38,7 +38,7 @@ class DirectWorld {
     program_.pass_millisecond(now_ms_);
   }
 
-  /// Called after the loop has read the device and before it has written its force.
+  /// Does what happens after the loop has read the device and before it has written its force.
   void happen_within_tick() {
     program_.press_stop_within_tick(now_ms_);
     int held_up_ms = 0;

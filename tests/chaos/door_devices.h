@@ -52,8 +52,7 @@ class DoorDevice {
   [[nodiscard]] pid_t host() const;
 
   void plug_in(bool is_in) const;
-  /// From this call on, `has_new_force` reports only the force of a program that is yet to
-  /// come.
+  /// Makes `has_new_force` report only the force of a program that is yet to come.
   void await_force();
   [[nodiscard]] bool has_new_force();
   /// Returns the logs of all devices that were open, one after the other.

@@ -173,8 +173,8 @@ class DoorWorld {
     take_end(false);
   }
 
-  /// A server that finds its driver gone or unplugged may end and say so. Then somebody starts
-  /// it again.
+  /// Starts the server again if it ended because its driver was gone or unplugged, as a person
+  /// would.
   void look_after_server() {
     const std::optional<ProgramOutcome> ended = device_.ended_server();
     if (!ended) return;
@@ -317,7 +317,8 @@ class DoorWorld {
                             .over_by_ns = until_ns});
   }
 
-  /// Behind a server, the driver's process may run while the server does not.
+  /// Returns what shows that the device could act. Behind a server, the driver's process may
+  /// run while the server does not.
   [[nodiscard]] Revocation::Clock clock_of_the_door() const {
     return schedule_.door == Door::kServedDriver ? Revocation::Clock::kRecords
                                                  : Revocation::Clock::kBeats;

@@ -140,7 +140,8 @@ void sum_up(const Counts& counts, const Arguments& arguments, double took_s) {
               std::floor(passed_percent), counts.num_failed, counts.num_played);
 }
 
-/// Each device that is wrong on purpose must be found by the judge that calls the others sound.
+/// Plays devices that are wrong on purpose. The judge that calls the others sound must find
+/// each of them.
 int campaign_of_wrong_devices(const Arguments& arguments) {
   int num_missed = 0;
   for (std::uint64_t i = 0; i < arguments.num_schedules; ++i) {

@@ -92,7 +92,7 @@ class NetworkWorld {
     }
   }
 
-  /// A killed program sends no goodbye.
+  /// Stops the program without a goodbye, as if it were killed.
   void stop_program() {
     program_.kill();
     is_mute_ = true;

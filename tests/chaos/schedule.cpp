@@ -117,7 +117,8 @@ void draw_events(core::RandomStream& random, Schedule& schedule) {
   std::ranges::stable_sort(schedule.events, {}, &Event::at_ms);
 }
 
-/// A stopped or killed program has no watchdog, so the device must end the force by itself.
+/// Returns whether the program may stop or be cut off. It has no watchdog then, so the device
+/// must end the force by itself.
 bool needs_a_device_that_zeroes_by_itself(const Schedule& schedule) {
   return std::ranges::any_of(schedule.events, [](const Event& event) {
     return event.what == Trouble::kProgramStops || event.what == Trouble::kProgramIsKilled ||

@@ -161,9 +161,9 @@ LateDevice::Parameters late(Late where, double mass_kg, int lag_ticks) {
 
 core::MediumAmounts thick() { return core::viscous({.viscosity_pa_s = 21.0}); }
 
-/// Without a fault, the hand has come to rest and was given no energy. With a fault, the fault
-/// came before the hand could be hurt: it got some tens of millijoules, and the speed that
-/// belongs to them.
+/// Expects that the hand either came to rest and was given no energy, or that the fault came
+/// before the hand could be hurt. Then the hand got little energy, and the speed that belongs
+/// to it.
 void expect_rest_or_an_early_fault(const LateDevice::Parameters& parameters,
                                    const core::MediumAmounts& medium, Fault wanted) {
   Rig rig(parameters, medium);

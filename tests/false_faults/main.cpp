@@ -169,8 +169,8 @@ class Hour {
     return true;
   }
 
-  /// The experimenter reads the warning in the window, and the person moves the hand a second
-  /// later.
+  /// Moves the hand a second after the loop asked for it, as a person does to whom the
+  /// experimenter reads the warning.
   void move_where_asked() {
     constexpr int kReaction_ms = 1000;
     const bool is_asked = telemetry_.value().warning == core::Fault::kPositionFrozen;

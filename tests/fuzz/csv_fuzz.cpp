@@ -23,7 +23,7 @@ std::string quoted_row(const std::vector<std::string>& cells) {
   return row + '\n';
 }
 
-/// If every cell of the table is written in quotes, the result must be the same table.
+/// Expects that the table is the same after every cell was written in quotes.
 void check_round_trip(const CsvTable& table) {
   std::string text = quoted_row(table.columns());
   for (std::size_t row = 0; row < table.num_rows(); ++row) {

@@ -78,7 +78,8 @@ class Round {
     window_.press("BackSpace");
     window_.wait_for_view("sessions");
   }
-  /// Each size has a picture of its letters, and each theme has its colours.
+  /// Shows every size and theme. Each size has a picture of its letters, and each theme has its
+  /// colours.
   void look_at_letters() {
     for (const char* key : {"ctrl+plus", "ctrl+plus", "ctrl+minus", "ctrl+minus", "ctrl+d"}) {
       window_.press(key);

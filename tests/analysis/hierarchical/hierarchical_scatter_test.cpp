@@ -10,8 +10,8 @@
 namespace jnd::analysis {
 namespace hierarchical_scatter_test {
 
-/// The parameters are a, p, the sd of a and the sd of p, and then r, tau and v if the structure
-/// has them.
+/// Returns a structure whose parameters are a, p, the sd of a and the sd of p, and then r, tau
+/// and v if it has them.
 HierarchicalStructure structure_with(bool has_scatter, bool has_own_lapses, bool has_lapses) {
   HierarchicalStructure structure{.has_places = true,
                                   .has_lapses = has_lapses,

@@ -11,7 +11,7 @@
 namespace jnd::analysis {
 namespace mixed_likelihood_test {
 
-/// A model with one row for each group, and an intercept that differs between groups.
+/// Returns a model with one row for each group, and an intercept that differs between groups.
 MixedModel intercepts(MixedLink link, const std::vector<double>& yes,
                       const std::vector<double>& trials) {
   const auto rows = static_cast<Eigen::Index>(yes.size());

@@ -12,10 +12,10 @@
 namespace jnd::analysis {
 namespace people_lines_test {
 
-/// Everybody has x = -1, 0 and 1. There, the intercept of a person's line has 1/3 and the slope
-/// 1/2 of the residual variance, without a covariance. The scatter about a line is a contrast
-/// of second order, `bend` times (1, -2, 1), whose square is 6 bend^2 with one degree of
-/// freedom.
+/// Returns rows of people with x = -1, 0 and 1. There, the intercept of a person's line has 1/3
+/// and the slope 1/2 of the residual variance, without a covariance. The scatter about a line
+/// is a contrast of second order, `bend` times (1, -2, 1), whose square is 6 bend^2 with one
+/// degree of freedom.
 std::vector<PersonPoint> balanced(const std::vector<Line>& lines,
                                   const std::vector<double>& bends) {
   std::vector<PersonPoint> rows;

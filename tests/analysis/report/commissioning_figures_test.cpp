@@ -8,7 +8,8 @@
 namespace jnd::analysis {
 namespace commissioning_figures_test {
 
-/// A device with 2 N s/m and 0.5 N, whose force is 10 % too weak. Its y axis points up.
+/// Returns the fit of a device with 2 N s/m and 0.5 N, whose force is 10 % too weak. Its y axis
+/// points up.
 ForceFit force_by_hand() {
   ForceFit fit{.gain = {0.9, 0.89, 0.91},
                .offset_n = {0.0, -1.0, 0.0},

@@ -25,7 +25,7 @@ StudyResults results_with(const Estimate& estimate) {
   return results;
 }
 
-/// The commanded value is 0.6, and the delivered one 0.3.
+/// Returns results whose delivered value is 0.3. The commanded value is 0.6.
 DeliveredReport delivered_by_hand() {
   Estimate estimate = fraction(0.3, 0.2, 0.45);
   estimate.device_ci95 = {0.29, 0.31};

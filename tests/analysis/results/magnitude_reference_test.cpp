@@ -13,7 +13,7 @@ namespace magnitude_reference_test {
 
 using nlohmann::json;
 
-/// An invented study, which SciPy analysed with the script beside it.
+/// Returns an invented study, which SciPy analysed with the script beside it.
 const json& reference() { return test_support::reference_data("magnitudes/magnitudes.json"); }
 
 StudyData invented_study() {

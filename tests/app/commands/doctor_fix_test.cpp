@@ -45,7 +45,7 @@ class DoctorFixTest : public CommandTest {
     words.insert(words.end(), more.begin(), more.end());
     return jnd(words);
   }
-  /// The test needs the system's own groupadd and usermod.
+  /// Returns whether the test can run as root and has the system's groupadd and usermod.
   static bool has_tools() {
     return ::geteuid() == 0 && ::access("/usr/sbin/groupadd", X_OK) == 0;
   }

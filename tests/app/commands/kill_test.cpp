@@ -52,8 +52,9 @@ class KillTest : public CommandTest {
     return words;
   }
 
-  /// Every third moment is any moment of the run, including the time in which the folder is
-  /// made. The others come right after an acknowledgement, when most work is under way.
+  /// Draws when to kill the program. In one of three cases this is any moment of the run,
+  /// including the time in which the folder is made. In the others it is right after an
+  /// acknowledgement, when most work is under way.
   Moment draw_moment() {
     if (random_() % 3 == 0) {
       const double ratio = std::uniform_real_distribution<double>(0.0, 1.0)(random_);

@@ -13,7 +13,8 @@ namespace participant_fields_test {
 
 using test_support::ProgramOutcome;
 
-/// A study of ten trials, which gives each arm to half of the women and half of the men.
+/// Returns a study of ten trials, which gives each arm to half of the women and half of the
+/// men.
 std::string stratified_study() {
   const std::string fields = R"json("participant_fields": [
     {"name": "sex", "question": {"en": "Sex?"}, "options": [

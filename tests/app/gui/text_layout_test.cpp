@@ -7,7 +7,7 @@ namespace text_layout_test {
 
 using Lines = std::vector<std::string_view>;
 
-/// In this test every byte is one unit wide.
+/// Returns the width of a text whose every byte is one unit wide.
 float length(std::string_view text) { return static_cast<float>(text.size()); }
 
 TEST(TextLayout, BreaksAtSpacesAndLineEnds) {

@@ -48,7 +48,7 @@ class HurtfulHand final : public device::HapticDevice {
 /// disappears without a message, as a killed process does.
 class ServedHand {
  public:
-  /// If `port` is 0, any free port is taken.
+  /// Serves the hand at `port`, or at any free port if it is 0.
   explicit ServedHand(std::uint64_t first_stream_id, std::uint16_t port = 0,
                       std::unique_ptr<device::HapticDevice> hand = device::make_device("lumped",
                                                                                        1000.0))

@@ -30,8 +30,8 @@ struct Both {
   double simulated_s = 0.0, calculated_s = 0.0;  ///< The time for which the stimuli were felt.
 };
 
-/// The simulated hand lags behind the arm, and the calculation neglects this. So the simulation
-/// always takes longer.
+/// Expects that the stimuli were felt for similar times. The simulated hand lags behind the
+/// arm, and the calculation neglects this, so the simulation always takes longer.
 void expect_alike_felt(const Both& both) {
   EXPECT_LE(both.calculated_s, both.simulated_s);
   EXPECT_GE(both.calculated_s, 0.65 * both.simulated_s);

@@ -55,8 +55,8 @@ class ApparatusTest : public ::testing::Test {
     return false;
   }
 
-  /// If the machine was so busy that the heartbeat came too late, the force is gone, so the
-  /// device is armed again.
+  /// Returns whether there is force. If the machine was so busy that the heartbeat came too
+  /// late, the force is gone, so this arms the device again first.
   [[nodiscard]] bool feels_force(Apparatus& apparatus) {
     if (apparatus.telemetry().fault == core::Fault::kHeartbeatLost) apparatus.rearm();
     return force_n(apparatus) > 1.0;

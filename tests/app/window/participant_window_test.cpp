@@ -26,7 +26,8 @@ class ParticipantWindowTest : public WindowTest {
     window_ = std::make_unique<WindowDriver>(*display_, path("home"));
     plug_in(std::string(kLeft) + kRight);
   }
-  /// Xvfb always has one monitor, so the program reads of others from a file.
+  /// Writes the file from which the program reads its monitors, because Xvfb always has one
+  /// monitor.
   void plug_in(const std::string& monitors) {
     write_file(path("monitors.new"), monitors);
     fs::rename(path("monitors.new"), path("monitors"));

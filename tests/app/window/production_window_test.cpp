@@ -19,7 +19,7 @@ class ProductionWindowTest : public WindowTest {
     return -1.0;
   }
   double level() const { return level_on(window_->screen()); }
-  /// The tolerance covers the three digits that the card shows.
+  /// Returns whether the card shows this level, to the three digits that it has.
   static bool shows_level(const Screen& screen, double wanted) {
     return std::abs(level_on(screen) - wanted) < 0.06;
   }

@@ -138,7 +138,7 @@ class TourWindowTest : public WindowTest {
     return time == (viscosity_pa_s < 8.0 ? 2 : 1);
   }
 
-  /// The tour hides the levels, so the test looks them up.
+  /// Looks up the level of the trial, because the tour hides the levels.
   [[nodiscard]] double level() const {
     const core::DesignRow drawn = tour().design(1).at(answers_.size());
     return drawn.intensity.value_or(drawn.starting_intensity.value_or(0.0));

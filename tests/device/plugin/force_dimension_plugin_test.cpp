@@ -17,7 +17,8 @@ namespace force_dimension_plugin_test {
 
 class ForceDimensionPluginTest : public ForceDimensionTest {
  protected:
-  /// The driver's process cuts longer messages, and would so cut the part that says what to do.
+  /// Expects this refusal, whose sentence must be short, because the driver's process cuts
+  /// longer messages and with them what to do.
   static void expect_refused(const std::string& said, const std::string& words) {
     EXPECT_TRUE(said.starts_with("device plugin ")) << said;
     EXPECT_NE(said.find(words), std::string::npos) << said;

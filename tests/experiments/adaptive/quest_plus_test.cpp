@@ -16,8 +16,9 @@
 namespace jnd::experiments {
 namespace quest_plus_test {
 
-/// A rule with two equally likely values. The arrays say how likely "yes" is at the intensities
-/// 1, 2, 3 and 4. The second intensity tells the values apart at once, and so does the fourth.
+/// Returns a rule with two equally likely values. The arrays say how likely "yes" is at the
+/// intensities 1, 2, 3 and 4. The second intensity tells the values apart at once, and so does
+/// the fourth.
 QuestPlusRule two_values() {
   QuestPlusModel model;
   model.parameters = {{"which", {{1.0, 2.0}}, false}};

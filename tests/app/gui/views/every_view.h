@@ -377,8 +377,8 @@ class EveryView {
  private:
   using Draw = std::function<void(Ui&)>;
 
-  /// The height of scrolled content is known one frame later, and a dialog takes one frame to
-  /// open.
+  /// Draws several frames before it looks, because the height of scrolled content is known one
+  /// frame later, and a dialog takes one frame to open.
   void show(const std::string& name, int number, const Draw& draw) {
     for (int i = 0; i < 4; ++i) ui_.frame(draw);
     look_(name + (number > 0 ? " " + std::to_string(number) : ""), ui_.drawn());
