@@ -4,8 +4,9 @@
 
 namespace jnd::app {
 
-/// A study of two blocks. The first block has a deadline, stimuli with times, no way back, and
-/// the answer "cannot tell". In the second block the answers decide what comes next.
+/// A study of two blocks. The first block has a deadline, stimuli with times, and the answer
+/// "cannot tell". In the second block there is no way back, and the answers decide what comes
+/// next.
 inline const std::string kAnsweringStudy = R"json({
   "format": 1,
   "name": "answering",

@@ -3,7 +3,8 @@
 namespace jnd::app {
 
 /// A study with two groups of blocks whose trials are mixed, and a separate block between them.
-/// One group has fixed levels. The other adapts and asks a question.
+/// The first group mixes a block of fixed levels with a staircase that asks a question. The
+/// blocks of the second group have fixed levels.
 inline constexpr char kInterleavedStudy[] = R"json({
   "format": 1, "name": "mixed", "languages": ["en"], "title": {"en": "Mixed"},
   "authors": ["A. Author"],

@@ -4,7 +4,7 @@
 
 namespace jnd::app {
 
-/// A study with one block for each task, some with catch trials, and a practice block with
+/// A study with blocks of several tasks, some with catch trials, and a practice block with
 /// feedback.
 inline const std::string kTaskStudy = R"json({
   "format": 1,

@@ -7,8 +7,8 @@
 
 namespace jnd::app {
 
-/// A study of ten trials with all three procedures and most kinds of stages. It runs in less
-/// than a second.
+/// A study of ten trials with estimation, production, comparison and most kinds of stages. It
+/// runs in less than a second.
 inline const std::string kTinyStudy = R"json({
   "format": 1,
   "name": "tiny",

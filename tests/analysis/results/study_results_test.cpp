@@ -244,7 +244,7 @@ TEST(StudyResults, WhoLacksABlockIsNamedThere) {
   EXPECT_EQ(of.find("group_e.weber_fraction")->n, 1);
 }
 
-/// A study in which each kind of block, and a form, is in an arm of its own.
+/// A study whose kinds of blocks, and a form, are divided between two arms.
 constexpr char kArms[] = R"({"name": "by_hand", "participant_fields": [
    {"name": "sex", "options": [{"value": "female"}, {"value": "male"}]}], "stages": [
   {"kind": "counterbalance", "name": "oil", "method": "one_of", "arms": [
@@ -263,7 +263,7 @@ void move_widely(HandMadeStudy& study) {
               .measures = {.num_strokes = 3, .stroke_width_m = 0.3, .max_speed_m_per_s = 0.4}});
 }
 
-/// Adds P01 and P02 to one arm and P03 to the other. P04 and P05 left before either arm began.
+/// Adds P01 and P02 to one arm and P03 to the other. P04 and P05 left before their arm began.
 void add_both_arms(HandMadeStudy& study) {
   for (const char* name : {"P01", "P02"}) {
     study.add(name, false, "", "sex=female;oil=thin");

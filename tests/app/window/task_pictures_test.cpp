@@ -3,8 +3,8 @@
 namespace jnd::app {
 namespace task_pictures_test {
 
-/// A study with a block of few trials for every task, after a question about handedness, over
-/// which the arms are balanced.
+/// A study with blocks of several tasks, with few trials each, after a question about
+/// handedness, over which the arms are balanced.
 const std::string kTasks = R"json({
   "format": 1, "name": "tasks", "languages": ["en"], "title": {"en": "Every task"},
   "authors": ["A. Author"], "blinding": "none",

@@ -12,7 +12,7 @@
 #include "experiments/procedures/stimulus.h"
 #include "experiments/protocol/study_reader.h"
 
-// Tests that every task recovers the values of its simulated participant, and that a criterion
+// Tests that the tasks recover the values of their simulated participant, and that a criterion
 // has the effect that theory predicts.
 
 namespace jnd::experiments {
