@@ -16,7 +16,7 @@ namespace jnd::architecture {
 namespace guard_lists_test {
 
 struct Guard {
-  std::string head;  ///< "device/haptic_loop.cpp: the heartbeat"
+  std::string head;  ///< For example "device/haptic_loop.cpp: the heartbeat".
   std::string code;
 };
 

@@ -242,9 +242,9 @@ const std::map<std::string, std::set<std::string>> kLibraryHomes = {
 };
 
 struct Include {
-  std::string file;  // "core/viscous_drag.cpp"
+  std::string file;  // For example "core/viscous_drag.cpp".
   int line = 0;
-  std::string target;  // "core/storage/database", "nlohmann/json", "sqlite3"
+  std::string target;  // For example "core/storage/database", "nlohmann/json" or "sqlite3".
 };
 
 std::vector<Include> includes_of(const fs::path& root, const fs::path& file) {
@@ -336,7 +336,8 @@ TEST(IncludeRules, EveryAllowanceIsUsed) {
   }
 }
 
-// A folder of tests that no program names would be compiled into none, and nobody would notice.
+// If no test program named a folder of tests, the tests in it would not be compiled, and nobody
+// would notice.
 TEST(IncludeRules, EveryFolderOfTestsIsInAProgram) {
   const fs::path tests = jnd::test_support::source_folder() / "tests";
   std::ifstream file(tests / "CMakeLists.txt");
@@ -362,7 +363,7 @@ TEST(IncludeRules, NamesOfAFolderAreUniqueInItsUnits) {
   static const std::regex kName(
       R"re(^(?:(?:struct|class|enum class) (\w+)|(?:inline |static )?(?:constexpr|const) [^=;(]*?\b(k[A-Z]\w*)\b).*)re");
   const fs::path root = jnd::test_support::source_folder();
-  std::map<std::string, std::string> files;  // By folder and name.
+  std::map<std::string, std::string> files;  // The file of each name, by folder and name.
   for (const fs::path& file : sources(root)) {
     if (file.extension() != ".cpp") continue;
     std::ifstream source(file);

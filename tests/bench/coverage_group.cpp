@@ -37,7 +37,7 @@ double pooled_truth(const Population& population, const Levels& levels, bool fre
 
 struct GroupEstimate {
   Coverage coverage;
-  std::vector<double> logs;  ///< ln(estimate / truth)
+  std::vector<double> logs;  ///< The values are ln(estimate / truth).
 
   void add(const std::optional<double>& value, const Interval& interval, double truth) {
     coverage.add(value.has_value(), interval, truth);

@@ -141,7 +141,7 @@ inline std::string percent(double value) {
   return text;
 }
 
-/// Markdown sections on stdout.
+/// These functions print Markdown sections to stdout.
 void cover_curves(int num_sets, std::uint64_t seed);
 void cover_groups(int num_sets, std::uint64_t seed);
 void cover_contrasts(int num_sets, std::uint64_t seed);

@@ -31,7 +31,7 @@ std::vector<AnswerCount> scattered_answers_of(const Person& person, const Levels
 
 struct ScatteredEstimate {
   Coverage coverage;
-  std::vector<double> logs;  ///< ln(estimate / truth)
+  std::vector<double> logs;  ///< The values are ln(estimate / truth).
 
   void add(const HierarchicalFit& fit, double truth) {
     const bool exists = fit.status == FitStatus::kOk && fit.conditions[0].weber_fraction;

@@ -80,7 +80,7 @@ struct LookedDesign {
   std::vector<int> looks;
   SpendingFunction spending = SpendingFunction::kObrienFleming;
   Tail tail = Tail::kTwoSided;
-  double effect = 0.0;  ///< In standard deviations of people's contrasts.
+  double effect = 0.0;  ///< The effect in standard deviations of people's contrasts.
   Spread spread = Spread::kNormal;
   std::size_t num_groups = 1;
 };

@@ -90,7 +90,7 @@ void export_csv(benchmark::State& state) {
 }
 BENCHMARK(export_csv)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// The reference of the same run: the sqlite3 shell's own CSV of the same rows.
+/// Measures the reference in the same run: the CSV of the same rows by the sqlite3 shell.
 void reference_sqlite3_shell_csv(benchmark::State& state) {
   const LargeStudy study;
   const std::string command = "sqlite3 -readonly -csv -header '" +

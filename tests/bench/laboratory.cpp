@@ -208,7 +208,7 @@ class Laboratory {
     pollfd waits{.fd = markers_.descriptor(), .events = POLLIN, .revents = 0};
     if (::poll(&waits, 1, 50) <= 0) return;
     unsigned char byte = 0;
-    // Nobody has the other end open yet, or any more.
+    // The other end is not open yet, or no longer.
     if (::read(markers_.descriptor(), &byte, 1) != 1) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     } else if (byte != 0) {

@@ -111,7 +111,7 @@ double by_reversals(const Block& block, const std::vector<AnsweredTrial>& answer
   return ln_within(spread_ln > 0.0 ? std::expm1(spread_ln) : 0.0);
 }
 
-/// Errors of ln w of one person: estimator by number of trials.
+/// The errors of ln w of one person, by estimator and number of trials.
 using Errors = std::vector<std::vector<double>>;
 
 const AnsweredBlock& named(const std::vector<AnsweredBlock>& blocks, const std::string& name) {

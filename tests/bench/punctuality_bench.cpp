@@ -18,7 +18,7 @@
 namespace jnd {
 namespace {
 
-/// How late something at 1 kHz came, in microseconds.
+/// How late events at 1 kHz came, in microseconds.
 struct Lateness {
   double p50_us = 0.0;
   double p99_us = 0.0;

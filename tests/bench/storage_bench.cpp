@@ -29,7 +29,8 @@ void durable_commit(benchmark::State& state) {
 }
 BENCHMARK(durable_commit)->Unit(benchmark::kMicrosecond);
 
-/// The reference of the same run: a bare fdatasync of one page on the same file system.
+/// Measures the reference in the same run: a bare fdatasync of one page on the same file
+/// system.
 void reference_fdatasync(benchmark::State& state) {
   const test_support::TemporaryFolder folder;
   const int file = ::open((folder.path() / "page").c_str(), O_CREAT | O_RDWR, 0600);

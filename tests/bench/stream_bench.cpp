@@ -153,7 +153,8 @@ BENCHMARK(clock_synchronisation)->Iterations(1)->Unit(benchmark::kSecond)->UseRe
 void an_hour_of_samples(benchmark::State& state) {
   constexpr std::int64_t kNumSamples = 3'600'000;
   constexpr std::int64_t kBatch = 100;
-  constexpr std::int64_t kAhead = 20'000;  // Less than what is kept for a slow consumer.
+  // This is less than what is kept for a slow consumer.
+  constexpr std::int64_t kAhead = 20'000;
   const core::StreamNetwork network = core::loopback_network();
   for (auto _ : state) {
     const auto outlet = core::open_own_outlet(bench_stream(), network);

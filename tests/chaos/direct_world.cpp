@@ -5,7 +5,7 @@
 namespace jnd::chaos {
 namespace {
 
-/// Loop and device in one program.
+/// Plays a schedule with loop and device in one program.
 class DirectWorld {
  public:
   explicit DirectWorld(const Schedule& schedule)

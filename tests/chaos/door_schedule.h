@@ -23,10 +23,10 @@ enum class DoorTrouble : std::uint8_t {
   kProgramStopped,  ///< SIGSTOP, and continued after a while.
   kServerKilled,    ///< The server is killed, and started again at the same port.
   kServerStopped,
-  kHostKilled,  ///< The process in which a driver runs.
+  kHostKilled,  ///< The process in which a driver runs is killed.
   kHostStopped,
   kUnplugged,   ///< Every call of the driver fails.
-  kAllStopped,  ///< Program, server and driver, as when a machine sleeps.
+  kAllStopped,  ///< Program, server and driver stop, as when a machine sleeps.
 };
 
 struct DoorEvent {

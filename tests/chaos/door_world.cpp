@@ -61,7 +61,7 @@ void pause(int milliseconds) {
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
 }
 
-/// One session of the real program on a device of the real world.
+/// Plays one session of the real program in real time, on a device in another process.
 class DoorWorld {
  public:
   explicit DoorWorld(const DoorSchedule& schedule)

@@ -47,7 +47,7 @@ class ForceWatch {
   bool was_without_ = false, has_force_ = false;
 };
 
-/// A reason for which there must be no force at a device until a program is started anew.
+/// A reason for which there must be no force at a device until a program is started again.
 struct Revocation {
   /// Which times show that whoever has to end the force was able to run.
   enum class Clock { kBeats, kRecords };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMostPerPoint_n = 10.0;
 constexpr double kMostInAll_n = 30.0;
-constexpr double kMostStep_n = 2.0;  ///< In a millisecond.
+constexpr double kMostStep_n = 2.0;  ///< The limit holds for one millisecond.
 constexpr double kRounding = 1e-6;
 
 // SAFETY.md.

@@ -74,7 +74,7 @@ void ProgramInVirtualTime::act(const Event& event) {
 }
 
 void ProgramInVirtualTime::pass_millisecond(int now_ms) {
-  // A program that is stopped takes no keys.
+  // A stopped program receives no keys.
   if (is_on(Trouble::kProgramStops, now_ms)) return;
   for (const Event& event : schedule_.events) {
     if (event.at_ms == now_ms) act(event);

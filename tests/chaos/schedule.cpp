@@ -79,7 +79,7 @@ Event drawn_event(core::RandomStream& random, const TroubleKind& kind, int at_ms
           .size = random.uniform(kind.least, kind.most)};
 }
 
-/// People arm again and again, and release a stop after it was pressed.
+/// Adds the acts of people, who arm again and again, and release a stop after it was pressed.
 void add_acts_of_people(core::RandomStream& random, Schedule& schedule) {
   std::vector<Event> acts;
   for (int at_ms = 20 + static_cast<int>(random.below(300)); at_ms < schedule.lasts_ms;

@@ -7,25 +7,26 @@
 
 namespace jnd::chaos {
 
-/// Where a schedule is played.
+/// The place where a schedule is played.
 enum class World {
   kDirect,   ///< Loop and device are in one program, in virtual time.
   kNetwork,  ///< A network is between them, in virtual time.
   kProcess,  ///< The real program is killed, stopped and starved while it writes a study.
 };
 
-/// What people do and what goes wrong. `kTroubles` says of each where it can happen, for how
+/// What people do and what goes wrong. `kTroubles` says where each trouble can happen, for how
 /// long and how strongly.
 enum class Trouble : std::uint8_t {
   kArm,
   kDisarm,
   kPressStop,
   kReleaseStop,
-  kPressStopWithinTick,  ///< After the device was read and before its force is written.
+  /// The stop is pressed after the device was read and before its force is written.
+  kPressStopWithinTick,
   kNewMedium,
   kBrokenMedium,  ///< A command with an amount that is not a number.
   kLoopStalls,
-  kLoopHeldUpWithinTick,  ///< The loop is held up between reading and writing.
+  kLoopHeldUpWithinTick,  ///< The loop is delayed between reading and writing.
   kWindowStalls,
   kServerStalls,
   kProgramStops,     ///< SIGSTOP: stops loop, watchdog and window at once.

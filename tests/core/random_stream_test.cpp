@@ -57,7 +57,7 @@ TEST(RandomStream, EveryPartOfTheKeyCounts) {
       }
     }
   }
-  // A letter is not an index.
+  // A letter must not have the same effect as an index.
   seeds.insert(derived_seed(0, "a", {98}));
   EXPECT_EQ(static_cast<int>(seeds.size()), num_keys + 1);
 }

@@ -27,7 +27,7 @@ TEST(HaltLatch, WithholdsUntilNothingIsAskedFor) {
   EXPECT_FALSE(latch.withholds(pushed(1.0)));
 }
 
-/// Every device that computes its forces here.
+/// Tests every device whose forces this program computes.
 class HaltedDevice : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(HaltedDevice, FeelsNothingUntilZerosAreWritten) {

@@ -18,8 +18,8 @@ using core::Fault;
 constexpr double kPeriod_s = 0.001;
 constexpr int kMostLagTicks = 32;
 
-/// A hand of one mass on a device whose velocity is filtered and late, or of the wrong sign,
-/// and whose force may act late. It keeps the book of what the device did to it.
+/// A hand of one mass on a device whose velocity is filtered and late, or has the wrong sign,
+/// and whose force may act late. It counts the energy that the device gave it.
 class LateDevice final : public HapticDevice {
  public:
   struct Parameters {
@@ -115,7 +115,7 @@ class LateDevice final : public HapticDevice {
   std::array<core::PointVectors, kMostLagTicks> sent_;
 };
 
-/// The loop on such a device, in a fluid.
+/// A loop with such a device in a fluid.
 struct Rig {
   Rig(const LateDevice::Parameters& parameters, const core::MediumAmounts& medium)
       : device(parameters) {
@@ -146,7 +146,7 @@ struct Rig {
 constexpr double kMasses_kg[] = {0.03, 0.1, 0.3, 0.6, 1.0, 2.0};
 constexpr int kLags[] = {0, 1, 2, 5, 10};
 
-/// Where the lag may be.
+/// What may be late.
 enum class Late { kVelocity, kReading, kForce };
 
 LateDevice::Parameters late(Late where, double mass_kg, int lag_ticks) {

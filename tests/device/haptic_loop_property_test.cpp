@@ -15,7 +15,7 @@ namespace haptic_loop_property_test {
 using core::Fault;
 using core::RandomStream;
 
-/// Amounts from nothing to far beyond any study, now and then negative.
+/// Returns amounts from nothing to far beyond any study, which are sometimes negative.
 core::MediumAmounts random_medium(RandomStream& random) {
   core::MediumAmounts medium;
   for (const auto amount : core::kAmounts) {

@@ -38,7 +38,8 @@ inline const char* words(Phase phase) {
 inline const std::array<std::array<bool, 5>, 3> kAttachments = {
     {{true, false, false, false, false}, {true, true, false, true, false}, core::kAllAttached}};
 
-/// A hand that is lowered onto a rough solid plane below a viscous fluid, with a living window.
+/// A hand that is lowered onto a rough solid plane below a viscous fluid, with a window that is
+/// alive.
 struct LoopScene {
   explicit LoopScene(const std::array<bool, 5>& attached = core::kAllAttached,
                      const HapticLoop::Parameters& parameters = {})

@@ -1,4 +1,4 @@
-// Time that was lost between two ticks is a fault, whoever lost it.
+// Tests that time which was lost between two ticks is a fault, whatever lost it.
 
 #include <gtest/gtest.h>
 

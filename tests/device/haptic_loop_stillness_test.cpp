@@ -11,7 +11,7 @@ using core::Fault;
 
 class HapticLoopStillness : public HapticLoopTest {
  protected:
-  /// The hand presses the outer palm half a centimetre into a plane, and rests there.
+  /// Presses the outer palm half a centimetre into a plane, and lets the hand rest there.
   void press_into_plane() {
     commands.publish({.sequence = 1,
                       .medium = core::solid({.stiffness_n_per_m = 2000.0}),

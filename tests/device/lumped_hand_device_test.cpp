@@ -27,7 +27,7 @@ struct Laboratory {
     for (int i = 0; i < 20; ++i) loop.tick();
   }
 
-  /// What was felt over these strokes.
+  /// Makes these strokes. Returns what was felt over them.
   core::ContactSums stroke(const StrokePlan& plan, std::int64_t trial = 1) {
     const core::ContactSums from = hand.contact_sums();
     hand.simulated_hand()->begin_strokes(plan, core::RandomStream(5, "stroke", {trial}));
@@ -243,7 +243,7 @@ TEST(LumpedHandDevice, NamesTheParameterItRejects) {
   EXPECT_THROW(LumpedHandDevice(Parameters{.dry_friction_n = nan}), core::Error);
   EXPECT_THROW(LumpedHandDevice(Parameters{.friction_speed_m_per_s = 0.0}), core::Error);
   EXPECT_THROW(LumpedHandDevice(Parameters{.max_total_force_n = nan}), core::Error);
-  // 20 N s/m of arm damping would throw 10 g about within two periods.
+  // With 20 N s/m of arm damping, 10 g would become unstable within two periods.
   EXPECT_THROW(LumpedHandDevice(Parameters{.mass_kg = 0.01}), core::Error);
   Laboratory laboratory;
   EXPECT_THROW(laboratory.hand.simulated_hand()->begin_strokes({.amplitude_m = nan},

@@ -14,7 +14,7 @@ namespace pointer_guide_test {
 
 constexpr double kPeriodS = 0.001;
 
-/// A guide and a pointer that tells where it is now and then.
+/// A guide, and a pointer that reports its place from time to time.
 struct Scene {
   explicit Scene(const PointerGuide::Parameters& parameters = {})
       : guide(parameters, kPeriodS) {}

@@ -83,7 +83,8 @@ TEST(ProfiledDevice, WhatIsMeasuredComesInTheWorkspaceFrame) {
 TEST(ProfiledDevice, AnOrientationIsTurnedAndOneThatIsNotThereStaysAway) {
   ScriptedDevice robot;
   robot.state = full_state();
-  // The end effector is turned by a quarter about the robot's x, which is the workspace's y.
+  // The end effector is turned by a quarter about the robot's x axis, which is the workspace's
+  // y axis.
   const double half = std::numbers::sqrt2 / 2.0;
   robot.state.channels.orientation_wxyz = {half, half, 0.0, 0.0};
   ProfiledDevice device(robot, kTurned);
@@ -112,7 +113,7 @@ TEST(ProfiledDevice, AForceGoesToTheRobotInItsOwnFrame) {
   // To the right is the robot's -y, and away from the person is its x.
   EXPECT_EQ(robot.received.back()[3], Vector3d(2.0, -1.0, 3.0));
   EXPECT_EQ(robot.received.back()[0], Vector3d::Zero());
-  // A force and its work are the same in both frames: what is sent comes back as what acted.
+  // A force and its work are the same in both frames, so what is sent comes back as what acted.
   core::HapticState seen;
   ASSERT_TRUE(device.read(seen));
   EXPECT_EQ(seen.acted_n[3], force_n[3]);
@@ -266,7 +267,7 @@ TEST(ProfiledDevice, PassesOnWhateverElseItIsAsked) {
   EXPECT_EQ(inner.asked, "open halt close ");
 }
 
-// A function that is added to devices and forgotten here would answer for no device at all.
+// If a function is added to devices and forgotten here, it would not ask the device.
 TEST(ProfiledDevice, OverridesEveryFunctionOfADevice) {
   const auto source = [](const std::string& file) {
     return test_support::read_file(test_support::source_folder() / "device" / file);

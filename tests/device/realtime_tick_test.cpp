@@ -44,7 +44,7 @@ const core::ForceMap& some_map() {
 
 enum class Which { kScripted, kLumped, kMouse };
 
-/// A loop with all that it exchanges, over a device in which things may go wrong.
+/// A loop with everything that it exchanges, and a device in which faults may happen.
 struct Scene {
   Scene(std::vector<ScheduledFault> faults, Which which, std::size_t queue_capacity)
       : samples(queue_capacity),

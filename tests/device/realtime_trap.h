@@ -13,7 +13,7 @@ namespace jnd::test_support {
 /// would not have had to wait count, too.
 class LockCounter {
  public:
-  /// False under ASan and TSan, which own these functions: skip the test there.
+  /// Returns false under ASan and TSan, which replace these functions. Tests are skipped there.
   [[nodiscard]] static bool is_supported() noexcept;
 
   LockCounter() noexcept;
@@ -31,7 +31,8 @@ class LockCounter {
 /// Only one may be alive in a program.
 class SystemCallTrap {
  public:
-  /// False where the kernel or the processor has no such dispatch, and under sanitizers.
+  /// Returns false under sanitizers, and if the kernel or the processor cannot dispatch system
+  /// calls.
   [[nodiscard]] static bool is_supported() noexcept;
 
   SystemCallTrap() noexcept;
@@ -46,10 +47,10 @@ class SystemCallTrap {
   struct sigaction before_ {};
 };
 
-/// Counts the page faults of this thread while it is alive, with and without the disk.
+/// While it is alive, counts the page faults of this thread, with and without the disk.
 class PageFaultCounter {
  public:
-  /// False under sanitizers, whose shadow memory is not there until it is used.
+  /// Returns false under sanitizers, whose shadow memory appears only when it is used.
   [[nodiscard]] static bool is_supported() noexcept;
 
   PageFaultCounter() noexcept;

@@ -8,7 +8,7 @@
 namespace jnd::device {
 
 /// A device that measures what the test says and remembers every force that it was sent. The
-/// hand plane's normal is along x; the hand is 10 cm below the surface.
+/// normal of the hand plane is along x, and the hand is 10 cm below the surface.
 class ScriptedDevice final : public HapticDevice {
  public:
   ScriptedDevice() {

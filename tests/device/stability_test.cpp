@@ -23,7 +23,7 @@ constexpr double kPeriod_s = 1.0 / kRate_hz;
 /// where the force is that of `delay_ticks` ticks before. The mass starts with a speed.
 class SampledMass final : public HapticDevice {
  public:
-  double mass_kg = 3e-4;  ///< So light that the limiter's slew is far away.
+  double mass_kg = 3e-4;  ///< The mass is so light that the limiter's slew has no effect.
   double damping_n_s_per_m = 0.0;
   int delay_ticks = 0;
   double start_m_per_s = 0.05;

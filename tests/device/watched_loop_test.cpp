@@ -11,7 +11,7 @@
 namespace jnd::device {
 namespace watched_loop_test {
 
-/// A loop that a watchdog of simulated time looks after; the device records what it got.
+/// A loop that a watchdog watches in simulated time. The device records what it received.
 class WatchedLoopTest : public ::testing::TestWithParam<int> {
  protected:
   class Device final : public HapticDevice {

@@ -37,7 +37,8 @@ inline std::string designed_study(const std::string& contrasts = "") {
          block("thin_c", "thin", 4.0) + "\n  ]\n}\n";
 }
 
-/// A contrast of the two fluids; `more` is joined to it, such as R"(, "alpha": 0.01)".
+/// Returns a contrast of the two fluids. `more` is added to it, for example R"(, "alpha":
+/// 0.01)".
 inline std::string fluid_contrast(
     const std::string& more = "", const std::string& name = "fluids",
     const std::string& of = R"({"fluid": {"thin": 1, "thick": -1}})",

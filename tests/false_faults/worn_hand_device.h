@@ -89,8 +89,8 @@ class WornHandDevice final : public device::HapticDevice {
 
   core::PointVectors acted_sum_n_ = core::zero_vectors();  ///< Sum since the last measurement.
   int num_acted_ = 0;
-  core::HapticState state_;           ///< As measured in the last tick.
-  core::HapticState last_delivered_;  ///< As read last.
+  core::HapticState state_;           ///< The state that was measured in the last tick.
+  core::HapticState last_delivered_;  ///< The state that was read last.
   bool has_delivered_ = false;
 };
 

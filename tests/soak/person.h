@@ -51,7 +51,7 @@ class Person {
   [[nodiscard]] int num_sessions() const noexcept { return num_sessions_; }
   /// The time of the simulated day that was spent in sessions.
   [[nodiscard]] double in_sessions_s() const noexcept { return in_sessions_s_; }
-  /// What was looked for and not found, each once with its view.
+  /// Returns what was looked for and not found, each once with its view.
   [[nodiscard]] const std::vector<std::string>& missed() const noexcept { return missed_; }
 
  private:

@@ -33,7 +33,7 @@ ProcessUse use_of(pid_t process) { return seen_in("/proc/" + std::to_string(proc
 
 ProcessUse process_use() {
   ProcessUse use = seen_in("/proc/self");
-  // The folder that lists handles is a handle itself while it is read.
+  // While the folder that lists the handles is read, it is a handle itself.
   --use.num_handles;
   const struct mallinfo2 heap = ::mallinfo2();
   use.allocated_bytes = static_cast<double>(heap.uordblks + heap.hblkhd);

@@ -41,7 +41,7 @@ struct BeforeAndAfter {
 };
 [[nodiscard]] BeforeAndAfter compared(const std::vector<double>& rounds);
 
-/// The same as JSON: each quantity after the warm-up, at the end, and by round.
+/// Returns the same as JSON: each quantity after the warm-up, at the end, and in each round.
 [[nodiscard]] nlohmann::json told_of(const std::vector<ProcessUse>& rounds);
 
 [[nodiscard]] double median(std::vector<double> values);

@@ -33,7 +33,7 @@ constexpr std::size_t kFewestRounds = 8;
 constexpr const char* kMonitors =
     "LEFT 0 0 1280 720\nMIDDLE 1280 0 1024 600\nRIGHT 2304 0 800 600\n";
 
-/// Opens everything that draws, once around.
+/// Opens once everything that draws.
 class Round {
  public:
   Round(app::WindowDriver& window, fs::path study)
@@ -78,7 +78,8 @@ class Round {
     window_.press("BackSpace");
     window_.wait_for_view("sessions");
   }
-  /// Each size has a picture of its letters, and each theme its colours.
+  /// Shows every size and theme. Each size has a picture of its letters, and each theme has its
+  /// colours.
   void look_at_letters() {
     for (const char* key : {"ctrl+plus", "ctrl+plus", "ctrl+minus", "ctrl+minus", "ctrl+d"}) {
       window_.press(key);

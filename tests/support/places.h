@@ -4,7 +4,7 @@
 
 namespace jnd::test_support {
 
-/// The tree that the tests were built from.
+/// Returns the source tree from which the tests were built.
 [[nodiscard]] std::filesystem::path source_folder();
 
 /// The jnd program that was built with the tests.

@@ -40,7 +40,7 @@ class RunningProgram {
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
 
-  /// The next line of stdout without its end; none at the end of the stream.
+  /// Returns the next line of stdout without its line end, or nothing at the end of the stream.
   [[nodiscard]] std::optional<std::string> read_line();
   void send_signal(int number) const;
   [[nodiscard]] pid_t process() const noexcept { return pid_; }
@@ -62,7 +62,7 @@ class RunningProgram {
 /// The path of a program of this machine; "" if it is not installed.
 [[nodiscard]] std::string installed_program(const std::string& name);
 
-/// Runs the program to its end.
+/// Runs the program and waits for its end.
 [[nodiscard]] ProgramOutcome run_program(const std::vector<std::string>& arguments,
                                          const ProgramOptions& options = {});
 

@@ -2,9 +2,9 @@
 
 namespace jnd::test_support {
 
-/// Instrumented code is some ten times slower. Tests that go through the same code very many
-/// times, to see a distribution or an accuracy, say nothing more there and are left out; tests
-/// of many inputs take some of them.
+/// Whether the code is instrumented, which makes it some ten times slower. Tests that repeat
+/// the same code very often, to see a distribution or an accuracy, show nothing more then and
+/// are skipped. Tests of many inputs take only some of these.
 #if defined(JND_SANITIZED)
 inline constexpr bool kIsSanitized = true;
 #else

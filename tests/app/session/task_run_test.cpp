@@ -21,7 +21,7 @@
 namespace jnd::app {
 namespace task_run_test {
 
-/// Simulates a session with every task, with the device in the loop.
+/// Simulates a session with several tasks, with the device in the loop.
 class TaskRunTest : public ::testing::Test {
  protected:
   void simulate() {

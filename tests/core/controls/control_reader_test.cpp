@@ -159,7 +159,7 @@ TEST_F(ControlReaderTest, ADeviceThatIsPluggedInLaterIsThere) {
   ASSERT_TRUE(comes_about([&] { return events().size() == 1; }));
 }
 
-// udev gives the rights a moment after the kernel has made the file.
+// udev grants the rights a moment after the kernel has made the file.
 TEST_F(ControlReaderTest, ADeviceWhoseRightsComeLaterIsOpenedThen) {
   std::ofstream(folder() / "event0") << "";
   begin();

@@ -28,7 +28,7 @@ TEST(MarkerKind, FollowsFromTheKindOfAnEvent) {
   }
 }
 
-// Whatever was presented or answered, a recorder sees the same.
+// A recorder sees the same, whatever was presented or answered.
 TEST(MarkerKind, TellsNothingOfALevel) {
   EventRow one = event_of_kind("presentation_started"), other = one;
   one.intensity = 1.0;

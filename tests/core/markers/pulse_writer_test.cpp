@@ -127,7 +127,7 @@ TEST(PulseWriter, APortThatFailsLaterKeepsWhatWasWrittenBefore) {
   EXPECT_EQ(writer.num_dropped(), 4);
 }
 
-// The session's thread sends, and must not wait for a port that hangs.
+// The session's thread sends the pulses and must not wait for a port that hangs.
 TEST(PulseWriter, WhoSendsWaitsForNobody) {
   std::atomic<bool> may_open{false};
   Told told;

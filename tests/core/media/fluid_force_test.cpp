@@ -119,7 +119,7 @@ TEST(Lift, OfAHandAtFortyFiveDegreesIsWorkedByHand) {
   const HapticState state = hand_moving(Eigen::Vector3d(1.0, 0.0, 1.0) / std::sqrt(2.0));
   const Eigen::Vector3d force = total(force_of({.lift_kg_per_m = 7.4}, state, &map));
   EXPECT_LT((force - 7.4 * Eigen::Vector3d(-1.0, 0.0, 1.0) / std::sqrt(2.0)).norm(), 1e-9);
-  // The plane's normal has no sign, and neither does the lift.
+  // The plane's normal has no sign, so the lift must not depend on it.
   HapticState mirrored = state;
   std::swap(mirrored.tip_position_m[0], mirrored.tip_position_m[1]);
   mirrored.tip_position_m[3].z() = mirrored.tip_position_m[0].z();

@@ -15,7 +15,7 @@ namespace god_object_test {
 constexpr double kPeriodS = 0.001;
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
 
-/// A point on the plane z = 0 that begins just above it.
+/// A point that begins just above the plane z = 0.
 struct Touch {
   explicit Touch(const SolidParameters& parameters) : amounts(solid_amounts(parameters)) {
     (void)at({0.0, 0.0, 0.001}, Eigen::Vector3d::Zero());

@@ -69,7 +69,7 @@ TEST(MediumRamp, IsAStraightLineInEveryAmountAndEndsExactly) {
     }
   }
   ramp.advance(0.001);
-  ramp.advance(0.001);  // Rounding may leave a hair of the ramp to the 51st tick.
+  ramp.advance(0.001);  // Rounding may leave a very small part of the ramp to the 51st tick.
   EXPECT_TRUE(ramp.finished());
   for (const auto amount : kAmounts) EXPECT_EQ(ramp.current().*amount, target.*amount);
 }

@@ -47,7 +47,7 @@ TEST(ViscousDrag, NamesTheParameterItRejects) {
     EXPECT_THROW(ViscousDrag({.viscosity_pa_s = 1.0, .projected_area_m2 = wrong}), Error);
   }
   EXPECT_THROW(ViscousDrag({.viscosity_pa_s = 1.0, .length_m = 0.0}), Error);
-  // A sphere has no semi-axes that differ.
+  // A sphere has no different semi-axes.
   EXPECT_THROW(ViscousDrag({.viscosity_pa_s = 1.0,
                             .shape = ViscousDrag::Shape::kSphere,
                             .semi_major_axis_m = 0.05}),

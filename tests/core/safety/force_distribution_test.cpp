@@ -84,7 +84,7 @@ TEST(ForceDistribution, IsContinuousWhereOneTipTurnsWhileTheHandMovesOn) {
   HapticState state = moving({0.4, 0.0, 0.0});
   Eigen::Vector3d last;
   bool first = true;
-  // The tip's velocity passes through zero in steps of 0.1 mm/s.
+  // The velocity of the tip passes through zero in steps of 0.1 mm/s.
   for (double velocity = -0.02; velocity <= 0.02; velocity += 0.0001) {
     state.tip_velocity_m_per_s[3] = {velocity, 0.0, 0.0};
     const Eigen::Vector3d force = distributed(20.0, state)[3];

@@ -12,7 +12,7 @@ namespace force_oscillation_test {
 
 constexpr double kPeriod_s = 0.001;
 
-/// Whether a force of this amplitude and frequency is found within three seconds.
+/// Returns whether a force of this amplitude and frequency is found within three seconds.
 bool is_found(double amplitude_n, double frequency_hz, double offset_n = 0.0, int axis = 0) {
   ForceOscillation oscillation({}, kPeriod_s);
   for (int i = 0; i < 3000 && !oscillation.is_found(); ++i) {

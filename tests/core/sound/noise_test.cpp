@@ -117,9 +117,9 @@ TEST(NoiseFilter, OfPinkNoiseFalls3DecibelsPerOctave) {
 }
 
 TEST(NoiseFilter, KnowsHowLoudWhiteNoiseComesOut) {
-  // An ideal band of 2000 Hz lets 2000 / 24000 of the power pass. A Butterworth low pass of
-  // fourth order lets (pi / 8) / sin(pi / 8) = 1.0262 times its corner pass, and a high pass
-  // takes as much away.
+  // An ideal band of 2000 Hz passes 2000 / 24000 of the power. A Butterworth low pass of fourth
+  // order passes (pi / 8) / sin(pi / 8) = 1.0262 times its corner, and a high pass removes as
+  // much.
   const NoiseFilter band({.kind = Kind::kBand, .low_hz = 1000.0, .high_hz = 3000.0}, kRate_hz);
   EXPECT_NEAR(band.noise_gain() * band.noise_gain() * 24000.0, 1.0262 * 2000.0, 30.0);
   EXPECT_NEAR(NoiseFilter({.kind = Kind::kWhite}, kRate_hz).noise_gain(), 1.0, 1e-12);

@@ -22,7 +22,7 @@ using test_support::AllocationCounter;
 constexpr double kRate_hz = 8000.0;
 constexpr std::size_t kPeriod = 64;
 
-/// An output that takes samples as fast as they come.
+/// Returns what an output hears that takes samples as fast as they come.
 std::vector<float> heard_of(SoundMixer& mixer, std::size_t num_periods,
                             std::int64_t first_ns = 0) {
   std::vector<float> all;
@@ -157,8 +157,8 @@ TEST(SoundMixer, NothingClipsAtTheLoudestThatAStudyMayAskFor) {
   EXPECT_EQ(mixer.num_limited(), 0);
 }
 
-// Eight cues at once are more than any study asks for; the limiter is there for what nobody
-// foresaw.
+// Eight cues at once are more than any study asks for. The limiter is there for unforeseen
+// cases.
 TEST(SoundMixer, EightOfTheLoudestCuesAtOnceAreTurnedDown) {
   const Tone tone{.frequency_hz = 700.0, .duration_s = 0.5, .level_dbfs = kLoudestCue_dbfs};
   SoundMixer mixer({.rate_hz = kRate_hz, .cues = {tone}});

@@ -210,7 +210,7 @@ TEST_F(BackupTest, ARecordingOfANewerFormatIsRefused) {
 TEST_F(BackupTest, AnEarlierCopyStaysWholeWhenALaterOneFails) {
   (void)back_up_now();
   kept_.add_session("P02");
-  // The recording of the second session cannot be copied to where a folder stands.
+  // The recording of the second session cannot be copied, because a folder is in its place.
   fs::create_directory(copy() / "recordings" / "0002.sqlite");
   EXPECT_THROW((void)back_up_now(), Error);
   fs::remove(copy() / "recordings" / "0002.sqlite");
@@ -288,7 +288,7 @@ TEST_F(BackupTest, ACopyWithoutItsMarkIsKnownByTheListInIt) {
   fs::remove(copy() / kBackupMark);
   EXPECT_TRUE(is_backup(copy()));
   EXPECT_THROW(StudyStore(copy(), StudyStore::Mode::kReadWrite), Error);
-  // The study was moved to where a backup was once.
+  // The study was moved to a place where a backup had been.
   forget_backup(copy(), copy(), ++time_ns_);
   EXPECT_FALSE(is_backup(copy()));
   EXPECT_NO_THROW(StudyStore(copy(), StudyStore::Mode::kReadWrite));

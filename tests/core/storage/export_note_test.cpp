@@ -33,7 +33,7 @@ class ExportNoteTest : public ::testing::Test {
   void write(const std::string& name, const std::vector<std::int64_t>& sessions) {
     write(name, sessions, kept_.folder());
   }
-  /// The names of the places that a withdrawal tells.
+  /// Returns the names of the places that a withdrawal reports.
   std::vector<std::string> named(const std::string& participant) {
     std::vector<std::string> names;
     for (const ExportNote& one : withdraw(kept_.folder(), participant, ++time_ns_).exports) {

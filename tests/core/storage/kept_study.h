@@ -82,7 +82,7 @@ class KeptStudy {
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};
 };
 
-/// The bytes of every file under the folder, one after the other.
+/// Returns the bytes of every file in the folder, one after the other.
 inline std::string all_bytes(const std::filesystem::path& folder) {
   std::string bytes;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

@@ -11,7 +11,7 @@
 namespace jnd::core {
 namespace sample_codec_test {
 
-/// A hand that sweeps back and forth in a viscous fluid.
+/// Returns the samples of a hand that sweeps back and forth in a viscous fluid.
 std::vector<Sample> sweep(int num_samples, std::int64_t first_tick) {
   std::vector<Sample> samples;
   for (int i = 0; i < num_samples; ++i) {
@@ -52,7 +52,7 @@ void expect_near(const Sample& found, const Sample& expected) {
   }
 }
 
-/// The same hand on a device with joints.
+/// Returns the same hand on a device with joints.
 std::vector<Sample> sweep_with_joints(int num_samples) {
   std::vector<Sample> samples = sweep(num_samples, 0);
   for (Sample& sample : samples) {
@@ -201,7 +201,7 @@ TEST(SampleCodec, TimesThatAreDamagedAreRefused) {
   EXPECT_EQ(decode_samples(bytes.substr(0, without), 0, 64, "chunk")[5].monotonic_ns, 0);
 }
 
-/// The same hand on a device that measures more.
+/// Returns the same hand on a device that measures more.
 std::vector<Sample> sweep_with_channels(int num_samples, ChannelBits bits) {
   std::vector<Sample> samples = sweep(num_samples, 5);
   for (Sample& sample : samples) {

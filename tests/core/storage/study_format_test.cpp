@@ -37,7 +37,7 @@ std::string schema_of(const fs::path& folder) {
   return text;
 }
 
-/// A study of the layout that is the test's parameter.
+/// Tests a study of the layout that is the test's parameter.
 class OldLayoutTest : public ::testing::TestWithParam<std::int64_t> {
  protected:
   OldLayoutTest() { copy_old_study(GetParam(), old()); }

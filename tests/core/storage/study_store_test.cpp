@@ -18,7 +18,7 @@ class StudyStoreTest : public ::testing::Test {
  protected:
   fs::path folder() const { return temporary_.path() / "water.study"; }
 
-  /// A store with one session, ready for events.
+  /// Returns a store with one session that is ready for events.
   std::unique_ptr<StudyStore> with_session() const {
     auto store = std::make_unique<StudyStore>(folder(), StudyStore::Mode::kCreate);
     const std::string hash = store->add_protocol("water.json", "{}");
@@ -416,7 +416,7 @@ TEST_F(StudyStoreTest, AnOverviewCountsTheAnswersThatStand) {
   EXPECT_FALSE(store->overview()[1].completed);
 }
 
-/// Trials that are drawn one after the other, each when the one before is answered.
+/// Tests trials that are drawn one after the other, each when the one before is answered.
 class AdaptiveTrialsTest : public StudyStoreTest {
  protected:
   AdaptiveTrialsTest() : store_(with_session()) {}

@@ -14,7 +14,7 @@
 
 namespace jnd::core {
 
-/// Streams of this machine alone: nothing is sent beyond it.
+/// Returns a network of this machine alone, so that nothing leaves it.
 inline StreamNetwork loopback_network() {
   StreamNetwork network;
   network.groups.clear();

@@ -152,7 +152,7 @@ TEST(OwnStream, WhoLeavesIsForgottenAndMayComeBack) {
   }
 }
 
-/// The program on the other side was started anew, with other ports and another identity.
+/// The program on the other side was restarted, with other ports and another identity.
 TEST(OwnStream, AnInletFindsAStreamAgainThatWentAway) {
   const StreamNetwork network = loopback_network();
   auto outlet = open_own_outlet(numbers("returning", "source"), network);

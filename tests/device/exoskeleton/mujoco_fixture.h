@@ -87,7 +87,7 @@ class Reference {
   }
 };
 
-/// Any pose between the stops.
+/// Returns a random pose between the stops.
 [[nodiscard]] inline JointVector random_pose_rad(core::RandomStream& random) {
   JointVector pose_rad;
   for (int joint = 0; joint < core::kNumJoints; ++joint) {

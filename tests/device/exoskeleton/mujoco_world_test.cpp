@@ -17,7 +17,7 @@ namespace mujoco_world_test {
 
 using Eigen::Vector3d;
 
-/// A world and the control that holds its weight.
+/// A world, and the control that holds its weight.
 struct Apparatus {
   explicit Apparatus(MujocoWorld::Parameters parameters = {})
       : kinematics(parameters.home_m), world([&] {
@@ -158,7 +158,7 @@ TEST(MujocoWorld, AMagnetLetsGoAboveItsForceAndNotBelow) {
     Apparatus apparatus({.arm_joint_locked = kAllLocked, .break_away_n = 6.0});
     apparatus.rest(100);
     core::PointVectors force_n = core::zero_vectors();
-    // The index pushes away from the hand; the person holds.
+    // The index finger pushes away from the hand, and the person holds.
     for (int i = 0; i < 300; ++i) {
       force_n[3] = {-push_n * std::min(1.0, i / 200.0), 0.0, 0.0};
       ASSERT_TRUE(apparatus.step(apparatus.kinematics.torque_of_n_m(force_n), -force_n[3]));

@@ -93,7 +93,7 @@ std::vector<Datagram> one_of_each_kind(std::uint64_t seed) {
           {header, wire::Goodbye{}}};
 }
 
-/// The bytes with a checksum that is right again.
+/// Returns the bytes with a correct checksum.
 Bytes sealed(Bytes bytes) {
   const std::size_t end = bytes.size() - wire::kChecksumBytes;
   const std::uint32_t checksum = crc32(std::span(bytes).first(end));

@@ -12,7 +12,7 @@
 
 namespace jnd::device {
 
-/// A program that does as the test says, whatever the rules are.
+/// A program that does what the test says, whatever the rules are.
 class Program {
  public:
   Program(SimulatedNetwork& network, const Address& own, const Address& server)

@@ -74,7 +74,7 @@ TEST_P(NetworkFaultTest, DoubledAndReorderedDatagramsChangeNothingButTheCounts) 
   int num_sent = 0;
   network.on_send = [this, &num_sent](const Sent& sent) {
     Sent later = sent;
-    // States and commands take turns.
+    // States and commands come by turns.
     const int turn = num_sent++ / 2;
     later.arrives_ns += (turn % 3) * kMs;
     if (turn % 2 == 0) network.post(sent);

@@ -17,8 +17,8 @@
 
 namespace jnd::device {
 
-/// A loop on one side of a network and a device on the other, both at 1 kHz on the network's
-/// own time. The hand strokes through something thick, so that there is always a force to lose.
+/// A loop on one side of a network and a device on the other, both at 1 kHz in the network's
+/// own time. The hand strokes through a thick fluid, so that there is always a force to lose.
 class NetworkTest : public ::testing::Test {
  protected:
   NetworkTest() {
@@ -47,13 +47,13 @@ class NetworkTest : public ::testing::Test {
     return std::make_unique<NetworkDevice>(network.port(own), kServer, parameters);
   }
 
-  /// Connects, arms and waits until the force is there.
+  /// Connects, arms and waits until there is force.
   void start(const NetworkDevice::Parameters& parameters = {}) {
     connect(parameters);
     run(200);
   }
 
-  /// Connects and arms, and is about to run.
+  /// Connects and arms, so that the loop can run.
   void connect(const NetworkDevice::Parameters& parameters = {}) {
     device = make_device(parameters);
     device->ask();

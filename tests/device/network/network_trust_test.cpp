@@ -11,7 +11,8 @@ namespace network_trust_test {
 
 using core::Fault;
 
-/// What either side says of itself and of time is not trusted further than it can be checked.
+/// Tests that neither side trusts what the other says of itself and of time further than it can
+/// check this.
 class NetworkTrustTest : public NetworkFaultTest {};
 
 TEST_P(NetworkTrustTest, APoorConnectionGoesOnAndIsNotArmedAgain) {

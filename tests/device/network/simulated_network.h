@@ -81,7 +81,7 @@ class SimulatedNetwork {
   }
 
   std::int64_t now_ns = 1'000'000'000;
-  std::function<void(const Sent&)> on_send;  ///< Posts what is to arrive, changed or not.
+  std::function<void(const Sent&)> on_send;  ///< Posts what is to arrive, changed or unchanged.
   std::function<void()> on_millisecond;
   /// The address of the machine whose system takes nothing to send.
   std::optional<Address> unplugged;

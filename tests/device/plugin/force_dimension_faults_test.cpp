@@ -19,7 +19,7 @@ using core::Fault;
 
 class ForceDimensionFaultsTest : public ForceDimensionTest {
  protected:
-  /// Runs until the twin has felt a force, in the middle of a stroke.
+  /// Runs until the twin has got a force in the middle of a stroke.
   static void push(HapticDevice& device, StrokedFluid& fluid) {
     const auto is_in_a_stroke = [&] {
       return force_at_twin_n() >= 0.2 && std::abs(fluid.told().hand_velocity_m_per_s[0]) > 0.1;
@@ -75,7 +75,7 @@ class ForceDimensionFaultsTest : public ForceDimensionTest {
   };
 };
 
-/// The driver itself, without the process and the checks that jnd puts around it.
+/// The driver alone, without the process and the checks that jnd puts around it.
 class DriverAlone {
  public:
   explicit DriverAlone(const std::filesystem::path& driver, const std::string& options)
@@ -247,7 +247,7 @@ TEST_F(ForceDimensionFaultsTest, AfterTheControllersWatchdogZerosSwitchItOnAndAP
   StrokedFluid fluid(*device);
   push(*device, fluid);
   const int num_before = page().num_watchdog_ends;
-  pause_ms(400);  // Nobody writes.
+  pause_ms(400);  // Nobody writes during this pause.
   EXPECT_EQ(force_at_twin_n(), 0.0);
   EXPECT_GT(page().num_watchdog_ends, num_before);
   EXPECT_TRUE(comes_to([&] { return fluid.run(1) != Fault::kNone; }));

@@ -206,7 +206,7 @@ TEST_F(ForceDimensionPluginTest, AnotherSimulatorIsAskedForByItsName) {
   expect_refused(why_not_with(",simulator=on"), "a real device where simulator=on asks for");
 }
 
-/// The device's x points to the person, its y to the right.
+/// The device's x axis points to the person, and its y axis to the right.
 TEST_F(ForceDimensionPluginTest, ItsFrameIsTurnedToOurs) {
   page().stroke_m = 0.0;
   page().held_m[0] = 0.01;

@@ -65,7 +65,7 @@ TEST_F(PincerPluginTest, ItHasNoPlaceInThisProcess) {
   EXPECT_NE(why_not(pincer(",in-process")).find("does not pace the loop"), std::string::npos);
 }
 
-/// A loop in real time, which the device paces, for some seconds.
+/// The result of a loop in real time that the device paced for some seconds.
 struct PacedRun {
   core::Telemetry telemetry;
   std::vector<core::Sample> samples;

@@ -41,7 +41,7 @@ inline std::filesystem::path example_source() {
   return test_support::source_folder() / "device" / "plugin" / "example_device.c";
 }
 
-/// Drivers, each built once for all tests.
+/// Makes drivers, each of which is built once for all tests.
 class PluginTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { folder_ = std::make_unique<test_support::TemporaryFolder>(); }

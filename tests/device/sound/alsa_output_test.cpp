@@ -24,7 +24,7 @@ namespace alsa_output_test {
 
 using namespace std::chrono_literals;
 
-/// A staircase of 997 steps, over and over: any sample tells which one comes next.
+/// Plays a repeated staircase of 997 steps, in which each sample determines the next one.
 class Staircase final : public core::SoundSource {
  public:
   void render(std::span<float> samples, std::int64_t heard_ns) noexcept override {

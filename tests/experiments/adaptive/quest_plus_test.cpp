@@ -147,7 +147,7 @@ TEST(QuestPlus, WeighsItsGridsByTheirPriors) {
   EXPECT_NEAR(prior[2], 0.5 * std::exp(-0.5) / sum, 1e-15);
   EXPECT_NEAR(prior[5], 0.5 * std::exp(-2.0) / sum, 1e-15);
   EXPECT_EQ(quest.values_at(5), (std::vector<double>{4.0, 0.4, 0.01}));
-  // Far off its grid a prior still has a sum.
+  // A prior far off its grid still has a sum.
   rule.model.parameters[0].grid.prior = LogNormalPrior{1e-30, 0.01};
   EXPECT_EQ(QuestPlus(rule).prior().probability[0], 0.5);
 }
@@ -167,7 +167,7 @@ TEST(QuestPlus, HasTheCurvesThatItsHeaderSays) {
               0.5 + 0.48 * (1.0 - std::exp(-1.0)), 1e-14);
   EXPECT_NEAR(at(weibull_model(grids), false, 4.0, {2.0, 2.0, 0.0, 0.0}), std::exp(-4.0),
               1e-16);
-  // A "no" that is very unlikely is not lost beside 1.
+  // A very unlikely "no" is not lost beside 1.
   EXPECT_NEAR(at(weber, false, 20.0, {2.0, 0.3, 0.0}) / 8.44772704146593e-19, 1.0, 1e-10);
 }
 
@@ -181,8 +181,8 @@ TEST(QuestPlus, EndsAfterTrialsOrAtAnEntropyOrAStandardDeviation) {
   EXPECT_EQ(end_after({{1, true}, {1, true}}), QuestPlusEnd::kNotFinished);
   EXPECT_EQ(end_after({{1, true}, {1, true}, {1, true}}), QuestPlusEnd::kTrials);
   rule.entropy_bits = 0.5;
-  EXPECT_EQ(end_after({{3, true}}), QuestPlusEnd::kNotFinished);         // 0.81 bits.
-  EXPECT_EQ(end_after({{3, true}, {3, true}}), QuestPlusEnd::kEntropy);  // 0.47 bits.
+  EXPECT_EQ(end_after({{3, true}}), QuestPlusEnd::kNotFinished);         // 0.81 bits are left.
+  EXPECT_EQ(end_after({{3, true}, {3, true}}), QuestPlusEnd::kEntropy);  // 0.47 bits are left.
   EXPECT_EQ(end_after({{2, true}}), QuestPlusEnd::kEntropy);
   rule.min_trials = 2;
   EXPECT_EQ(end_after({{2, true}}), QuestPlusEnd::kNotFinished);

@@ -71,7 +71,7 @@ TEST(Staircase, IsWorkedByHandForOneUpTwoDown) {
 }
 
 TEST(Staircase, CountsAnswersInARowFromTheLastStepOn) {
-  // Three lowering answers are one step and a half, not two.
+  // Three lowering answers are one step and a half, and not two steps.
   EXPECT_EQ(levels_for(Staircase(one_up_two_down()), "yyyny"),
             (std::vector<double>{10, 10, 8, 8, 9, 9}));
 }
@@ -186,7 +186,7 @@ TEST(Staircase, EndsAfterAsManyReversalsTrialsOrBlockedStepsAsTheRuleSays) {
   const Staircase staircase(rule);
   EXPECT_FALSE(staircase.after(answers_for(staircase, "nnnnnnn")).is_finished());
   EXPECT_EQ(staircase.after(answers_for(staircase, "nnnnnnnn")).end, StaircaseEnd::kBlocked);
-  // A step that moves begins the count anew.
+  // A step that moves restarts the count.
   EXPECT_FALSE(staircase.after(answers_for(staircase, "nnnnnnnyynnn")).is_finished());
 }
 

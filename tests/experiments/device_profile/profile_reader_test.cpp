@@ -132,7 +132,7 @@ TEST(DeviceProfile, MayBeEditedWherePeopleMay) {
   EXPECT_TRUE(is_same_measurement(same, sound_profile()));
 }
 
-/// A changed value of the same kind, or null where there is none to change.
+/// Returns a changed value of the same kind, or null if the value is no number and no boolean.
 json changed(const json& value) {
   if (value.is_number_integer()) return value.get<int>() + 1;
   if (value.is_number()) return value.get<double>() * 0.999 + 1e-9;

@@ -62,7 +62,7 @@ TEST(BlockTurns, EachRoundHasEveryBlockThatHasTrialsLeftOnce) {
   }
 }
 
-// 2 trials of one block and 1 of another have three orders.
+// Two trials of one block and one of another have three orders.
 TEST(BlockTurns, AtRandomEveryOrderIsAsLikelyAsAnother) {
   std::map<Order, int> counts;
   constexpr int kSeeds = 3000;

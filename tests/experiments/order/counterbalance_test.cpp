@@ -26,7 +26,8 @@ Stage rest(const std::string& name) {
   return stage;
 }
 
-/// Arms a, b, c ..., each with one stage, o_a, o_b, o_c ...
+/// Returns a counterbalance with the arms a, b, c and so on, each with one stage: o_a, o_b, o_c
+/// and so on.
 Stage counterbalance(const std::string& name, Counterbalance::Method method, int num_arms) {
   Counterbalance content;
   content.method = method;
@@ -96,7 +97,7 @@ TEST(Counterbalance, GivesOneOrderForEachArmOfALatinSquare) {
             (std::vector<std::string>{"o=a,b,c", "o=b,c,a", "o=c,a,b"}));
 }
 
-/// A block whose three stimuli come in the rows of a Latin square.
+/// Returns a block whose three stimuli come in the rows of a Latin square.
 Stage square_block(const std::string& name) {
   Stage stage;
   stage.name = name;
@@ -139,7 +140,7 @@ TEST(Counterbalance, GivesEveryRowOfASquareEquallyOften) {
   }
 }
 
-/// Two orders, to be balanced among women and among men.
+/// Returns a study with two orders, which are balanced among women and among men.
 Study stratified_study() {
   Stage orders = counterbalance("o", kOrder, 2);
   std::get<Counterbalance>(orders.content).stratify_by = "sex";

@@ -25,7 +25,7 @@ Labels labels_of(const std::string& letters) {
   return labels;
 }
 
-/// Each of `num_labels` labels `times` times.
+/// Returns each of `num_labels` labels `times` times.
 Labels repeated(int num_labels, int times) {
   Labels labels;
   for (int i = 0; i < num_labels * times; ++i) labels.push_back(std::to_string(i % num_labels));
@@ -116,7 +116,7 @@ TEST(MixedOrder, CountsTheStudiesOfTheField) {
   EXPECT_TRUE(shuffled(repeated(2, 900), {.max_in_a_row = 1}, 1).is_uniform());
 }
 
-/// Chi-square of the counts of all orders against equal counts.
+/// Returns chi-square of the counts of all orders against equal counts.
 double chi_square(const Labels& labels, const OrderConstraints& constraints,
                   const ShuffleEffort& effort, int num_draws) {
   std::map<Labels, int> drawn;

@@ -9,7 +9,7 @@
 namespace jnd::experiments {
 namespace square_rows_test {
 
-/// How often each item stands in each place.
+/// Returns how often each item stands in each place.
 std::map<std::pair<std::size_t, std::size_t>, int> places_of(const OrderRows& rows) {
   std::map<std::pair<std::size_t, std::size_t>, int> counts;
   for (const auto& row : rows) {
@@ -18,7 +18,7 @@ std::map<std::pair<std::size_t, std::size_t>, int> places_of(const OrderRows& ro
   return counts;
 }
 
-/// How often each item follows each other one.
+/// Returns how often each item follows each other item.
 std::map<std::pair<std::size_t, std::size_t>, int> followers_of(const OrderRows& rows) {
   std::map<std::pair<std::size_t, std::size_t>, int> counts;
   for (const auto& row : rows) {

@@ -43,7 +43,7 @@ Moment moment(std::int64_t trial, std::int64_t presentation = 1) {
   return {.trial = trial, .attempt = 1, .presentation = presentation, .trial_in_block = 1};
 }
 
-/// How often the second of two dampings is called thicker, over persons and trials.
+/// Returns how often the second of two dampings is called thicker, over persons and trials.
 double probability_of_thicker(const Laboratory& laboratory, double reference, double test) {
   int num_thicker = 0;
   int num_trials = 0;

@@ -45,7 +45,8 @@ std::vector<AnsweredTrial> answers(Study& study, const Laboratory& laboratory,
   return simulator.answers({{.stage = &study.stages.front()}}, seed).front().trials;
 }
 
-/// A block of many trials with one test stimulus, one Weber fraction above the reference.
+/// Returns a study with one block of many trials, whose one test stimulus is one Weber fraction
+/// above the reference.
 Study many_trials(const std::string& task, const Laboratory& laboratory) {
   Study study = study_with(R"json("procedure": "constant_stimuli", "viscosity_pa_s": [7, 9],
       "reference_viscosity_pa_s": 8, "repetitions": 1, )json" +
@@ -152,7 +153,7 @@ TEST(TwoIntervalStaircase, FindsTheLevelAtWhichItsRuleBalances) {
           std::log(*staircase.threshold(staircase.after(level_answers(trials, series))).level);
     }
   }
-  // 70.7 % choose the test 0.545 standard deviations above the reference.
+  // 70.7 % choose the test if it is 0.545 standard deviations above the reference.
   const double w = median_weber_fraction(laboratory, block);
   const double expected = kReference * std::exp(0.545 * std::log1p(w));
   EXPECT_NEAR(std::exp(sum_ln / kPersons) / expected, 1.0, 0.03);
@@ -296,7 +297,7 @@ TEST(TimedAnswers, AMissedDeadlineTakesItsTimeAndTheTrialIsAnsweredOnce) {
       "reference_viscosity_pa_s": 8, "repetitions": 50)json");
   auto& block = std::get<Block>(study.stages.front().content);
   block.min_stimulus_s = 20.0;
-  block.answer_deadline_s = 21.0;  // Whoever looks again is late.
+  block.answer_deadline_s = 21.0;  // A person who looks again misses this deadline.
   const AnsweredBlock answered = timed(study, laboratory);
   EXPECT_EQ(answered.trials.size(), 100U);
   const double missed = (answered.felt_s - 100.0 * 40.0) / 41.0;
@@ -312,7 +313,8 @@ TEST(TimedAnswers, WhoMissedADeadlineHurriesWhenTheTrialComesAgain) {
   Study study = study_with(R"json("procedure": "constant_stimuli", "viscosity_pa_s": [7, 9],
       "reference_viscosity_pa_s": 8, "repetitions": 5, "answer_deadline_s": 0.5)json");
   auto& block = std::get<Block>(study.stages.front().content);
-  block.min_stimulus_s = block.max_stimulus_s.emplace(2.0);  // Nobody can be in time.
+  // With this duration, nobody can be in time.
+  block.min_stimulus_s = block.max_stimulus_s.emplace(2.0);
   const AnsweredBlock answered = timed(study, laboratory);
   EXPECT_EQ(answered.trials.size(), 10U);
   EXPECT_NEAR(answered.felt_s, 10 * 2 * 2.5, 1e-9) << "each twice";

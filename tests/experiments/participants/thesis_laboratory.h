@@ -5,8 +5,8 @@
 
 namespace jnd::experiments {
 
-/// The shipped laboratory with people like those of the thesis, on the device that has no
-/// joints.
+/// Returns the shipped laboratory with people like those of the thesis, on the device that has
+/// no joints.
 inline Laboratory thesis_laboratory() {
   return read_laboratory(test_support::source_folder() / "data/laboratories/thesis.json");
 }

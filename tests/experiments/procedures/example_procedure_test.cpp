@@ -26,7 +26,7 @@ TEST(ExampleProcedure, StandsInContributingWordForWord) {
       << "copy the class into CONTRIBUTING.md again";
 }
 
-/// The last trial of somebody who feels everything from `threshold` on.
+/// Returns the last trial of a person who feels everything from `threshold` on.
 AnsweredTrial last_trial(const Block& block, double threshold) {
   const RoughThreshold procedure;
   core::RandomStream stream(1, "order");

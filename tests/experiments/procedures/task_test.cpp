@@ -12,7 +12,7 @@
 namespace jnd::experiments {
 namespace task_test {
 
-/// A comparison of fluids with a reference of 8 Pa s and these keys besides.
+/// Returns a comparison of fluids with a reference of 8 Pa s and with these additional keys.
 Block block_with(const std::string& keys) {
   const Study study = read_study_text(
       R"json({

@@ -52,7 +52,8 @@ inline const std::string kSoundStudy = R"json({
   ]
 })json";
 
-/// The sound study with the first `from` turned into `to`; throws if there is none.
+/// Returns the correct study with the first `from` replaced by `to`. Throws if the study does
+/// not contain `from`.
 inline std::string broken(const std::string& from, const std::string& to,
                           std::string text = kSoundStudy) {
   const std::size_t at = text.find(from);
@@ -60,7 +61,7 @@ inline std::string broken(const std::string& from, const std::string& to,
   return text.replace(at, from.size(), to);
 }
 
-/// Every problem of a text, a line each; "" for a sound one.
+/// Returns every problem of a text, one in each line, or "" for a correct text.
 inline std::string problems_of(const std::string& text) {
   std::string lines;
   for (const StudyProblem& problem : study_text_problems(text, "x.json")) {

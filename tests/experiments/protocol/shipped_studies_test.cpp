@@ -15,7 +15,7 @@ Study shipped(const std::string& name) {
   return read_study(test_support::source_folder() / "protocols" / (name + ".json"));
 }
 
-/// The first stage of this name that any cell of the study runs.
+/// Returns the first stage of this name that any cell of the study runs.
 const Stage& stage_named(const Study& study, const std::string& name) {
   for (const Cell& cell : cells_of(study)) {
     for (const StageInstance& instance : stages_of(study, cell)) {

@@ -37,7 +37,7 @@ TEST(WrittenData, NamesColumnsThatTheStudyFolderHas) {
                                                      {"answers.csv", "answer"},
                                                      {"events.csv", "event"},
                                                      {"questions.csv", "question_answer"}};
-  // Exports take these from the study file, or from the order of the intervals.
+  // Exports compute these columns from the study file, or from the order of the intervals.
   const std::set<std::string> worked_out = {"is_practice", "right_interval", "chosen_interval"};
   for (const ParameterTable* stage : stage_tables()) {
     for (const WrittenColumn& column : written_columns(*stage)) {

@@ -19,7 +19,7 @@ const std::string kStudy = R"json({
     "max_reversals": 6, "instruction": {"en": "Compare."}, "question": {"en": "Thicker?"},
     "expected_trial_s": 5}]})json";
 
-/// A block whose trials are drawn one after the other.
+/// Tests a block whose trials are drawn one after the other.
 class AdaptiveSessionTest : public ::testing::Test {
  protected:
   Session session() {

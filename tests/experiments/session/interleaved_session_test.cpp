@@ -149,7 +149,7 @@ TEST_P(InterleavedSessionTest, MixesTheTrialsOfItsBlocksAndEachStaysItself) {
     EXPECT_EQ(row.block,
               stages_[static_cast<std::size_t>(s.state().trial(row.trial).stage)]->name);
   }
-  // Each block has the answers that it would have by itself.
+  // Each block has the answers that it would have alone.
   std::vector<double> levels;
   for (const AnsweredTrial& trial : s.state().answered_in(kAdaptive)) {
     levels.push_back(*trial.planned.intensity);

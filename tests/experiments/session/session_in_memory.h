@@ -11,7 +11,7 @@
 
 namespace jnd::experiments {
 
-/// Keeps what a session commits; can refuse it like a full disk.
+/// Keeps what a session commits, and can refuse it as a full disk does.
 class MemoryLog final : public EventLog {
  public:
   void append(const core::Commit& commit) override {
@@ -30,7 +30,7 @@ class MemoryLog final : public EventLog {
   bool refuses = false;
 };
 
-/// A whole presentation of 100 ticks, without strokes.
+/// Adds a whole presentation of 100 ticks, without strokes.
 inline void present(Session& session, const std::string& interval) {
   const std::int64_t tick = session.state().last_tick + 1;
   session.begin_presentation(interval, tick);

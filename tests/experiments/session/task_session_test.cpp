@@ -61,7 +61,7 @@ class TaskSessionTest : public ::testing::Test {
     }
     s.answer(answer, {.response_time_s = 1.5}, s.state().last_tick);
   }
-  /// The right answer as a person gives it, or the other one.
+  /// Returns the right answer as a person gives it, or the other one.
   static double answer(const Session& s, bool right) {
     const PlannedTrial& trial = now(s);
     const bool more = *trial.intensity > *trial.reference_intensity;

@@ -441,7 +441,7 @@ class EveryView {
   std::unique_ptr<SimulatedStudy> simulated_;
 };
 
-/// Runs sessions at a simulated hand, with every procedure and every kind of stage.
+/// Runs sessions at a simulated hand, with several procedures and most kinds of stages.
 class EverySessionTest : public OperatedSessionTest {
  protected:
   /// Calls the function for each state of each session once.

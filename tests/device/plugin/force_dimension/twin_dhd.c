@@ -119,7 +119,7 @@ static void begin_force(void) {
   act(set_n[0], set_n[1], set_n[2]);
 }
 
-/* ---- The controller: a mass in a hand, and what ends its force by itself ------------------ */
+/* ---- The controller: a mass in a hand, and what ends the force by itself ------------------ */
 
 /* 0.25 kg hang on a spring of 400 N/m and a damper of 8 N s/m that end where the hand wants
  * to be. Brakes add 20 N s/m, and the weight that is not carried is 1.5 N. */
@@ -147,7 +147,7 @@ static void* control(void* unused) {
     sleep_ms(0.5);
     pthread_mutex_lock(&controller_lock);
     const double time_s = now_s();
-    /* Another process has the page's device; this one's is gone. */
+    /* Another process has the page's device, and this process has none any more. */
     if (!is_mine) {
       last_s = time_s;
       pthread_mutex_unlock(&controller_lock);
@@ -415,7 +415,7 @@ EXPORT int dhdGetPosition(double* x_m, double* y_m, double* z_m, char id) {
     result = TIME_GUARD;
   } else {
     pthread_mutex_lock(&controller_lock);
-    /* Encoders see steps of a hundredth of a millimetre. */
+    /* The encoders have steps of a hundredth of a millimetre. */
     for (int i = 0; i < 3 && page->trouble != TWIN_STALE; ++i) {
       known_m[i] = 1e-5 * round(1e5 * position_m[i]);
     }

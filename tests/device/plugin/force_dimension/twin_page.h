@@ -87,8 +87,8 @@ struct twin_page {
   double gap_m;
   unsigned buttons;
   int slow_ms;
-  int unplugged_in; /* Of enum twin_phase. */
-  int trouble;      /* Of enum twin_trouble. */
+  int unplugged_in; /* A value of enum twin_phase. */
+  int trouble;      /* A value of enum twin_trouble. */
 
   /* ---- Written by the twin ---- */
   /* The force that acts now, without the weight, in the device's frame. */
