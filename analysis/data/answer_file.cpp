@@ -103,7 +103,6 @@ class AnswerCollector final : public RowSink {
     }
     if (skips(cell(intensity_), columns_.intensity) || skips(cell(yes_), columns_.yes)) return;
     if (trials_ && skips(cell(*trials_), *columns_.trials)) return;
-    if (response_ && skips(cell(*response_), file_.columns[*response_])) return;
     for (std::size_t i = 0; i < group_by_.size(); ++i) {
       if (skips_name(cell(group_by_[i]), columns_.group_by[i])) return;
     }
@@ -133,11 +132,17 @@ class AnswerCollector final : public RowSink {
     for (std::size_t i = 0; i < pooled_.size(); ++i) {
       if (pooled_cells_[i].size() < kMostPooled) pooled_cells_[i].emplace(cell(pooled_[i]));
     }
-    tallies_of(cells).add(intensity, counted->num_yes, counted->num_trials);
+    const std::size_t group = group_of(cells);
+    if (response_ && is_missing(cell(*response_))) {
+      unanswered_.push_back({group, intensity, counted->num_yes, counted->num_trials});
+    } else {
+      tallies_[group].add(intensity, counted->num_yes, counted->num_trials);
+    }
   }
 
   [[nodiscard]] AnswerFile finish() {
     problems().throw_problems();
+    take_unanswered();
     require_some_rows();
     if (columns_.group_by.empty() && tallies_.empty()) tallies_.emplace_back();
     if (columns_.group_by.empty() && file_.groups.empty()) file_.groups.emplace_back();
@@ -189,13 +194,29 @@ class AnswerCollector final : public RowSink {
     return is_missing_name(cell);
   }
 
-  Tallies& tallies_of(const std::vector<std::string_view>& cells) {
+  /// Where some trials without a response are a yes, no response is an answer, as in tasks of
+  /// go and no-go, and all of them count. Otherwise the trials were missed.
+  void take_unanswered() {
+    const bool is_answer =
+        std::ranges::any_of(unanswered_, [](const Unanswered& one) { return one.num_yes > 0; });
+    if (!is_answer && !unanswered_.empty()) {
+      file_.num_missing[file_.columns[*response_]] +=
+          static_cast<std::int64_t>(unanswered_.size());
+      return;
+    }
+    for (const Unanswered& one : unanswered_) {
+      tallies_[one.group].add(one.intensity, one.num_yes, one.num_trials);
+    }
+  }
+
+  /// The place of a row's group.
+  std::size_t group_of(const std::vector<std::string_view>& cells) {
     if (group_by_.empty()) {
       if (tallies_.empty()) {
         tallies_.emplace_back();
         file_.groups.emplace_back();
       }
-      return tallies_[0];
+      return 0;
     }
     key_.clear();
     for (const std::size_t place : group_by_) {
@@ -212,7 +233,7 @@ class AnswerCollector final : public RowSink {
       }
       file_.groups.push_back(std::move(group));
     }
-    return tallies_[found->second];
+    return found->second;
   }
 
   const AnswerColumns& columns_;
@@ -221,6 +242,13 @@ class AnswerCollector final : public RowSink {
   std::size_t intensity_ = 0, yes_ = 0;
   std::optional<std::size_t> trials_;
   std::optional<std::size_t> response_;  ///< Of jsPsych, if another column says what is a yes.
+  /// A row of jsPsych without a response.
+  struct Unanswered {
+    std::size_t group = 0;
+    double intensity = 0.0;
+    std::int64_t num_yes = 0, num_trials = 0;
+  };
+  std::vector<Unanswered> unanswered_;
   std::vector<std::size_t> group_by_, where_, pooled_;
   std::vector<std::set<std::string>> pooled_cells_;
   /// The other cells found for each entry of `where_`.

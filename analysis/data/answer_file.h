@@ -68,7 +68,8 @@ struct AnswerFile {
 /// that does not separate. Rows may be shorter than the header, and longer by empty cells, as
 /// PsychoPy writes them; its lines from `extraInfo` on are no rows. JSON: a list of objects, as
 /// jsPsych writes it; `a.b` names what is within an object. A trial of jsPsych that has no
-/// `response` was not answered in time; it is left out and counted as missing.
+/// `response` was not answered in time; it is left out and counted as missing, unless some of
+/// these trials are a yes: then no response is an answer, as in tasks of go and no-go.
 ///
 /// A yes is 1, true or yes, and a no is 0, -1, false or no, in any case. Throws `core::Error`
 /// with every problem (at most 20) in the form "FILE:LINE: column: expected this, found that".

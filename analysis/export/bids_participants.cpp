@@ -39,8 +39,10 @@ std::map<std::string, std::vector<core::AnswerRow>> answers_of_all(
 /// The last answer given in the visits of a participant; "" if there is none.
 std::string answer_of(const std::vector<core::AnswerRow>& answers,
                       const QuestionnaireItem& item) {
-  const std::vector<std::string> by_time = answers_by_time(answers, item);
-  return by_time.empty() ? "" : by_time.back();
+  const auto last = std::find_if(answers.rbegin(), answers.rend(), [&](const auto& row) {
+    return row.stage == item.stage && row.item == item.name && !row.answer.empty();
+  });
+  return last == answers.rend() ? "" : last->answer;
 }
 
 std::string described_item(const QuestionnaireItem& item) {

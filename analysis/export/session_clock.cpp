@@ -89,7 +89,6 @@ void SessionClock::finish() {
     parts_[part_of_event(event)].ahead_by_ticks_s.push_back(day_s(event.time_ns) -
                                                             tick_times_s_.at(*tick));
   }
-  bool is_known = false;
   double known_s = 0.0;
   for (Part& part : parts_) {
     if (part.day_ahead_s) {
@@ -99,8 +98,7 @@ void SessionClock::finish() {
     } else {
       part.ahead_s = known_s;  // Nothing in this part contradicts the known difference.
     }
-    if (!is_known) known_s = part.ahead_s;
-    is_known = true;
+    known_s = part.ahead_s;
   }
   join_parts();
   order_events();

@@ -127,16 +127,17 @@ std::optional<double> surface_height_m_of(const core::SessionRow& session) {
 }
 
 std::optional<double> body_height_m_of(const core::StudyStore& store, std::int64_t session) {
+  std::optional<double> found_m;  // The last one given counts.
   for (const core::AnswerRow& row : store.answers(session)) {
     if (row.item != "body_height_m") continue;
     double height_m = 0.0;
     const char* end = row.answer.data() + row.answer.size();
     const auto [stop, error] = std::from_chars(row.answer.data(), end, height_m);
     if (error == std::errc() && stop == end && height_m >= 0.5 && height_m <= 2.5) {
-      return height_m;
+      found_m = height_m;
     }
   }
-  return std::nullopt;
+  return found_m;
 }
 
 }  // namespace jnd::analysis

@@ -296,6 +296,7 @@ void AdaptiveWriter::write_other() {
   for (const AdaptiveRun* run : runs()) {
     tell(*run, name, run->threshold,
          run->threshold ? "" : said("the answers come to no level"));
+    tell_after_end(*run, block_.procedure + "_answers_after_end");
     if (run->threshold) thresholds[run->participant] = *run->threshold;
   }
   add_level(name,

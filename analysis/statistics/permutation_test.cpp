@@ -127,7 +127,7 @@ Comparison of_arrangements(Comparison result, Comparison::Kind kind, const char*
 /// difference that there is. False where there are too few.
 bool is_possible(Comparison& result, double mean_difference, std::size_t fewest) {
   if (result.status == FitStatus::kOk) return true;
-  if (fewest < 2) return false;
+  if (fewest < 2 || !std::isfinite(mean_difference)) return false;
   result.status = FitStatus::kOk;
   result.reason.clear();
   result.estimate = result.statistic = mean_difference;

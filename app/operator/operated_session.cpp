@@ -163,11 +163,13 @@ void OperatedSession::carry_out_requests() {
     watch_apparatus();  // The request before may have taken as long as a disk does.
     OperatorRequest next = std::move(requests_.front());
     requests_.pop_front();
+    const std::int64_t last_sequence = state().last_sequence;
     try {
       carry_out(next);
       refusal_.clear();
     } catch (const StorageError&) {
-      requests_.push_front(std::move(next));  // For `keep_what_was_written`.
+      // What the log has already must not be stored again by `keep_what_was_written`.
+      if (state().last_sequence == last_sequence) requests_.push_front(std::move(next));
       throw;
     } catch (const core::Error& error) {
       refusal_ = error.what();
@@ -199,7 +201,11 @@ bool OperatedSession::make_way_for_urgent() {
   const auto* undo = std::get_if<operate::Undo>(&*urgent);
   if (undo == nullptr) return false;
   // The answer meant is the one that still waits; those before it stay.
-  const std::string note = taken_back_words(*answer, undo->reason);
+  std::vector<std::string> notes;
+  for (auto request = answer; request != urgent; ++request) {
+    const std::string words = taken_back_words(*request, undo->reason);
+    if (!words.empty()) notes.push_back(words);
+  }
   const auto behind = std::next(urgent);
   requests_.erase(std::remove_if(answer, behind,
                                  [](const OperatorRequest& request) {
@@ -207,7 +213,7 @@ bool OperatedSession::make_way_for_urgent() {
                                           std::holds_alternative<operate::Undo>(request);
                                  }),
                   behind);
-  if (!note.empty()) session_.note(note);
+  for (const std::string& note : notes) session_.note(note);
   return true;
 }
 

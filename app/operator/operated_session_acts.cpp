@@ -224,8 +224,7 @@ struct OperatedSession::Act {
     require_running();
     require_reason(undo.reason);
     my.session_.require_undo();
-    note_unconfirmed();
-    my.abandon_presentation();
+    abandon_presentation();
     my.session_.undo(undo.reason);
     my.resting_for_trial_ = 0;
   }
@@ -234,8 +233,7 @@ struct OperatedSession::Act {
     require_running();
     require_reason(again.reason);
     my.session_.require_run_again(again.trial);
-    note_unconfirmed();
-    my.abandon_presentation();
+    abandon_presentation();
     my.session_.run_again(again.trial, again.reason);
     my.resting_for_trial_ = 0;
   }
@@ -331,8 +329,7 @@ struct OperatedSession::Act {
   void operator()(const operate::EndEarly& end) const {
     if (!my.begun_ || my.state().ended) refuse(tr("there is no session under way"));
     require_reason(end.reason);
-    note_unconfirmed();
-    my.abandon_presentation();
+    abandon_presentation();
     my.running_.keep_timing();
     my.running_.close_streams();
     my.running_.close_sound();
@@ -370,9 +367,12 @@ struct OperatedSession::Act {
   [[nodiscard]] std::string unconfirmed_words() const {
     return my.note_of_doubt(as_is("not stored, for nobody confirmed it"));
   }
-  /// The answer that was asked about is given up.
-  void note_unconfirmed() const {
-    if (my.doubt_stands()) my.session_.note(unconfirmed_words());
+  /// Takes the medium away, and then stores what became of the answer that was asked about:
+  /// the disk may take its time, the force may not.
+  void abandon_presentation() const {
+    const std::string unconfirmed = my.doubt_stands() ? unconfirmed_words() : "";
+    my.abandon_presentation();
+    if (!unconfirmed.empty()) my.session_.note(unconfirmed);
   }
   void require_doubt(std::int64_t trial) const {
     (void)require_trial(trial);

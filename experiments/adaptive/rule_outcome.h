@@ -98,8 +98,9 @@ struct RuleOutcome {
 
 /// Marks the last points of a track, which the rule did not need.
 inline void mark_after_end(AdaptiveTrack& track, int num_after_end) {
-  for (std::size_t i = track.points.size() - static_cast<std::size_t>(num_after_end);
-       i < track.points.size(); ++i) {
+  const std::size_t num =
+      std::min(track.points.size(), static_cast<std::size_t>(num_after_end));
+  for (std::size_t i = track.points.size() - num; i < track.points.size(); ++i) {
     track.points[i].is_after_end = true;
   }
 }

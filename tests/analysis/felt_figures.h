@@ -15,18 +15,16 @@ class FeltFiguresTest : public ::testing::Test {
     data_ = load_study(study_.store());
     data_.runs.clear();  // The runs are made by hand instead.
     for (const char* name : {"P01", "P02"}) {
-      data_.runs.push_back(
-          {.participant = name,
-           .block = "felt",
-           .procedure = "staircase",
-           .is_logarithmic = true,
-           .rule = "1 up, 2 down; Levitt 1971",
-           .target_probability = 0.70711,
-           .tracks = {{.series = 1,
-                       .points = {{1, 0.4, true}, {2, 0.2, false, true, true}, {3, 0.4, true}},
-                       .threshold = 0.2,
-                       .num_reversals = 2}},
-           .threshold = 0.2});
+      AdaptiveRun run{.participant = name, .block = "felt", .procedure = "staircase"};
+      run.is_logarithmic = true;
+      run.rule = "1 up, 2 down; Levitt 1971";
+      run.target_probability = 0.70711;
+      run.tracks = {{.series = 1,
+                     .points = {{1, 0.4, true}, {2, 0.2, false, true, true}, {3, 0.4, true}},
+                     .threshold = 0.2,
+                     .num_reversals = 2}};
+      run.threshold = 0.2;
+      data_.runs.push_back(run);
     }
     results_ = results_of(data_, {}, {.num_resamples = 50});
   }

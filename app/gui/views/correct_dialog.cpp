@@ -36,8 +36,7 @@ std::string problem_of_correction(const AnswerForm& form, const std::string& typ
 
 class CorrectDialog {
  public:
-  CorrectDialog(Ui& ui, CorrectState& state, ScaleTyping& scale)
-      : ui_(ui), state_(state), scale_(scale), form_(state.line.form) {}
+  CorrectDialog(Ui& ui, CorrectState& state) : ui_(ui), state_(state), form_(state.line.form) {}
 
   /// The height of what this draws in a dialog of this width.
   [[nodiscard]] float height(float width) const {
@@ -61,7 +60,7 @@ class CorrectDialog {
                                    .low_label = form_.low_label,
                                    .high_label = form_.high_label,
                                    .selected = selected},
-                                  scale_);
+                                  state_.scale);
       if (step > 0) choose(step);
       return;
     }
@@ -140,7 +139,6 @@ class CorrectDialog {
 
   Ui& ui_;
   CorrectState& state_;
-  ScaleTyping& scale_;
   const AnswerForm& form_;
 };
 
@@ -160,7 +158,7 @@ void draw_correct_dialog(Ui& ui, RunViewState& run, const std::vector<AnswerLine
   CorrectState& state = run.correct;
   const AnswerLine& line = state.line;
   bool turns_to_earlier = false;
-  CorrectDialog dialog(ui, state, run.scale);
+  CorrectDialog dialog(ui, state);
   constexpr float kWidth = 680, kInside = kWidth - 2 * 28;
   const TextStyle strong{.font = Font::kStrong, .wrap = true};
   const std::string which =

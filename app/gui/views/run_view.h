@@ -12,6 +12,12 @@
 
 namespace jnd::app::gui {
 
+/// What was typed of a step on a scale of more than ten steps.
+struct ScaleTyping {
+  std::string of;      ///< Which scale it was typed for; another one begins anew.
+  std::string digits;  ///< "14"
+};
+
 /// An answer that is being corrected.
 struct CorrectState {
   AnswerLine line;     ///< The answer as it was when somebody chose it.
@@ -21,12 +27,8 @@ struct CorrectState {
   std::optional<double> value;  ///< The value that was chosen; none means "cannot tell".
   bool runs_again = false;      ///< The trial is run again instead of changing its answer.
   bool asks_why = false;        ///< The reason's field gets the keyboard.
-};
-
-/// What was typed of a step on a scale of more than ten steps.
-struct ScaleTyping {
-  std::string of;      ///< Which scale it was typed for; another one begins anew.
-  std::string digits;  ///< "14"
+  /// What was typed of a long scale. The card below the dialog has its own.
+  ScaleTyping scale;
 };
 
 /// What the window remembers of a running session: words being typed, nothing that counts.

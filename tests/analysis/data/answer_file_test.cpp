@@ -172,6 +172,12 @@ TEST(AnswerFile, ATrialOfJsPsychThatWasMissedIsNoWrongAnswer) {
   EXPECT_EQ(file.groups[0].tallies[0].num_trials, 2);
   EXPECT_EQ(file.groups[0].tallies[0].num_yes, 1);
   EXPECT_EQ(file.num_missing.at("response"), 2);
+  // In a task of go and no-go no response is right at times: then it is an answer.
+  const AnswerFile go =
+      parse_answers(header + rows + "null,null,html-keyboard-response,5,20,true\n", "t.csv",
+                    {.intensity = "offset", .yes = "correct"});
+  EXPECT_EQ(go.groups[0].tallies[0].num_trials, 5);
+  EXPECT_TRUE(go.num_missing.empty());
   // A column of that name in another program's table means nothing.
   const AnswerFile other = parse_answers("response,offset,correct\n,20,false\n", "t.csv",
                                          {.intensity = "offset", .yes = "correct"});

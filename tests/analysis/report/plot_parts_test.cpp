@@ -36,7 +36,6 @@ TEST(LogTics, OfARangeThatIsNoneAreLeftToGnuplot) {
   EXPECT_EQ(log_tics("y", {2.0, 2.0}), "  set ytics autofreq\n");
 }
 
-}  // namespace plot_parts_test
 TEST(PanelTitle, ThatIsTooLongStandsOnTwoLinesBrokenBetweenWords) {
   EXPECT_EQ(on_two_lines("P01", 20), "P01");
   EXPECT_EQ(on_two_lines("participant P01, condition thin", 20),
@@ -68,4 +67,5 @@ TEST(PanelTitle, OfTwoLinesRunsNothingOfWhatSomebodyCalledAGroup) {
       << script;
 }
 
+}  // namespace plot_parts_test
 }  // namespace jnd::analysis

@@ -151,14 +151,13 @@ TEST(SameDifferentResults, AreThoseOfTheDifferencingModel) {
 }
 
 AdaptiveRun staircase_run(const std::string& participant, double threshold) {
-  return {.participant = participant,
-          .block = "stairs",
-          .procedure = "staircase",
-          .is_logarithmic = true,
-          .rule = "1 up, 2 down; Levitt 1971",
-          .target_probability = std::sqrt(0.5),
-          .tracks = {{.series = 1, .points = {}, .threshold = threshold, .num_reversals = 6}},
-          .threshold = threshold};
+  AdaptiveRun run{.participant = participant, .block = "stairs", .procedure = "staircase"};
+  run.is_logarithmic = true;
+  run.rule = "1 up, 2 down; Levitt 1971";
+  run.target_probability = std::sqrt(0.5);
+  run.tracks = {{.series = 1, .points = {}, .threshold = threshold, .num_reversals = 6}};
+  run.threshold = threshold;
+  return run;
 }
 
 StudyData adaptive_study(const std::string& procedure) {
@@ -217,12 +216,10 @@ TEST(AdaptiveResults, LimitsTellHabituationFromExpectation) {
 
 TEST(AdaptiveResults, ARunWithoutAnEstimateIsNamed) {
   StudyData data = adaptive_study("quest_plus");
-  data.runs = {
-      {.participant = "P01",
-       .block = "stairs",
-       .procedure = "quest_plus",
-       .posterior = {{"weber_fraction", 0.3, 0.1, 0.2, 0.5}, {"pse", 8.2, 0.1, 7.0, 9.0}}},
-      {.participant = "P02", .block = "stairs", .problem = "no answers"}};
+  AdaptiveRun found{.participant = "P01", .block = "stairs", .procedure = "quest_plus"};
+  found.posterior = {{"weber_fraction", 0.3, 0.1, 0.2, 0.5}, {"pse", 8.2, 0.1, 7.0, 9.0}};
+  const AdaptiveRun empty{.participant = "P02", .block = "stairs", .problem = "no answers"};
+  data.runs = {found, empty};
   const ResultsSection of = adaptive_results(data, data.blocks.front());
   EXPECT_EQ(*own_of(of, "P01", "stairs.quest_plus_weber_fraction").value, 0.3);
   EXPECT_EQ(*own_of(of, "P01", "stairs.quest_plus_weber_fraction").ci95.high, 0.5);

@@ -178,14 +178,13 @@ TEST(TrialLosses, WhatARuleMadeOfThemHasNothingToSayWithoutThem) {
   }
   StudyData data = load_study(study.store());
   data.runs.clear();  // The runs are made by hand instead.
-  data.runs.push_back({.participant = "P01",
-                       .block = "felt",
-                       .procedure = "staircase",
-                       .is_logarithmic = true,
-                       .rule = "1 up, 2 down; Levitt 1971",
-                       .target_probability = 0.7,
-                       .tracks = {{.series = 1, .threshold = 0.2, .num_reversals = 2}},
-                       .threshold = 0.2});
+  AdaptiveRun run{.participant = "P01", .block = "felt", .procedure = "staircase"};
+  run.is_logarithmic = true;
+  run.rule = "1 up, 2 down; Levitt 1971";
+  run.target_probability = 0.7;
+  run.tracks = {{.series = 1, .threshold = 0.2, .num_reversals = 2}};
+  run.threshold = 0.2;
+  data.runs.push_back(run);
   const StudyResults results = results_of(data, {}, kQuick);
   const Estimate* const found =
       results.find("felt.staircase_threshold.without_affected_trials");

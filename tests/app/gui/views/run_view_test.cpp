@@ -140,6 +140,28 @@ TEST_F(RunView, AnAnswerIsSetRightByKeysAlone) {
   EXPECT_EQ(state_.correct.line.trial, 22) << "after the oldest comes the newest again";
 }
 
+TEST_F(RunView, AStepOfALongScaleIsSetRightWhileAnotherTrialWaitsForOne) {
+  SessionView view = comparison();
+  view.trial->answer = AnswerKind::kStep;
+  view.trial->num_steps = 20;
+  for (AnswerLine& line : view.answers) {
+    line.form.kind = AnswerKind::kStep;
+    line.form.num_steps = 20;
+  }
+  draw(view);
+  ui_.press(Key::kF3);
+  draw(view);
+  draw(view);
+  for (const char* digit : {"1", "4"}) {
+    ui_.type(digit);
+    draw(view);
+  }
+  ui_.press(Key::kEnter);
+  EXPECT_TRUE(draw(view).empty()) << "why it is set right is asked first";
+  EXPECT_TRUE(state_.correct.has_choice);
+  EXPECT_EQ(state_.correct.value, 14.0);
+}
+
 TEST_F(RunView, AStepOfALongScaleIsTypedAndStoredByEnter) {
   for (const int num_steps : {11, 20, 100}) {
     SessionView view = comparison();
