@@ -7,6 +7,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "app/language/words.h"
 #include "app/operator/recent_studies.h"
 #include "core/error.h"
 
@@ -63,10 +64,11 @@ bool is_stop_remembered(const fs::path& folder, const std::string& device) {
 void require_stop_released(const fs::path& folder, const std::string& device, bool releases) {
   if (releases) forget_stop(folder, device);
   if (!is_stop_remembered(folder, device)) return;
-  throw core::Error(device +
-                    ": expected its emergency stop to be released, found that it was pressed "
-                    "in an earlier run and nobody has released it; see to the reason, then "
-                    "release it in the window or add --release-stop");
+  throw core::Error(
+      tr("{}: expected its emergency stop to be released, found that it was pressed in an "
+         "earlier run and nobody has released it; see to the reason, then release it in the "
+         "window or add --release-stop",
+         device));
 }
 
 fs::path stops_folder() {

@@ -55,7 +55,7 @@ class CorrectDialog {
           state_.has_choice && state_.value ? static_cast<int>(std::lround(*state_.value)) : 0;
       const int step = draw_scale(ui_, inside.take_top(kCorrectScale, 14),
                                   {.name = "correct_step_",
-                                   .of = "correct " + std::to_string(state_.line.trial),
+                                   .of = std::to_string(state_.line.trial),
                                    .num_steps = form_.num_steps,
                                    .low_label = form_.low_label,
                                    .high_label = form_.high_label,
