@@ -425,11 +425,16 @@ std::uint8_t HapticLoop::surrounded_bits(const core::HapticCommand& command) con
 }
 
 void HapticLoop::take_command() noexcept {
+  ramp_step_s_ = elapsed_s();
   if (exchange_.commands.fetch()) {
     const core::HapticCommand& command = exchange_.commands.value();
     command_is_finite_ = command.medium.is_finite() && command.immersion.is_sound();
     // A ramp that took a value that is not a number would keep it for ever.
     if (command_is_finite_) {
+      // Of the ticks that were missed, nobody knows which came before the command. A medium
+      // must not begin with time from before it, but one that is taken away must not take
+      // longer.
+      if (!command.medium.is_nowhere_more_than(ramp_.current())) ramp_step_s_ = period_s_;
       ramp_.start(command.medium, command.ramp_s);
     }
     const bool goes_on = command.stimulus != 0 && command.stimulus == stimulus_;
@@ -449,7 +454,7 @@ void HapticLoop::take_command() noexcept {
 
 void HapticLoop::compute_force() noexcept {
   const core::HapticCommand& command = exchange_.commands.value();
-  const core::MediumAmounts& medium = ramp_.advance(elapsed_s());
+  const core::MediumAmounts& medium = ramp_.advance(ramp_step_s_);
   motion_ =
       core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
   // If a device has no hand plane, the hand counts as head on.

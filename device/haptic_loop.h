@@ -248,6 +248,7 @@ class HapticLoop {
   /// 0 for a detached point.
   std::array<double, core::kNumContactPoints> point_authority_ratio_;
   core::MediumRamp ramp_;
+  double ramp_step_s_ = 0.0;  ///< By which the ramp moves on in this tick.
   bool command_is_finite_ = true;
   std::uint64_t stimulus_ = 0;     ///< That the last command began, or went on with.
   std::uint8_t granted_bits_ = 0;  ///< Points that got their credit in it.
