@@ -92,7 +92,8 @@ class HapticLoop {
     const core::Heartbeat* heartbeat = nullptr;        ///< nullptr: a simulation needs none.
     core::WatchdogState* watchdog = nullptr;           ///< nullptr: nobody watches.
     /// Of whoever leads the session, where that is another thread than the one that a person
-    /// talks to: if it hangs, nobody takes the medium away. nullptr: there is none.
+    /// talks to: if it hangs, nobody takes the medium away. Its silence counts from its first
+    /// beat, because a long session takes its time to be read. nullptr: there is none.
     const core::Heartbeat* session = nullptr;
   };
 
