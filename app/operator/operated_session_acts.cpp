@@ -215,7 +215,7 @@ struct OperatedSession::Act {
     require_felt();
     require_in_time();
     my.doubted_.reset();
-    end_presentation();
+    end_presentation(Presenter::Afterwards::kNextStep);
     my.session_.adjust(adjust.direction, adjust.size);
     my.presenter_.begin(*my.block(), "test", Presenter::Beginning::kStep);
   }
