@@ -78,8 +78,7 @@ bool is_stop_remembered(const fs::path& folder, const std::string& device) {
 }
 
 void require_stop_released(const fs::path& folder, const std::string& device, bool releases) {
-  if (releases) forget_stop(folder, device);
-  if (!is_stop_remembered(folder, device)) return;
+  if (releases || !is_stop_remembered(folder, device)) return;
   throw core::Error(device +
                     ": expected its emergency stop to be released, found that it was pressed "
                     "in an earlier run and nobody has released it; see to the reason, then "

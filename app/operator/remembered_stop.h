@@ -16,7 +16,8 @@ void forget_stop(const std::filesystem::path& folder, const std::string& device)
                                       const std::string& device);
 
 /// Of a real device that a command is about to arm without a window: throws `core::Error` while
-/// a stop of it is remembered. Where somebody `releases` it, it is forgotten.
+/// a stop of it is remembered, unless somebody `releases` it. It is `forget_stop` that forgets
+/// it then, as the last act before arming: a command that fails at something else leaves it.
 void require_stop_released(const std::filesystem::path& folder, const std::string& device,
                            bool releases);
 

@@ -259,6 +259,7 @@ struct Apparatus::Implementation {
   /// `core::Error`.
   void arm() {
     constexpr auto kPatience = std::chrono::seconds(10);
+    if (parameters.before_arming) parameters.before_arming();
     const auto end = std::chrono::steady_clock::now() + kPatience;
     while (true) {
       if (stop_requested()) {

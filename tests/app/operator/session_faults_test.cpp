@@ -199,6 +199,8 @@ TEST_F(SessionFaultsTest, NoCommandArmsADeviceWhoseStopNobodyHasReleased) {
   EXPECT_THROW(require_stop_released(folder, "plugin:robot.so,port=2", false), core::Error)
       << "the same device, used otherwise";
   EXPECT_NO_THROW(require_stop_released(folder, "plugin:robot.so", true));
+  EXPECT_TRUE(is_stop_remembered(folder, "plugin:robot.so")) << "nothing is armed yet";
+  forget_stop(folder, "plugin:robot.so");
   EXPECT_NO_THROW(require_stop_released(folder, "plugin:robot.so", false)) << "released";
 }
 
