@@ -284,6 +284,9 @@ void HapticLoop::rearm_if_requested() noexcept {
   limiter_.rearm();
   passivity_.reset();
   guards_.reset();
+  // The credit is gone with the rest, so a step of the stimulus before begins another one.
+  stimulus_ = 0;
+  granted_bits_ = 0;
   solids_.release();
   unseen_force_.reset();
   since_new_s_ = 0.0;
