@@ -77,7 +77,8 @@ HapticLoop::HapticLoop(const Parameters& parameters, HapticDevice& device,
                        parameters.rate_hz),
                  period_s_),
       heartbeat_(exchange.heartbeat, ticks(parameters.heartbeat_timeout_s, parameters.rate_hz)),
-      session_(exchange.session, ticks(parameters.session_timeout_s, parameters.rate_hz)),
+      session_(exchange.session, ticks(parameters.session_timeout_s, parameters.rate_hz),
+               core::HeartbeatMonitor::Since::kFirstBeat),
       passivity_(parameters.passivity, period_s_),
       limiter_(within(parameters.limits, device.capabilities()), period_s_),
       shares_(device.capabilities().share_ratio),
@@ -283,6 +284,9 @@ void HapticLoop::rearm_if_requested() noexcept {
   limiter_.rearm();
   passivity_.reset();
   guards_.reset();
+  // The credit is gone with the rest, so a step of the stimulus before begins another one.
+  stimulus_ = 0;
+  granted_bits_ = 0;
   solids_.release();
   unseen_force_.reset();
   since_new_s_ = 0.0;
@@ -425,11 +429,16 @@ std::uint8_t HapticLoop::surrounded_bits(const core::HapticCommand& command) con
 }
 
 void HapticLoop::take_command() noexcept {
+  ramp_step_s_ = elapsed_s();
   if (exchange_.commands.fetch()) {
     const core::HapticCommand& command = exchange_.commands.value();
     command_is_finite_ = command.medium.is_finite() && command.immersion.is_sound();
     // A ramp that took a value that is not a number would keep it for ever.
     if (command_is_finite_) {
+      // Of the ticks that were missed, nobody knows which came before the command. A medium
+      // must not begin with time from before it, but one that is taken away must not take
+      // longer.
+      if (!command.medium.is_nowhere_more_than(ramp_.current())) ramp_step_s_ = period_s_;
       ramp_.start(command.medium, command.ramp_s);
     }
     const bool goes_on = command.stimulus != 0 && command.stimulus == stimulus_;
@@ -449,7 +458,7 @@ void HapticLoop::take_command() noexcept {
 
 void HapticLoop::compute_force() noexcept {
   const core::HapticCommand& command = exchange_.commands.value();
-  const core::MediumAmounts& medium = ramp_.advance(elapsed_s());
+  const core::MediumAmounts& medium = ramp_.advance(ramp_step_s_);
   motion_ =
       core::hand_motion(state_.tip_position_m, state_.tip_velocity_m_per_s, state_.attached);
   // If a device has no hand plane, the hand counts as head on.

@@ -92,7 +92,8 @@ class HapticLoop {
     const core::Heartbeat* heartbeat = nullptr;        ///< nullptr: a simulation needs none.
     core::WatchdogState* watchdog = nullptr;           ///< nullptr: nobody watches.
     /// Of whoever leads the session, where that is another thread than the one that a person
-    /// talks to: if it hangs, nobody takes the medium away. nullptr: there is none.
+    /// talks to: if it hangs, nobody takes the medium away. Its silence counts from its first
+    /// beat, because a long session takes its time to be read. nullptr: there is none.
     const core::Heartbeat* session = nullptr;
   };
 
@@ -248,6 +249,7 @@ class HapticLoop {
   /// 0 for a detached point.
   std::array<double, core::kNumContactPoints> point_authority_ratio_;
   core::MediumRamp ramp_;
+  double ramp_step_s_ = 0.0;  ///< By which the ramp moves on in this tick.
   bool command_is_finite_ = true;
   std::uint64_t stimulus_ = 0;     ///< That the last command began, or went on with.
   std::uint8_t granted_bits_ = 0;  ///< Points that got their credit in it.

@@ -121,6 +121,13 @@ nlohmann::ordered_json check_json(const CheckedQuantity& quantity) {
           {"passed", quantity.passed()}};
 }
 
+/// The last act before a real device is measured, for which it is armed.
+void forget_released_stop(const CommissionOptions& options,
+                          const device::HapticDevice& device) {
+  if (!options.releases_stop || device.capabilities().simulated) return;
+  forget_stop(stops_folder(), options.device);
+}
+
 /// Compares the device with its profile, and stores the result in the profile.
 int run_daily(const CommissionOptions& options, const MeasuringPlan& plan,
               device::HapticDevice& device, device::Bench& bench) {
@@ -140,6 +147,7 @@ int run_daily(const CommissionOptions& options, const MeasuringPlan& plan,
     if (device.bench() == nullptr) fmt::print("{}\n", daily_check_to_do());
     std::fflush(stdout);
   }
+  forget_released_stop(options, device);
   const DailyCheckResult result = [&] {
     ProgressBar bar("daily");
     return check_daily(device, bench, plan, known.profile,
@@ -228,6 +236,7 @@ int run_commission(const CommissionOptions& options) {
         fmt::print("\n{}\n{}\n", words_of(step).title, words_of(step).to_do);
         std::fflush(stdout);
       }
+      if (!has_measured) forget_released_stop(options, *device);
       ProgressBar bar(std::string(words_of(step).name));
       commissioning.measure(step, *device, *bench,
                             [&](double done, const std::string&) { bar.show(done); });

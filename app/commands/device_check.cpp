@@ -132,6 +132,7 @@ int check_network(const DeviceCheckOptions& options, Outcomes& outcomes) {
   const bool believes_simulated = network.is_simulated.value_or(false);
   if (options.with_force && !believes_simulated) {
     require_stop_released(stops_folder(), options.device, options.releases_stop);
+    if (options.releases_stop) forget_stop(stops_folder(), options.device);
   }
   const bool is_kept = device::check_network_device(
       {.open_port = [&] { return device::UdpPort::connected_to(server); },
@@ -166,6 +167,7 @@ int check_local(const DeviceCheckOptions& options, const device::RealtimeReport&
   }
   if (options.with_force && !options.by_hand && !device->capabilities().simulated) {
     require_stop_released(stops_folder(), options.device, options.releases_stop);
+    if (options.releases_stop) forget_stop(stops_folder(), options.device);
   }
   stop_on_signals();
   const bool is_kept =

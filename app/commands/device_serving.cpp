@@ -211,6 +211,7 @@ int serve_device(const DeviceServing& options) {
   } catch (const core::Error& error) {
     throw EnvironmentError(error.what());
   }
+  if (!is_simulated && options.releases_stop) forget_stop(stops_folder(), options.device);
   device::DeviceServer server(*device, *port, parameters_for(is_simulated, key));
   std::FILE* told = options.json ? stderr : stdout;
   fmt::print(told, "listening on {}\n", device::text_of(port->local()));

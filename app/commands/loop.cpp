@@ -17,6 +17,7 @@
 #include "app/session/device_checks.h"
 #include "app/session/device_run.h"
 #include "core/error.h"
+#include "core/safety/fault.h"
 #include "device/registry/device_registry.h"
 #include "device/simulated_hand.h"
 
@@ -254,8 +255,9 @@ int run_loop(const LoopOptions& options) {
   const core::Fault fault = run->telemetry().fault;
   const bool was_ended = fault == core::Fault::kEmergencyStop && stop_requested();
   if (!core::is_failure(fault) || was_ended) return kDone;
+  const bool says_more = core::is_of_driver(fault) && !said_by_device.empty();
   fmt::print(stderr, "jnd: {}{}\n", core::words(fault),
-             said_by_device.empty() ? "" : " The driver says: " + said_by_device + ".");
+             says_more ? " The driver says: " + said_by_device + "." : "");
   return kHasProblems;
 }
 

@@ -174,6 +174,7 @@ int run_session(const RunOptions& options, core::StudyStore& store,
                 std::int64_t session) {
   stop_on_signals();
   Acknowledgements acknowledgements(options.acknowledge);
+  const std::string device = store.session(session).device;
   LaboratoryRunResult result;
   MissingForce missing_force;
   DeviceWait wait(options.wait_s);
@@ -188,6 +189,10 @@ int run_session(const RunOptions& options, core::StudyStore& store,
          .realtime = options.realtime,
          .allow_no_realtime = options.allow_no_realtime,
          .arm = options.arm,
+         .before_arming =
+             [&] {
+               if (options.releases_stop) forget_stop(stops_folder(), device);
+             },
          .shadow_guards = options.shadow_guards,
          .choice = options.choose,
          .language = options.language,

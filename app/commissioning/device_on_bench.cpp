@@ -61,7 +61,8 @@ void DeviceOnBench::take_over(GuideOrder order) {
   constexpr double kGentle_n = 0.5;
   constexpr double kMostYield_m = kGentle_n / kSoftHold.stiffness_n_per_m;
   run_.while_asking([this] { bench_.expect_force(); });
-  const Eigen::Vector3d held_m = place_m();
+  // Whether what is latched lets it be armed is for `arm` to judge: no force acts before.
+  const Eigen::Vector3d held_m = hand_m(run_.look(), can_);
   order.to_m = plain_of(held_m);
   order.begins_here = true;
   run_.order(order);

@@ -85,7 +85,10 @@ struct GuidedRun::Implementation {
   }
 
   /// The beat comes only from whoever waits here, so that the force fades if the program hangs.
-  core::Fault run(double duration_s, const std::function<void(const core::Sample&)>& take) {
+  /// A fault ends it, except within the first `patience_s`, in which only the emergency stop
+  /// does.
+  core::Fault run(double duration_s, const std::function<void(const core::Sample&)>& take,
+                  double patience_s = 0.0) {
     const auto num_ticks = std::llround(duration_s * parameters.rate_hz);
     std::int64_t num_taken = 0;
     const auto visit = [&](const core::Sample& sample) {
@@ -103,12 +106,16 @@ struct GuidedRun::Implementation {
     }
     // Drops samples from before.
     samples.drain([](const core::Sample&) {});
+    const auto patience =
+        std::chrono::steady_clock::now() + std::chrono::duration<double>(patience_s);
     while (num_taken < num_ticks) {
       beat();
       if (stop_requested() && !stop.is_pressed()) stop.press();
       samples.drain(visit);
       const core::Fault found = fault();
-      if (core::is_failure(found)) return found;
+      const bool waits =
+          found != core::Fault::kEmergencyStop && std::chrono::steady_clock::now() < patience;
+      if (core::is_failure(found) && !waits) return found;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return fault();
@@ -142,10 +149,12 @@ void GuidedRun::arm(const std::function<void(const core::Sample&)>& take) {
   Implementation& my = *implementation_;
   if (my.fault() == core::Fault::kNone && my.telemetry.value().num_ticks > 0) return;
   constexpr int kAttempts = 50;
+  constexpr double kAttempt_s = 0.1;
   core::Fault found = core::Fault::kNone;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     my.loop.rearm(my.telemetry.value().num_faults);
-    found = my.run(0.1, take);
+    // What was latched before stays until the loop's next tick.
+    found = my.run(kAttempt_s, take, kAttempt_s);
     if (found == core::Fault::kNone) {
       (void)my.run(1.0, take);
       return;
@@ -204,6 +213,16 @@ void GuidedRun::run_for(double duration_s,
   if (core::is_failure(found)) {
     throw core::Error("commission: " + std::string(core::words(found)));
   }
+}
+
+const core::Sample& GuidedRun::look() {
+  constexpr double kLook_s = 0.02, kPatience_s = 0.1;
+  const core::Fault found = implementation_->run(kLook_s, {}, kPatience_s);
+  if (stop_requested()) throw core::Error("commission: stopped; what was measured is kept");
+  if (found == core::Fault::kEmergencyStop) {
+    throw core::Error("commission: " + std::string(core::words(found)));
+  }
+  return telemetry().sample;
 }
 
 const core::Telemetry& GuidedRun::telemetry() {

@@ -71,6 +71,9 @@ class GuidedRun {
   /// Then there is no force until `arm`.
   [[nodiscard]] core::Fault try_for(double duration_s,
                                     const std::function<void(const core::Sample&)>& take = {});
+  /// Returns the last sample after 20 ms, also while a fault is latched, as it is before `arm`.
+  /// Throws `core::Error` after an emergency stop, or if the program is asked to stop.
+  [[nodiscard]] const core::Sample& look();
   /// The telemetry of the last tick.
   [[nodiscard]] const core::Telemetry& telemetry();
   /// Ends the force, turns the motors off, and closes the device.

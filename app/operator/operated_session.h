@@ -201,6 +201,7 @@ class OperatedSession {
   bool left_ = false;
   core::Fault known_fault_ = core::Fault::kNone;
   std::uint64_t known_stop_presses_ = 0;  ///< As far as they are remembered.
+  std::uint64_t seen_num_faults_ = 0;     ///< With the fault that is shown.
   std::uint64_t known_num_faults_ = 0;    ///< When `rearm` was asked for.
   int num_own_faults_ = 0;  ///< That ended a force, of the device or this machine.
   bool rearming_ = false;

@@ -215,7 +215,7 @@ struct OperatedSession::Act {
     require_felt();
     require_in_time();
     my.doubted_.reset();
-    end_presentation();
+    end_presentation(Presenter::Afterwards::kNextStep);
     my.session_.adjust(adjust.direction, adjust.size);
     my.presenter_.begin(*my.block(), "test", Presenter::Beginning::kStep);
   }
@@ -321,8 +321,8 @@ struct OperatedSession::Act {
     if (rearm.num_faults_seen != now.num_faults) {
       refuse(tr("another fault has come meanwhile: look at it, then arm again"));
     }
-    my.known_num_faults_ = now.num_faults;
-    my.running_.apparatus().rearm(now.num_faults);
+    my.known_num_faults_ = rearm.num_faults_seen;
+    my.running_.apparatus().rearm(rearm.num_faults_seen);
     my.rearming_ = true;
   }
 

@@ -276,6 +276,8 @@ MediumView OperatedSession::medium_view(const Exploration& medium) const {
 void OperatedSession::describe_loop(SessionView& view) const {
   const Apparatus& apparatus = running_.apparatus();
   view.telemetry = apparatus.telemetry();
+  // A fault that has come since the last look is not shown yet, so nobody has seen it.
+  view.telemetry.num_faults = seen_num_faults_;
   view.max_total_force_n = apparatus.max_total_force_n();
   view.num_contact_points = apparatus.num_contact_points();
   view.loop.rate_hz = parameters_.study.device.rate_hz;

@@ -32,6 +32,7 @@ static bool says_something_is_wrong(core::Fault fault) noexcept {
 /// may latch before anybody has seen that the last one was over.
 void OperatedSession::watch_for_faults() {
   const core::Telemetry now = running_.apparatus().telemetry();
+  seen_num_faults_ = now.num_faults;
   if (now.fault == core::Fault::kNone) return arming_succeeded();
   const bool latched_anew = rearming_ && now.num_faults != known_num_faults_;
   if ((now.fault == known_fault_ && !latched_anew) || !failure_.empty()) return;

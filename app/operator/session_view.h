@@ -248,6 +248,8 @@ struct SessionView {
   double left_s = 0.0;      ///< Expected.
   double done_ratio = 0.0;  ///< The share of the session that is done, from 0 to 1.
 
+  /// What the loop tells, but `num_faults` as of when `fault` was looked for, as `Rearm` takes
+  /// it.
   core::Telemetry telemetry;
   double max_total_force_n = 0.0;
   int num_contact_points = 5;  ///< As the device declares it.

@@ -259,6 +259,7 @@ struct Apparatus::Implementation {
   /// `core::Error`.
   void arm() {
     constexpr auto kPatience = std::chrono::seconds(10);
+    if (parameters.before_arming) parameters.before_arming();
     const auto end = std::chrono::steady_clock::now() + kPatience;
     while (true) {
       if (stop_requested()) {
@@ -429,10 +430,7 @@ bool Apparatus::is_laboratory_hand() const noexcept {
 std::string Apparatus::fault_words(core::Fault fault) const {
   std::string told(words(fault));
   const std::string said = implementation_->device->words_of_fault();
-  const bool is_of_device = fault == core::Fault::kDeviceReadFailed ||
-                            fault == core::Fault::kDeviceWriteFailed ||
-                            fault == core::Fault::kNonFiniteState;
-  if (is_of_device && !said.empty()) told += " The driver says: " + said + ".";
+  if (core::is_of_driver(fault) && !said.empty()) told += " The driver says: " + said + ".";
   return told;
 }
 

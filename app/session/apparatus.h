@@ -56,6 +56,8 @@ class Apparatus {
     /// Arms a real device at once, as somebody beside it has asked for. A simulated device
     /// starts armed.
     bool arm = false;
+    /// Called when all else is well and a real device is about to be armed; may be empty.
+    std::function<void()> before_arming = {};
     /// The loop's guards only count what they would have done; see `device::HapticLoop`.
     bool shadow_guards = false;
     /// Where samples are recorded. Without it, strokes are summarised, and nothing else is

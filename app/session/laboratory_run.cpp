@@ -35,6 +35,7 @@ class SimulatedSession {
                                 .realtime = run.realtime,
                                 .allow_no_realtime = run.allow_no_realtime,
                                 .arm = run.arm,
+                                .before_arming = run.before_arming,
                                 .shadow_guards = run.shadow_guards,
                                 .durability = run.durability,
                                 .injected_faults = run.injected_faults},

@@ -31,6 +31,8 @@ struct LaboratoryRun {
   bool allow_no_realtime = false;
   /// Somebody beside a real device has asked for force.
   bool arm = false;
+  /// See `Apparatus::Parameters`.
+  std::function<void()> before_arming = {};
   /// Guards only count what they would have done.
   bool shadow_guards = false;
   core::Durability durability = core::Durability::kEveryCommit;

@@ -33,6 +33,10 @@ void Presenter::stimulus_is_gone() {
 void Presenter::begin(const Block& block, const std::string& interval, Beginning beginning) {
   session_.begin_presentation(interval, apparatus_.next_tick());
   amounts_ = amounts_of(setting_of(block, interval, presentation().intensity));
+  if (beginning == Beginning::kStimulus) {
+    counts_forces_ = false;
+    told_missing_force_ = false;
+  }
   missed_before_ = apparatus_.telemetry().num_missed_ticks;
   limited_before_ = static_cast<std::int64_t>(apparatus_.telemetry().num_limited_ticks);
   apparatus_.render(amounts_, beginning == Beginning::kStep ? Apparatus::Stimulus::kGoesOn
@@ -59,8 +63,12 @@ bool Presenter::ramp_has_passed() const {
 void Presenter::ramp_is_over() {
   const core::Telemetry& now = apparatus_.telemetry();
   sums_before_ = now.contact_sums;
-  forces_before_ = now.force_counts;
-  ticks_before_ = now.num_ticks;
+  // Between two steps a hand may rest: they are judged together.
+  if (!counts_forces_ && asks_for_force(amounts_)) {
+    counts_forces_ = true;
+    forces_before_ = now.force_counts;
+    ticks_before_ = now.num_ticks;
+  }
   apparatus_.meter_strokes();
   measuring_ = true;
 }
@@ -99,7 +107,7 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
   session_.end_presentation(felt.last_tick,
                             {.measures = measures, .exposure = exposure_since_last()});
   tell_guards();
-  if (measuring_) tell_missing_force(last);
+  if (afterwards != Afterwards::kNextStep) tell_missing_force(last);
   under_way_ = false;
   measuring_ = false;
   return felt;
@@ -113,13 +121,16 @@ std::optional<core::Exposure> Presenter::exposure_since_last() {
   return now - std::exchange(told_, now);
 }
 
-/// Of what is felt for a moment alone nobody can tell.
+/// Of what is felt for a moment alone nobody can tell. A stimulus of several steps is told of
+/// once.
 void Presenter::tell_missing_force(const core::Telemetry& last) {
   constexpr double kShortest_s = 0.2;
+  if (!counts_forces_ || told_missing_force_) return;
   const auto felt_ticks = static_cast<double>(last.num_ticks - ticks_before_);
   if (!asks_for_force(amounts_) || felt_ticks < kShortest_s * needs_.rate_hz) return;
   const std::string cause = missing_force_cause(last.force_counts - forces_before_);
   if (cause.empty()) return;
+  told_missing_force_ = true;
   const std::int64_t number = *session_.state().current_trial();
   const TrialState& trial = session_.state().trial(number);
   session_.force_missing({.trial = number,
@@ -142,6 +153,7 @@ void Presenter::abandon() {
   stimulus_is_gone();
   const bool metered = std::exchange(measuring_, false);
   under_way_ = false;
+  counts_forces_ = false;
   if (metered) (void)apparatus_.finish_strokes();
 }
 

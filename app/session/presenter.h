@@ -26,6 +26,9 @@ class Presenter {
     kSameMedium,  ///< Until the next presentation begins.
     /// At once, so that no hand stays in a medium while the disk works.
     kFreeSpace,
+    /// The same medium, until the next step of this stimulus begins: what no force acted in is
+    /// told of the stimulus as a whole.
+    kNextStep,
   };
 
   /// What a presentation is to the participant.
@@ -100,10 +103,13 @@ class Presenter {
   std::int64_t missed_before_ = 0;
   core::MediumAmounts amounts_;
   core::ContactSums sums_before_;
-  core::ForceCounts forces_before_;
-  std::int64_t ticks_before_ = 0;  ///< Of the loop, when the ramp was over.
-  core::Exposure told_;            ///< In events of this apparatus.
-  core::GuardCounts told_guards_;  ///< In events of this apparatus.
+  /// The stimulus asks for a force, and its ramp was over once: that of its first step.
+  bool counts_forces_ = false;
+  bool told_missing_force_ = false;  ///< Of this stimulus.
+  core::ForceCounts forces_before_;  ///< When that ramp was over.
+  std::int64_t ticks_before_ = 0;    ///< Of the loop, likewise.
+  core::Exposure told_;              ///< In events of this apparatus.
+  core::GuardCounts told_guards_;    ///< In events of this apparatus.
 };
 
 }  // namespace jnd::app

@@ -25,6 +25,12 @@ bool MediumAmounts::is_finite() const noexcept {
                              [&](auto amount) { return std::isfinite(this->*amount); });
 }
 
+bool MediumAmounts::is_nowhere_more_than(const MediumAmounts& other) const noexcept {
+  return std::ranges::all_of(kAmounts, [&](auto amount) {
+    return std::abs(this->*amount) <= std::abs(other.*amount);
+  });
+}
+
 MediumAmounts MediumAmounts::times(double factor) const noexcept {
   MediumAmounts all = *this;
   for (double MediumAmounts::*const amount : kAmounts) all.*amount *= factor;
@@ -86,19 +92,19 @@ void MediumRamp::start(const MediumAmounts& target, double ramp_s) noexcept {
   arrived_ = false;
 }
 
-const MediumAmounts& MediumRamp::advance(double period_s) noexcept {
+const MediumAmounts& MediumRamp::advance(double elapsed_s) noexcept {
   if (arrived_) return current_;
   // A remaining time that is not a number ends the ramp like one that is over.
-  if (!(remaining_s_ > period_s)) {
+  if (!(remaining_s_ > elapsed_s)) {
     arrived_ = true;
     current_ = target_;
     return current_;
   }
-  const double step_ratio = period_s / remaining_s_;
+  const double step_ratio = elapsed_s / remaining_s_;
   for (const auto amount : kAmounts) {
     current_.*amount += step_ratio * (target_.*amount - current_.*amount);
   }
-  remaining_s_ -= period_s;
+  remaining_s_ -= elapsed_s;
   return current_;
 }
 

@@ -74,6 +74,8 @@ struct MediumAmounts {
   [[nodiscard]] bool is_plain_damping() const noexcept;
   /// Whether no amount is infinite or NaN. Real time.
   [[nodiscard]] bool is_finite() const noexcept;
+  /// Whether no amount of it is larger than the one of `other`. Real time.
+  [[nodiscard]] bool is_nowhere_more_than(const MediumAmounts& other) const noexcept;
   /// Multiplies every amount by the factor, and so the force, which is linear in them.
   [[nodiscard]] MediumAmounts times(double factor) const noexcept;
   MediumAmounts& operator+=(const MediumAmounts& other) noexcept;
@@ -133,7 +135,8 @@ inline constexpr std::array kDragOfMotion = {&MediumAmounts::quadratic_kg_per_m,
 class MediumRamp {
  public:
   void start(const MediumAmounts& target, double ramp_s) noexcept;
-  /// Moves on by the time since the last tick and returns what is to be rendered in this one.
+  /// Moves on by this time and returns what is to be rendered now. It is the time since the
+  /// last tick, but of that only what lies after `start`.
   const MediumAmounts& advance(double elapsed_s) noexcept;
   [[nodiscard]] const MediumAmounts& current() const noexcept { return current_; }
   [[nodiscard]] bool finished() const noexcept { return arrived_; }

@@ -40,6 +40,12 @@ inline constexpr Fault kLastFault = Fault::kPositionFrozen;
   return fault != Fault::kNone && fault != Fault::kNotArmed;
 }
 
+/// Whether the device's driver may say more of it.
+[[nodiscard]] constexpr bool is_of_driver(Fault fault) noexcept {
+  return fault == Fault::kDeviceReadFailed || fault == Fault::kDeviceWriteFailed ||
+         fault == Fault::kNonFiniteState;
+}
+
 /// Whether there may be force. Force comes only after a person has asked for it, or, with a
 /// simulated device, the program.
 enum class Arming : std::uint8_t {

@@ -22,12 +22,20 @@ class Heartbeat {
 /// Real time.
 class HeartbeatMonitor {
  public:
+  /// From when on silence counts.
+  enum class Since {
+    kFirstCall,
+    /// Whoever beats may begin long after the loop, and asks for no force before that.
+    kFirstBeat,
+  };
+
   /// `heartbeat` may be nullptr, for a simulation, in which silence means nothing.
-  HeartbeatMonitor(const Heartbeat* heartbeat, std::int64_t timeout_ticks) noexcept
-      : heartbeat_(heartbeat), timeout_ticks_(timeout_ticks) {}
+  HeartbeatMonitor(const Heartbeat* heartbeat, std::int64_t timeout_ticks,
+                   Since since = Since::kFirstCall) noexcept
+      : heartbeat_(heartbeat), timeout_ticks_(timeout_ticks), since_(since) {}
 
   /// Called once a tick, `num_passed` >= 1 ticks after the last call; true once `timeout_ticks`
-  /// have passed without a beat. Time counts from the first call.
+  /// have passed without a beat.
   [[nodiscard]] bool is_silent(std::int64_t num_passed = 1) noexcept {
     if (heartbeat_ == nullptr) return false;
     const std::uint64_t count = heartbeat_->count();
@@ -36,6 +44,7 @@ class HeartbeatMonitor {
       silent_ticks_ = 0;
       return false;
     }
+    if (count == 0 && since_ == Since::kFirstBeat) return false;
     // Saturates, so that a night of silence does not overflow.
     if (silent_ticks_ < timeout_ticks_) silent_ticks_ += num_passed;
     return silent_ticks_ >= timeout_ticks_;
@@ -44,6 +53,7 @@ class HeartbeatMonitor {
  private:
   const Heartbeat* heartbeat_;
   std::int64_t timeout_ticks_;
+  Since since_;
   std::int64_t silent_ticks_ = 0;
   std::uint64_t last_count_ = 0;
 };

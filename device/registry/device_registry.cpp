@@ -1,9 +1,12 @@
 #include "device/registry/device_registry.h"
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <random>
 #include <string>
+#include <system_error>
 
 #include "core/error.h"
 #include "core/for_people.h"
@@ -16,6 +19,7 @@
 #include "device/network/network_options.h"
 #include "device/network/udp_port.h"
 #include "device/plugin/plugin_device.h"
+#include "device/plugin/plugin_options.h"
 #include "device/twin/twin_device.h"
 #include "device/unplugged_device.h"
 
@@ -153,6 +157,33 @@ std::string_view kind_of(std::string_view name) noexcept {
 std::string_view argument_of(std::string_view name) noexcept {
   const std::size_t colon = name.find(':');
   return colon == std::string_view::npos ? std::string_view() : name.substr(colon + 1);
+}
+
+static std::filesystem::path whole_path(const std::string& driver) {
+  std::filesystem::path file = driver;
+  try {
+    file = plugin_file(driver);
+  } catch (const core::Error&) {
+    // It is not there, and so is called by the place where it would be.
+  }
+  std::error_code error;
+  const std::filesystem::path whole =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
+  return error ? file : whole;
+}
+
+std::string canonical_name(std::string_view name) {
+  constexpr std::string_view kLocal = "localhost:";
+  name = name.substr(0, name.find(','));
+  const std::string_view kind = kind_of(name);
+  const std::string_view argument = argument_of(name);
+  if (kind == "network" && argument.starts_with(kLocal)) {
+    return "network:127.0.0.1:" + std::string(argument.substr(kLocal.size()));
+  }
+  if (kind != "plugin" || argument.empty()) return std::string(name);
+  const std::size_t colon = std::min(argument.find(':'), argument.size());
+  return "plugin:" + whole_path(std::string(argument.substr(0, colon))).string() +
+         std::string(argument.substr(colon));
 }
 
 std::unique_ptr<NetworkDevice> asked_network_device(std::string_view argument) {

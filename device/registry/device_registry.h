@@ -24,6 +24,11 @@ struct DeviceEntry {
 [[nodiscard]] std::string_view kind_of(std::string_view name) noexcept;
 [[nodiscard]] std::string_view argument_of(std::string_view name) noexcept;
 
+/// Returns one name for all spellings of a device: the whole path of a driver's file, 127.0.0.1
+/// for localhost, and nothing from the first comma on, which says how a device is used and not
+/// which one it is. Not real time.
+[[nodiscard]] std::string canonical_name(std::string_view name);
+
 /// Returns every device of this program; the first is the default.
 [[nodiscard]] std::span<const DeviceEntry> devices() noexcept;
 

@@ -68,6 +68,9 @@ TEST_F(LoopThatMissesTicks, WhoeverLeadsTheSessionIsMissedAfterASecond) {
     heartbeat.beat();  // The window lives.
     return telemetry().fault == Fault::kHeartbeatLost;
   };
+  EXPECT_GE(ms_until(is_lost), 3000) << "nobody has begun to lead it";
+  session.beat();
+  step();
   EXPECT_NEAR(ms_until(is_lost), 1000, kStep_ms);
 }
 
@@ -90,6 +93,21 @@ TEST_F(LoopThatMissesTicks, AMediumIsTakenAwayInItsTime) {
     return felt_n() == 0.0;
   };
   EXPECT_LE(ms_until(is_free), 50 + kStep_ms);
+}
+
+TEST_F(LoopThatMissesTicks, AMediumDoesNotBeginWithTimeFromBeforeItsCommand) {
+  be_in_a_fluid();
+  const double whole_n = felt_n();
+  command(core::free_space());
+  heartbeat.beat();
+  run(20);
+  ASSERT_EQ(felt_n(), 0.0);
+  command(core::viscous({.viscosity_pa_s = 10.0}), 0.050);
+  step();
+  EXPECT_GT(felt_n(), 0.0);
+  EXPECT_LE(felt_n(), 0.03 * whole_n) << "one tick of fifty, whatever was missed";
+  step();
+  EXPECT_NEAR(felt_n(), 0.24 * whole_n, 0.03 * whole_n) << "missed under the command";
 }
 
 TEST_F(LoopThatMissesTicks, AMeasurementOfTenMillisecondsAgoIsOld) {

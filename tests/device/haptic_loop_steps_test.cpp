@@ -67,5 +67,30 @@ TEST_F(LoopOfSteps, DoNotMakeSwingsForgotten) {
             Fault::kForceOscillates);
 }
 
+TEST_F(LoopOfSteps, BeginAnewOnceTheLoopIsArmedAgain) {
+  for (Eigen::Vector3d& tip_m : device.state.tip_position_m) tip_m.z() -= 0.5;
+  const auto step = [this](const core::MediumAmounts& medium) {
+    commands.publish({.sequence = ++sequence,
+                      .medium = medium,
+                      .immersion = {.radius_m = 10.0, .depth_m = 10.0},
+                      .ramp_s = 0.0,
+                      .stimulus = 1});
+    run(5);
+  };
+  step(core::buoyant(8.0));
+  step(core::free_space());
+  stop.press();
+  run(1);
+  ASSERT_TRUE(stop.release(stop.num_presses()));
+  run(600);
+  arm();
+  run(600);
+  ASSERT_EQ(telemetry().fault, Fault::kNone);
+  device.move_all({0.0, 0.0, 0.01});
+  step(core::buoyant(8.0));
+  run(20);
+  EXPECT_GT(device.last_total_n().z(), 4.0) << "it lifts a hand that it was put around";
+}
+
 }  // namespace haptic_loop_steps_test
 }  // namespace jnd::device

@@ -205,6 +205,41 @@ TEST(DeviceOnBench, AForceThatMovesWhatSomebodyHoldsEnds) {
   EXPECT_THROW(started.act([] {}), core::Error);
 }
 
+/// While somebody was busy at the tool, there was no force, and the window may have hung.
+TEST(DeviceOnBench, AFaultWhileThereWasNoForceIsForArmingToJudge) {
+  TimedTwin twin;
+  OddBench bench(*twin.bench());
+  core::Heartbeat window;
+  std::atomic<bool> is_alive = true;
+  const std::jthread drawing([&](const std::stop_token& ends) {
+    while (!ends.stop_requested()) {
+      if (is_alive) window.beat();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  });
+  DeviceOnBench started(twin, bench, {.allow_no_realtime = true, .watcher = &window});
+  started.hold(kSoftHold);
+  core::Fault meanwhile = core::Fault::kNone;
+  EXPECT_NO_THROW(started.act([&] {
+    is_alive = false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    meanwhile = started.run().telemetry().fault;
+    is_alive = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }));
+  EXPECT_EQ(meanwhile, core::Fault::kHeartbeatLost);
+  EXPECT_EQ(started.run().telemetry().fault, core::Fault::kNone) << "it is held again";
+}
+
+TEST(DeviceOnBench, AStopWhileThereWasNoForceStaysOne) {
+  device::TwinDevice twin({});
+  OddBench bench(*twin.bench());
+  core::EmergencyStop stop;
+  DeviceOnBench started(twin, bench, {.emergency_stop = &stop});
+  started.hold(kSoftHold);
+  EXPECT_THROW(started.act([&] { stop.press(); }), core::Error);
+}
+
 TEST(GuidedRun, AGuideGetsNoMoreThanTheLimits) {
   device::TwinDevice twin({});
   GuidedRun run(twin, {.limits = {.per_point_n = 1.0, .total_n = 2.0}});

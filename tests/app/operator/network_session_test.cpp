@@ -248,13 +248,30 @@ TEST(NetworkArming, ADeviceThatCanHurtIsArmedWhereSomebodySaysSo) {
     parameters.realtime = true;
     parameters.allow_no_realtime = true;
     parameters.arm = arm;
+    int num_told = 0;
+    parameters.before_arming = [&num_told] { ++num_told; };
     const Apparatus apparatus(parameters);
+    EXPECT_EQ(num_told, arm ? 1 : 0);
     EXPECT_FALSE(apparatus.is_simulated());
     if (!arm) std::this_thread::sleep_for(std::chrono::milliseconds(300));
     const core::Arming found = apparatus.telemetry().arming;
     EXPECT_EQ(found == core::Arming::kArming || found == core::Arming::kArmed, arm)
         << core::words(apparatus.telemetry().fault);
   }
+}
+
+TEST(NetworkArming, WhoCannotBeArmedForOtherReasonsIsNotAboutToBe) {
+  ServedHand hand(1, 0, std::make_unique<HurtfulHand>());
+  Apparatus::Parameters parameters;
+  parameters.device = "network:" + hand.place();
+  parameters.realtime = true;
+  parameters.allow_no_realtime = true;
+  parameters.arm = true;
+  parameters.wants_profile = true;  // There is none.
+  bool is_told = false;
+  parameters.before_arming = [&is_told] { is_told = true; };
+  EXPECT_THROW(Apparatus{parameters}, core::Error);
+  EXPECT_FALSE(is_told);
 }
 
 }  // namespace network_session_test

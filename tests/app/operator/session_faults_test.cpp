@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <string>
 
 #include "app/operator/operated_session_fixture.h"
 #include "app/operator/remembered_stop.h"
@@ -7,6 +9,7 @@
 #include "core/safety/fault.h"
 #include "core/storage/flight_record.h"
 #include "core/storage/integrity.h"
+#include "support/files.h"
 
 namespace jnd::app {
 namespace session_faults_test {
@@ -196,6 +199,8 @@ TEST_F(SessionFaultsTest, NoCommandArmsADeviceWhoseStopNobodyHasReleased) {
   EXPECT_THROW(require_stop_released(folder, "plugin:robot.so,port=2", false), core::Error)
       << "the same device, used otherwise";
   EXPECT_NO_THROW(require_stop_released(folder, "plugin:robot.so", true));
+  EXPECT_TRUE(is_stop_remembered(folder, "plugin:robot.so")) << "nothing is armed yet";
+  forget_stop(folder, "plugin:robot.so");
   EXPECT_NO_THROW(require_stop_released(folder, "plugin:robot.so", false)) << "released";
 }
 
@@ -215,6 +220,41 @@ TEST_F(SessionFaultsTest, AStopOfOneDeviceIsNoneOfAnother) {
   EXPECT_FALSE(is_stop_remembered("", "network:10.0.0.2:5000"));
   forget_stop(folder, "network:10.0.0.2:5000");
   EXPECT_FALSE(is_stop_remembered(folder, "network:10.0.0.2:5000"));
+}
+
+TEST_F(SessionFaultsTest, AStopIsTheDevicesHoweverItsNameIsSpelt) {
+  namespace fs = std::filesystem;
+  const fs::path folder = temporary_.path() / "state";
+  const fs::path driver = temporary_.path() / "robot.so";
+  test_support::write_file(driver, "a driver");
+  fs::create_symlink(driver, temporary_.path() / "other.so");
+  const std::string whole = "plugin:" + driver.string();
+  remember_stop(folder, whole);
+  EXPECT_TRUE(is_stop_remembered(folder, "plugin:" + fs::relative(driver).string()));
+  EXPECT_TRUE(is_stop_remembered(
+      folder, "plugin:" + (temporary_.path() / "state" / ".." / "robot.so").string()));
+  EXPECT_TRUE(
+      is_stop_remembered(folder, "plugin:" + (temporary_.path() / "other.so").string()));
+  EXPECT_FALSE(is_stop_remembered(folder, "plugin:" + driver.string() + "x"));
+  forget_stop(folder, "plugin:" + fs::relative(driver).string());
+  EXPECT_FALSE(is_stop_remembered(folder, whole));
+
+  remember_stop(folder, "network:localhost:5000,key=robot");
+  EXPECT_TRUE(is_stop_remembered(folder, "network:127.0.0.1:5000"));
+
+  const std::string deep = std::string(100, 'x') + "/";
+  const std::string far = "plugin:/opt/" + deep + deep + deep + "robot.so";
+  remember_stop(folder, far);
+  EXPECT_TRUE(is_stop_remembered(folder, far)) << "too long for the name of a file";
+}
+
+TEST_F(SessionFaultsTest, AStopThatAnEarlierVersionRememberedHolds) {
+  const std::filesystem::path folder = temporary_.path() / "state";
+  std::filesystem::create_directories(folder);
+  test_support::write_file(folder / "stop_network-3alocalhost-3a5000", "");
+  EXPECT_TRUE(is_stop_remembered(folder, "network:localhost:5000,key=robot"));
+  forget_stop(folder, "network:localhost:5000");
+  EXPECT_FALSE(is_stop_remembered(folder, "network:localhost:5000"));
 }
 
 }  // namespace session_faults_test

@@ -135,6 +135,23 @@ TEST_F(SlowDiskTest, SoDoesAMagnetThatLoosens) {
   expect_free_space_at_once({});
 }
 
+/// Whoever leads the session may be held up between a look at the loop and what is shown.
+TEST_F(SlowDiskTest, AFaultThatIsNotShownYetIsNotCountedAsSeen) {
+  const SessionView ready =
+      go_on_in_real_time({{.first_tick = 3000, .injection = device::Injection::kReadFailure}});
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (view().telemetry.fault == core::Fault::kNone &&
+         std::chrono::steady_clock::now() < patience) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_NE(view().telemetry.fault, core::Fault::kNone);
+  EXPECT_EQ(view().step, Step::kReady);
+  EXPECT_EQ(view().telemetry.num_faults, ready.telemetry.num_faults);
+  const SessionView told =
+      until([](const SessionView& now) { return now.step == Step::kFault; });
+  EXPECT_GT(told.telemetry.num_faults, ready.telemetry.num_faults);
+}
+
 TEST_F(SlowDiskTest, NoAnswerIsStoredOverAHoleThoughTheDiskHasRecovered) {
   const std::int64_t trial = go_on_in_real_time().trial->trial;
   present(trial, "reference");

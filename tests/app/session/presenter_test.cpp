@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <thread>
 #include <variant>
 #include <vector>
@@ -24,12 +25,15 @@ namespace presenter_test {
 class SlowLog final : public experiments::EventLog {
  public:
   void append(const core::Commit& commit) override {
+    num_without_force += commit.event.kind == "force_missing" ? 1 : 0;
     if (commit.event.kind == "presentation_started") std::this_thread::sleep_for(delay);
   }
   std::chrono::milliseconds delay{0};
+  int num_without_force = 0;
 };
 
-/// A presenter in the block of comparisons, with its first trial under way.
+/// A presenter in a block, that of comparisons unless a test says otherwise, with its first
+/// trial under way.
 class PresenterTest : public ::testing::Test {
  protected:
   void start(bool realtime) {
@@ -46,12 +50,27 @@ class PresenterTest : public ::testing::Test {
     session_->start_trial(apparatus_->next_tick());
   }
   [[nodiscard]] const experiments::Stage& stage() const {
-    return *std::ranges::find(study_.stages, "comparison", &experiments::Stage::name);
+    return *std::ranges::find(study_.stages, block_, &experiments::Stage::name);
   }
   void begin() {
     presenter_->begin(std::get<experiments::Block>(stage().content), "reference");
   }
 
+  /// A step of the stimulus that is adjusted, over its ramp and as long as this.
+  void feel_step(Presenter::Beginning beginning, double duration_s) {
+    presenter_->begin(std::get<experiments::Block>(stage().content), "test", beginning);
+    apparatus_->run_for(study_.device.ramp_s);
+    presenter_->ramp_is_over();
+    apparatus_->run_for(duration_s);
+  }
+  void adjust() {
+    using experiments::Direction;
+    const experiments::StepSize size = experiments::StepSize::kFine;
+    const bool can_rise = session_->can_adjust(Direction::kRaise, size);
+    ASSERT_TRUE(session_->adjust(can_rise ? Direction::kRaise : Direction::kLower, size));
+  }
+
+  std::string block_ = "comparison";
   experiments::Study study_ = experiments::read_study_text(kTinyStudy, "tiny.json");
   experiments::Laboratory laboratory_ = experiments::thesis_laboratory();
   SlowLog log_;
@@ -99,6 +118,33 @@ TEST_F(PresenterTest, APresentationThatEndsInFreeSpaceCountsToTheTickBefore) {
   apparatus_->run_for(0.1);
   EXPECT_EQ(apparatus_->telemetry().total_force_n, core::PlainVector{});
   EXPECT_FALSE(presenter_->under_way());
+}
+
+TEST_F(PresenterTest, AHandThatRestsBetweenTwoStepsMissesNoForceIfItMovesInOthers) {
+  block_ = "production";
+  start(/*realtime=*/false);
+  feel_step(Presenter::Beginning::kStimulus, 1.0);
+  presenter_->end(Presenter::Afterwards::kNextStep);
+  adjust();
+  apparatus_->begin_strokes({}, core::RandomStream(1, "stroke"));
+  feel_step(Presenter::Beginning::kStep, 3.0);
+  presenter_->end(Presenter::Afterwards::kFreeSpace);
+  EXPECT_EQ(log_.num_without_force, 0);
+}
+
+TEST_F(PresenterTest, AStimulusOfTwoStepsWithoutForceIsToldOfOnce) {
+  block_ = "production";
+  start(/*realtime=*/false);
+  feel_step(Presenter::Beginning::kStimulus, 1.0);
+  presenter_->end(Presenter::Afterwards::kNextStep);
+  adjust();
+  feel_step(Presenter::Beginning::kStep, 1.0);
+  presenter_->end();
+  EXPECT_EQ(log_.num_without_force, 1);
+  adjust();
+  feel_step(Presenter::Beginning::kStep, 1.0);
+  presenter_->end(Presenter::Afterwards::kFreeSpace);
+  EXPECT_EQ(log_.num_without_force, 1) << "it is the same stimulus";
 }
 
 }  // namespace presenter_test

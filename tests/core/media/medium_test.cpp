@@ -49,6 +49,16 @@ TEST(MediumRamp, StartsInFreeSpaceAndHasArrived) {
   EXPECT_EQ(ramp.advance(0.001).damping_n_s_per_m, 0.0);
 }
 
+TEST(MediumAmounts, AreNowhereMoreIfNoAmountIsLarger) {
+  const MediumAmounts fluid = viscous({.viscosity_pa_s = 3.0});
+  const MediumAmounts both = fluid + water({.scale = 2.0});
+  EXPECT_TRUE(free_space().is_nowhere_more_than(fluid));
+  EXPECT_TRUE(fluid.is_nowhere_more_than(fluid));
+  EXPECT_TRUE(fluid.is_nowhere_more_than(both));
+  EXPECT_FALSE(both.is_nowhere_more_than(fluid));
+  EXPECT_FALSE(water({.scale = 0.1}).is_nowhere_more_than(fluid)) << "less, but of another law";
+}
+
 /// Gives every amount another number.
 MediumAmounts all_different(double scale = 1.0) {
   MediumAmounts amounts;

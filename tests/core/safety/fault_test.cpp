@@ -27,5 +27,14 @@ TEST(Fault, AByteFromAForeignRecordingStillHasWords) {
   EXPECT_FALSE(words(static_cast<Fault>(200)).empty());
 }
 
+TEST(Fault, ADriverSaysMoreOnlyOfWhatItDid) {
+  EXPECT_TRUE(is_of_driver(Fault::kDeviceReadFailed));
+  EXPECT_TRUE(is_of_driver(Fault::kDeviceWriteFailed));
+  EXPECT_TRUE(is_of_driver(Fault::kNonFiniteState));
+  EXPECT_FALSE(is_of_driver(Fault::kNone));
+  EXPECT_FALSE(is_of_driver(Fault::kEmergencyStop));
+  EXPECT_FALSE(is_of_driver(Fault::kHostTooSlow));
+}
+
 }  // namespace fault_test
 }  // namespace jnd::core

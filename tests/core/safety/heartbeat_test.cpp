@@ -32,6 +32,16 @@ TEST(HeartbeatMonitor, TicksThatWereMissedAreTime) {
   EXPECT_FALSE(monitor.is_silent(1000)) << "it came meanwhile";
 }
 
+TEST(HeartbeatMonitor, WhoeverMayBeginLateIsMissedOnlyAfterTheFirstBeat) {
+  Heartbeat heartbeat;
+  HeartbeatMonitor monitor(&heartbeat, 250, HeartbeatMonitor::Since::kFirstBeat);
+  for (int tick = 0; tick < 1000; ++tick) EXPECT_FALSE(monitor.is_silent(10)) << tick;
+  heartbeat.beat();
+  EXPECT_FALSE(monitor.is_silent());
+  for (int tick = 1; tick < 250; ++tick) EXPECT_FALSE(monitor.is_silent()) << tick;
+  EXPECT_TRUE(monitor.is_silent());
+}
+
 TEST(HeartbeatMonitor, ASimulationNeedsNoHeart) {
   HeartbeatMonitor monitor(nullptr, 1);
   for (int tick = 0; tick < 1000; ++tick) EXPECT_FALSE(monitor.is_silent());

@@ -44,6 +44,14 @@ TEST(DeviceRegistry, AnUnknownNameIsToldTheKnownOnes) {
   }
 }
 
+TEST(DeviceRegistry, HasOneNameForAllSpellingsOfADevice) {
+  EXPECT_EQ(canonical_name("lumped"), "lumped");
+  EXPECT_EQ(canonical_name("network:localhost:4700,simulated"), "network:127.0.0.1:4700");
+  EXPECT_EQ(canonical_name("network:10.0.0.2:4700,key=a"), "network:10.0.0.2:4700");
+  EXPECT_EQ(canonical_name("plugin:/no/such/../robot.so:port=1,real"),
+            "plugin:/no/robot.so:port=1");
+}
+
 TEST(DeviceRegistry, ADeviceOnAnotherMachineNeedsAKey) {
   for (const char* place : {"network:192.0.2.1:4700", "network:192.0.2.1:4700,simulated",
                             "network:[2001:db8::1]:4700"}) {
