@@ -188,7 +188,8 @@ TEST(DeviceOnBench, HoldsAToolFromWhereSomebodyHasBroughtIt) {
   const Eigen::Vector3d aside_m(0.1, 0.0, 0.0);
   started.act([&] {
     bench.touch(before_m + aside_m);
-    (void)started.place_m();
+    // The hand carries the tool at 0.3 m/s, and `place_m` takes 0.02 s.
+    for (int i = 0; i < 20; ++i) (void)started.place_m();
   });
   EXPECT_GT((started.place_m() - before_m).norm(), 0.07) << "it was pulled back";
 }
