@@ -141,7 +141,7 @@ std::string punctuality(const LoopOutcome& outcome, bool is_all_measured) {
 
 std::string verdict(const LoopOutcome& outcome) {
   const std::vector<std::string> lacks = not_measured(outcome);
-  const std::string words = punctuality(outcome, lacks.empty());
+  std::string words = punctuality(outcome, lacks.empty());
   if (lacks.empty()) return words;
   return fmt::format("{} Not measured: {}.", words, fmt::join(lacks, "; "));
 }
