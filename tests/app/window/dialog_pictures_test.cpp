@@ -115,7 +115,8 @@ TEST_F(DialogPicturesTest, OfWhereResultsGo) {
                  "--study", path("three.study").string()})
                 .exit_code,
             0);
-  window_->start({"run", "viscosity_discrimination", "--study", path("three.study").string()});
+  window_->start({"run", "viscosity_discrimination", "--study", path("three.study").string(),
+                  "--participant", "P04"});
   window_->use("tab_results");
   window_->wait_for_view("results");
   window_->wait_for("export");
