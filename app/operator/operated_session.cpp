@@ -287,7 +287,7 @@ void OperatedSession::end_feeling(bool counts) {
 /// end.
 void OperatedSession::follow_session() {
   if (!begun_ || left_ || !failure_.empty()) return;
-  while (!state().ended && !state().paused && known_fault_ == core::Fault::kNone) {
+  while (!state().ended && !state().paused && !is_held_up()) {
     if (stage() == nullptr) {
       running_.keep_timing();
       running_.close_streams();

@@ -155,6 +155,12 @@ class OperatedSession {
   [[nodiscard]] const experiments::Stage* stage() const;
   [[nodiscard]] const experiments::Block* block() const;
   [[nodiscard]] std::optional<experiments::Exploration> next_medium() const;
+  /// True if the stage is something to read, write or wait for: lists and consent come before
+  /// anybody arms the device.
+  [[nodiscard]] bool stage_needs_no_force() const;
+  /// True if a fault keeps the session from going on. A device that is only disarmed does not,
+  /// where nothing is felt.
+  [[nodiscard]] bool is_held_up() const;
   [[nodiscard]] Step step() const;
   [[nodiscard]] Step step_in_stage() const;
 

@@ -262,6 +262,7 @@ struct OperatedSession::Act {
     if (my.state().current_trial() && my.state().trial(*my.state().current_trial()).under_way) {
       my.session_.discard_attempt("paused" + given);
     }
+    my.was_paused_before_fault_ = true;  // Arming is no going on.
     my.session_.pause(pause.reason);
   }
 
@@ -437,7 +438,7 @@ struct OperatedSession::Act {
   void require_begun_and_armed() const {
     if (!my.begun_) refuse(tr("the session has not begun yet"));
     if (my.state().ended) refuse(tr("the session is over"));
-    if (my.known_fault_ != core::Fault::kNone) refuse(tr("the device has to be armed first"));
+    if (my.is_held_up()) refuse(tr("the device has to be armed first"));
   }
 
   void require_running() const {

@@ -71,9 +71,22 @@ bool OperatedSession::stage_is_complete() const {
   return !item_view() && !next_medium();
 }
 
+bool OperatedSession::stage_needs_no_force() const {
+  if (stage() == nullptr) return true;
+  return std::holds_alternative<Checklist>(stage()->content) ||
+         std::holds_alternative<Consent>(stage()->content) ||
+         std::holds_alternative<Questionnaire>(stage()->content) ||
+         std::holds_alternative<Break>(stage()->content);
+}
+
+bool OperatedSession::is_held_up() const {
+  if (known_fault_ == core::Fault::kNone) return false;
+  return known_fault_ != core::Fault::kNotArmed || (begun_ && !stage_needs_no_force());
+}
+
 Step OperatedSession::step() const {
   if (!failure_.empty()) return Step::kFailed;
-  if (known_fault_ != core::Fault::kNone) return Step::kFault;
+  if (is_held_up()) return Step::kFault;
   if (!begun_) return Step::kBegin;
   if (state().ended) return Step::kFinished;
   if (state().paused) return Step::kPaused;

@@ -28,8 +28,8 @@ enum class Step {
   /// Everything in the stage is done; the session waits for `FinishStage`.
   kStageDone,
   kPaused,
-  /// There was a fault, or nobody has armed the device. There is no force; the session waits
-  /// for `Rearm`.
+  /// There was a fault, or something is to be felt and nobody has armed the device. There is no
+  /// force; the session waits for `Rearm`.
   kFault,
   /// The disk or the device has failed. Nothing more can be stored; the operator can only
   /// leave.
@@ -274,7 +274,8 @@ struct SessionView {
   std::string absent_points;
   bool stop_pressed = false;
   std::uint64_t num_stop_presses = 0;  ///< As in `ReleaseStop`.
-  bool is_disarmed = false;            ///< Nobody has armed the device yet, which is no fault.
+  /// Nobody has armed the device yet, which is no fault. Lists, consent and breaks go on.
+  bool is_disarmed = false;
   /// Why the last request was not carried out; "" otherwise.
   std::string refusal;
   /// Increases with each refusal, so that the same sentence is noticed again.

@@ -29,7 +29,7 @@ std::string loop_summary(const LoopView& loop) {
 void draw_what_goes_on(Ui& ui, const Rect& place, const SessionView& view) {
   ui.card(place);
   Rect inside = place.middle(place.width - 2 * kPadding, place.height - 4);
-  const bool has_fault = !view.fault.empty();
+  const bool has_fault = view.step == Step::kFault || view.step == Step::kFailed;
   const bool is_late = view.loop.missed_ticks > 0 || view.loop.num_dropped_samples > 0;
   const std::string right =
       view.step == Step::kFault ? tr("F4: where it is armed again") : loop_summary(view.loop);

@@ -255,7 +255,9 @@ void draw_run_footer(Ui& ui, const Rect& place, const SessionView& view) {
                      : late                                                  ? Colour::kAmber
                                                                              : Colour::kGreen,
                      loop_words(loop)});
-  if (view.hides_levels || view.is_alone) {
+  if (view.is_disarmed) {
+    healths.push_back({Colour::kAmber, tr("*Disarmed*, no force")});
+  } else if (view.hides_levels || view.is_alone) {
     healths.push_back({Colour::kGreen, tr("Force *within limits*")});
   } else {
     const core::PlainVector& force = view.telemetry.total_force_n;

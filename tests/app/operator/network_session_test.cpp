@@ -239,6 +239,58 @@ TEST_F(NetworkSessionTest, ARealDeviceRunsByTheProfileThatTheSessionKeeps) {
   }));
 }
 
+/// Nobody feels anything in a list, and nobody has to lie in an armed device to read a consent.
+TEST_F(NetworkSessionTest, ListsAndConsentComeBeforeTheDeviceIsArmed) {
+  hand_.emplace(1, 0, std::make_unique<HurtfulHand>());
+  device_ = "network:" + hand_->place();
+  profile_ = {.profile = test_support::wide_profile("hurtful"),
+              .text = experiments::device_profile_text(test_support::wide_profile("hurtful"))};
+  open_window();
+  open(R"json({
+    "format": 1, "name": "lists", "languages": ["en"], "title": {"en": "Lists"},
+    "authors": ["A. Author"],
+    "device": {"min_contact_points": 1, "rate_hz": 1000, "ramp_s": 0.05},
+    "stages": [
+      {"kind": "checklist", "name": "before", "title": {"en": "Before"},
+       "items": [{"text": {"en": "Look at the device."}}]},
+      {"kind": "consent", "name": "consent", "title": {"en": "Consent"},
+       "paragraphs": [{"en": "You feel fluids."}], "agreement": {"en": "I agree."}},
+      {"kind": "block", "name": "estimation", "procedure": "magnitude_estimation",
+       "medium": "water", "scale": [1, 2], "repetitions": 1, "free_space_between_s": 0,
+       "instruction": {"en": "Say."}, "question": {"en": "How strong?"},
+       "expected_trial_s": 5}]})json");
+  until([](const SessionView& now) { return now.telemetry.num_ticks > 0; });
+  EXPECT_EQ(view().step, Step::kBegin);
+  EXPECT_TRUE(view().is_disarmed);
+  session_->request(operate::Begin{});
+  const SessionView list =
+      until([](const SessionView& now) { return now.step == Step::kItem; });
+  EXPECT_TRUE(list.is_disarmed);
+  session_->request(operate::Pause{});
+  until([](const SessionView& now) { return now.step == Step::kPaused; });
+  session_->request(operate::GoOn{});
+  until([](const SessionView& now) { return now.step == Step::kItem; });
+  session_->request(operate::AnswerItem{list.stage, list.item->name, "done"});
+  const SessionView consent = until([](const SessionView& now) {
+    return now.item && now.item->kind == ItemView::Kind::kConsent;
+  });
+  session_->request(operate::AnswerItem{consent.stage, consent.item->name, "given"});
+  const SessionView block =
+      until([](const SessionView& now) { return now.step == Step::kFault; });
+  EXPECT_TRUE(block.is_disarmed);
+  EXPECT_EQ(block.telemetry.arming, core::Arming::kDisarmed);
+  session_->request(operate::Present{1, "test"});
+  session_->advance(0.0);
+  EXPECT_EQ(view().refusal, "the device has to be armed first");
+  session_->request(operate::Rearm{view().telemetry.num_faults});
+  const SessionView ready =
+      until([](const SessionView& now) { return now.step == Step::kReady; });
+  EXPECT_FALSE(ready.is_disarmed);
+  EXPECT_TRUE(std::ranges::none_of(store_->events(session_number_), [](const auto& event) {
+    return event.kind == "fault_raised";
+  }));
+}
+
 /// A connection may be armed only after it has been good for a while, and `arm` waits for that.
 TEST(NetworkArming, ADeviceThatCanHurtIsArmedWhereSomebodySaysSo) {
   for (const bool arm : {false, true}) {

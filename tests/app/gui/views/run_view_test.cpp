@@ -426,6 +426,17 @@ TEST_F(RunView, ADeviceThatNobodyHasArmedIsNoFault) {
   (void)after_key<operate::Rearm>(view, {Key::kEnter, true});
 }
 
+TEST_F(RunView, AListSaysThatTheDeviceIsDisarmed) {
+  SessionView view = item_of({.name = "item_1", .text = "Look at the device."});
+  draw(view);
+  EXPECT_FALSE(ui_.drawn().shows("Disarmed"));
+  view.is_disarmed = true;
+  view.fault = "There is no force before somebody arms the device.";
+  draw(view);
+  EXPECT_TRUE(ui_.drawn().shows("Disarmed"));
+  EXPECT_TRUE(ui_.drawn().shows("Look at the device."));
+}
+
 TEST_F(RunView, TheSameAnswerCannotBeGivenOnceTheSessionIsFinished) {
   SessionView view = comparison();
   view.step = Step::kFinished;
