@@ -8,8 +8,8 @@
 
 namespace jnd::app {
 
-/// The problems as the JSON that the contract describes: `{"problems": [{file, line, column,
-/// pointer, message}]}`.
+/// The problems as the JSON that docs/reference/json.md describes: `{"problems": [{file, line,
+/// column, pointer, message}]}`.
 [[nodiscard]] nlohmann::ordered_json problems_json(
     const std::vector<experiments::StudyProblem>& problems);
 

@@ -21,7 +21,7 @@ namespace jnd::app {
     const analysis::StudyData& data, const analysis::ResultsOptions& options = {},
     const analysis::PredictivePeople* people = nullptr);
 
-/// The results as the JSON that the contract describes: study, simulated, sections.
+/// The results as the JSON that docs/reference/json.md describes: study, simulated, sections.
 [[nodiscard]] nlohmann::json results_json(const analysis::StudyResults& results);
 
 /// Every estimate with its interval and published value, one table for each section.

@@ -17,7 +17,8 @@ struct Quantity {
   const char* words;  ///< "viscosity"
 };
 
-/// Something that can be felt. Its row holds everything that the program knows of the medium.
+/// Something that can be felt. Its row holds what a study and the loop need to know of the
+/// medium. CONTRIBUTING.md lists the other places that a new one may need.
 struct Medium {
   std::string name;
   const char* words;        ///< "viscous stokes", for people.
