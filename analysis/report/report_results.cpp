@@ -329,7 +329,7 @@ std::string section_title(const StudyTitles& titles, const std::string& name) {
   if (!title.empty() && title[0] >= 'a' && title[0] <= 'z') {
     title[0] = static_cast<char>(title[0] - 'a' + 'A');
   }
-  return title;
+  return titles.stages.contains(name) ? title : said_of(title);
 }
 
 void write_at_a_glance(HtmlText& html, const StudyResults& results, const StudyTitles& titles) {

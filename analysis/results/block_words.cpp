@@ -64,8 +64,9 @@ std::string adaptive_words(const Block& block) {
   if (block.procedure == "quest_plus") {
     return said("QUEST+ over {}", counted_words(num_levels, "level"));
   }
-  return said("{} over {}", said_of(experiments::procedure_named(block.procedure).words()),
-              counted_words(num_levels, "level"));
+  const std::string words = said_of(experiments::procedure_named(block.procedure).words());
+  if (num_levels == 0) return words;
+  return said("{} over {}", words, counted_words(num_levels, "level"));
 }
 
 std::vector<std::string> adaptive_level_words(const Block& block, const std::string& unit) {
@@ -75,7 +76,9 @@ std::vector<std::string> adaptive_level_words(const Block& block, const std::str
   std::vector<std::string> lines = {said("from {} to {}{}", general(lowest), general(highest),
                                          unit.empty() ? "" : " " + unit)};
   if (block.procedure != "staircase") {
-    lines.push_back(said("levels {}", list_of(block.intensities, unit)));
+    if (!block.intensities.empty()) {
+      lines.push_back(said("levels {}", list_of(block.intensities, unit)));
+    }
     return lines;
   }
   lines.push_back(said("starting at {}", list_of(block.settings.numbers("start"), unit)));

@@ -46,6 +46,22 @@ namespace {
     said_later("PSE, median person"),
     said_later("lapse rate"),
     said_later("slope sd"),
+    // Titles of sections about the whole study, which follow from their names.
+    said_later("As published"),
+    said_later("Combined"),
+    said_later("Exploratory"),
+    said_later("Movement"),
+    said_later("Practice"),
+    said_later("Questionnaires"),
+    said_later("Recorded movement"),
+    said_later("Response times"),
+    said_later("Unanswered"),
+    // In the window, what a section tells of its block.
+    said_later("intervals"),
+    said_later("catch trials"),
+    said_later("questions"),
+    said_later("limits"),
+    said_later("quest plus"),
 };
 
 SpokenLanguage& language_of_words() {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -73,6 +74,13 @@ constexpr ParticipantWords kInGerman = {
     as_is("Stärker"),
     as_is("Weiter"),
 };
+
+/// The languages that the program has words in. Everyone else reads English.
+struct LanguageOfParticipants {
+  const char* code;
+  const ParticipantWords& words;
+};
+constexpr LanguageOfParticipants kLanguagesOfParticipants[] = {{"de", kInGerman}};
 
 /// Minutes and seconds, such as "1:23"; a second that has begun counts.
 std::string countdown_words(double seconds) {
@@ -248,7 +256,10 @@ class ScreenWriter {
 }  // namespace
 
 std::string participant_word(ParticipantWord word, const std::string& language) {
-  return (language == "de" ? kInGerman : kInEnglish)[static_cast<std::size_t>(word)];
+  const auto found =
+      std::ranges::find(kLanguagesOfParticipants, language, &LanguageOfParticipants::code);
+  const bool is_known = found != std::end(kLanguagesOfParticipants);
+  return (is_known ? found->words : kInEnglish)[static_cast<std::size_t>(word)];
 }
 
 ParticipantScreen participant_screen(const SessionView& view, std::string_view typed) {

@@ -103,15 +103,17 @@ std::string with_titles(const ResultsSource& source, std::string name) {
 }
 
 /// A section's name in words. It is a block's title; or, for what else is computed of a block
-/// "low", such as "low_staircase", "Low: staircase".
+/// "low", such as "low_staircase", "Low: staircase". The catalogue has these words from
+/// `analysis/words/said.cpp`. Reports say more, see `analysis::section_title`.
 std::string section_words(const ResultsSource& source, const std::string& name) {
   const auto found = source.titles.find(name);
   if (found != source.titles.end()) return found->second;
   for (const auto& [block, title] : source.titles) {
     if (!name.starts_with(block + "_")) continue;
-    return title + ": " + name_words(name.substr(block.size() + 1), /*as_title=*/false);
+    return title + ": " +
+           tr(name_words(name.substr(block.size() + 1), /*as_title=*/false).c_str());
   }
-  return name_words(name, /*as_title=*/true);
+  return tr(name_words(name, /*as_title=*/true).c_str());
 }
 
 /// The words of a question's estimate: "questionnaire.solid_is_solid.yes" becomes "Is it solid?

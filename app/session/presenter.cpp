@@ -87,7 +87,11 @@ Presenter::Felt Presenter::end(Afterwards afterwards) {
   if (measuring_) {
     core::ContactSums sums = last.contact_sums - sums_before_;
     const core::PresentationMeasures moved = apparatus_.finish_strokes();
-    // A solid is pressed, and what the hand does along its surface is no stroke.
+    // A solid is pressed, and what the hand does along its surface is no stroke. The
+    // mean height, which is measured beside strokes, would mean something here: how deep the
+    // hand presses. It is dropped all the same, because its column is empty for solids in every
+    // stored study. A new measure of pressing gets a column of its own, which is copied from
+    // `moved` whether or not a solid is pressed.
     const bool is_pressed = amounts_.plane().is_there();
     if (!is_pressed) measures = moved;
     if (sums.num_ticks == 0 || apparatus_.measures_force()) sums = apparatus_.metered_sums();

@@ -16,7 +16,7 @@ namespace jnd::core {
 /// The correction holds up to Re 800. Beyond that, true drag grows with the square of speed
 /// like water's, and this drag stays below it (`jnd force` says so). The hand of the thesis's
 /// group D has a Re of about 24 and would feel 2.3 times the drag, so a study renders this law
-/// only if it asks for it.
+/// only if it asks for it. Both terms depend on speed alone: this is drag, and no added mass.
 class InertialDrag {
  public:
   struct Parameters {

@@ -26,7 +26,7 @@ struct MediumAmounts {
   double plane_friction_n_per_m = 0.0;   ///< Solid surface: friction ratio times stiffness.
   double mapped_drag_kg_per_m = 0.0;     ///< Like water, with the C_D of a `ForceMap`.
   double lift_kg_per_m = 0.0;            ///< Like water, with the C_L of a `ForceMap`.
-  double inertial_n = 0.0;               ///< Drag at 1 m/s, see `InertialDrag`.
+  double inertial_n = 0.0;               ///< Drag at 1 m/s, no added mass; see `InertialDrag`.
   double ellipsoid_fingers_n_s_per_m = 0.0;  ///< Along the fingers, see `EllipsoidDrag`.
   double ellipsoid_across_n_s_per_m = 0.0;   ///< Across them, in the hand plane.
   double ellipsoid_normal_n_s_per_m = 0.0;   ///< Along the hand plane's normal.

@@ -9,6 +9,7 @@
 #include "core/storage/export_note.h"
 #include "core/storage/files.h"
 #include "core/storage/flight_record.h"
+#include "core/storage/kept_rows.h"
 #include "core/storage/recording.h"
 #include "core/storage/stream_file.h"
 #include "core/storage/study_format.h"
@@ -48,24 +49,6 @@ void require_own_target(const fs::path& folder, const fs::path& target,
     }
   }
 }
-
-/// Rows that are never changed, and how a withdrawal, which alone deletes any, is known.
-struct KeptRows {
-  const char* table;
-  const char* meaning;
-  const char* gone_with = "";  ///< Column by which the study tells whose rows were deleted.
-};
-constexpr KeptRows kKeptRows[] = {{"session", "a session", "session"},
-                                  {"protocol", "a study file"},
-                                  {"device_profile", "a device profile"},
-                                  {"adverse_event", "an adverse event"},
-                                  {"sequential_look", "a look at the study"},
-                                  {"sequential_look_session", "a session of a look"},
-                                  {"unsealing", "an unsealing"},
-                                  {"unblinding", "an unblinding"},
-                                  {"planned_number", "a planned number of people"},
-                                  {"appointment", "an appointment", "participant"},
-                                  {"acknowledgement", "a note that was read", "session"}};
 
 bool has_table(Database& database, const std::string& table) {
   Statement found(database, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?");

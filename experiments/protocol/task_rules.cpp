@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "experiments/procedures/procedure_registry.h"
 #include "experiments/protocol/study_check.h"
 #include "experiments/study/rule_values.h"
 #include "experiments/study/stage_walk.h"
@@ -45,7 +46,10 @@ class TaskRules : StudyCheck {
 
   void check_same_different(const json& block, const std::string& at) {
     const std::string procedure = word(block, "procedure");
-    if (procedure == "staircase" || procedure == "limits" || procedure == "quest_plus") {
+    const bool adapts = std::ranges::any_of(procedures(), [&](const Procedure* one) {
+      return one->name() == procedure && one->adapts();
+    });
+    if (adapts) {
       report(at + "task", "expected `reminder`, `yes_no` or `two_interval`, as `" + procedure +
                               "` cannot follow how often the same is called different, found "
                               "`same_different`; `constant_stimuli` can ask so");

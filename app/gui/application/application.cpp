@@ -150,7 +150,11 @@ void Application::show(Screen& screen) {
 
 void Application::show(StudyTab tab) {
   const auto found = std::ranges::find(screens_, tab.screen, &Screen::name);
-  if (found != screens_.end()) show(**found);
+  if (found != screens_.end()) return show(**found);
+  if (tab != StudyTab::kNone) {
+    throw core::Error(as_is("go_to: expected the name of a screen, found `") +
+                      std::string(tab.screen) + as_is("`; see app/gui/application"));
+  }
 }
 
 void Application::go_to(StudyTab tab) {

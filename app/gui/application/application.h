@@ -102,13 +102,13 @@ class Application final : private ScreenHost {
   void cursor(float x, float y) noexcept { session_.cursor(x, y); }
   /// Somebody pressed the close button. While a session goes on, the person is asked first.
   void ask_to_close();
+  void go_to(StudyTab tab) override;
 
  private:
   // What screens ask of the window, see `ScreenHost`.
   [[nodiscard]] bool shows(const Screen& screen) const noexcept override {
     return screen_ == &screen;
   }
-  void go_to(StudyTab tab) override;
   void prepare_session(const std::string& participant) override {
     prepare_.propose(participant);
     show(prepare_);

@@ -76,7 +76,8 @@ class ScreenHost {
  public:
   virtual ~ScreenHost() = default;
   [[nodiscard]] virtual bool shows(const Screen& screen) const noexcept = 0;
-  /// Shows another screen at once, or tells why it cannot be opened. Does nothing for `kNone`.
+  /// Shows another screen at once, or tells why it cannot be opened, for example because no
+  /// screen has this name. Does nothing for `kNone`.
   virtual void go_to(StudyTab tab) = 0;
   /// Shows the screen before a session of this participant; "" stands for whoever comes next.
   /// Throws the reason if that screen cannot open.

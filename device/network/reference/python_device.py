@@ -46,6 +46,16 @@ WRONG = {
     "echo": "echoes a clock that nobody sent, a second ahead",
     "told_as_sent": "gives every force 30 ms late and tells it as if it acted at once",
     "slow_velocity": "filters velocities by a low-pass of first order that lags by 40 ms",
+    "other_version": "does not answer a hello of another version",
+    "unknown_stream": "does not answer a command on a stream that it does not know (without a key)",
+    "datagrams": "sends four bytes that are no datagram after every hundredth state",
+    "arming": "never arms",
+    "jitter": "stands still for 150 ms at every fiftieth tick",
+    "time": "tells the device time in us",
+    "velocity": "tells velocities with the other sign",
+    "busy": "leaves its program for any other one that says hello",
+    "goodbye": "takes no notice of a goodbye and of silence, and lets nobody else in",
+    "gone": "waits for ever for a program that died",
     "description": "tells the half widths of its workspace in mm",
     # What only a person finds, with --follow.
     "still": "tells a velocity of 5 cm/s when the hand is at rest",
@@ -329,7 +339,8 @@ class Server:
         if found.kind == jd.HELLO:
             self._answer(found, address, now_ns)
         elif not is_of_client:
-            if found.kind == jd.COMMAND and not self._key:
+            if (found.kind == jd.COMMAND and not self._key
+                    and self._wrong != "unknown_stream"):
                 self._refuse(jd.UNKNOWN_STREAM, address, now_ns, stream=found.stream)
         elif found.kind >= jd.COMMAND:
             is_new = self._link.take(found.number, found.clock_ns, found.echo_ns, now_ns)
@@ -342,6 +353,8 @@ class Server:
             return
         token = struct.unpack_from("<Q", data, 40)[0]
         if struct.unpack_from("<H", data, 4)[0] != jd.VERSION:
+            if self._wrong == "other_version":
+                return
             self._refuse(jd.OTHER_VERSION, address, now_ns, token=token)
         elif jd.unpack(data, self._key is None) is not None:  # One side alone has a key.
             self._refuse(jd.OTHER_KEY, address, now_ns, token=token)
@@ -360,7 +373,7 @@ class Server:
                 self._robot.obey(found)
         elif found.kind == jd.HALT and self._wrong != "halt":
             self._disarm(11)
-        elif found.kind == jd.GOODBYE:
+        elif found.kind == jd.GOODBYE and self._wrong != "goodbye":
             self._end()
 
     def _end(self):
@@ -370,7 +383,8 @@ class Server:
 
     def _answer(self, hello, address, now_ns):
         is_of_client = address == self._address
-        if self._address is not None and not is_of_client and not hello.only_asks:
+        if (self._address is not None and not is_of_client and not hello.only_asks
+                and self._wrong != "busy"):
             if hello.challenge == self._challenge:
                 self._challenge = self._drawn()  # Refused, it is worth nothing later.
             self._refuse(jd.BUSY, address, now_ns, token=hello.token, key=self._key)
@@ -431,7 +445,7 @@ class Server:
                 link.judge_anew()
             last_states = range(
                 self._number + 1 - round(0.04 * self._rate_hz), self._number + 1)
-            if (command.arm_number > 0 and link.is_settled()
+            if (command.arm_number > 0 and link.is_settled() and self._wrong != "arming"
                     and (not any(command.force_n) or self._wrong == "arms_with_force")
                     and command.state_number in (n & 0xFFFFFFFF for n in last_states)
                     and self._measured is not None):
@@ -527,7 +541,8 @@ class Server:
             self._disarm(11)  # Nobody can tell how old it is what waited.
             self._recent = False
         self._last_tick_ns = now_ns
-        if self._address is not None and now_ns - self._last_heard_ns >= 1_000_000_000:
+        if (self._address is not None and now_ns - self._last_heard_ns >= 1_000_000_000
+                and self._wrong not in ("goodbye", "gone")):
             self._end()
         self._arm_or_disarm(now_ns)
         acted_n = self._acted_n  # until now: it goes into the state
@@ -554,6 +569,10 @@ class Server:
         if self._wrong == "units_mm":
             position_m = [1000.0 * value for value in position_m]
             velocity_m_per_s = [1000.0 * value for value in velocity_m_per_s]
+        if self._wrong == "velocity":
+            velocity_m_per_s = [-value for value in velocity_m_per_s]
+        if self._wrong == "time":
+            time_ns //= 1000
         now_ns = time.monotonic_ns()
         self._sent_at_ns[self._number] = now_ns
         if len(self._sent_at_ns) > 0.2 * self._rate_hz:
@@ -574,6 +593,8 @@ class Server:
             level=self._link.level(), acted_n=acted_n, enabled=enabled,
             measured_force_n=measured_force_n, orientation_wxyz=orientation_wxyz,
             torque_n_m=torque_n_m, gripper_m=gripper_m, buttons=buttons), self._address)
+        if self._wrong == "datagrams" and self._number % 100 == 0:
+            self._send(b"JDLK", self._address)
 
     def run(self, until_ns):
         """Ticks at the rate until then; what cannot be made up for counts as missed."""
@@ -582,6 +603,8 @@ class Server:
         next_ns = time.monotonic_ns()
         while time.monotonic_ns() < until_ns:
             self.tick()
+            if self._wrong == "jitter" and self.num_ticks % 50 == 0:
+                time.sleep(0.15)
             next_ns += period_ns
             late_ns = time.monotonic_ns() - next_ns
             if late_ns > 0:

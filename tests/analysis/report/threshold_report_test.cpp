@@ -7,6 +7,7 @@
 #include "analysis/report/chart_figures.h"
 #include "analysis/report/report_results.h"
 #include "analysis/report/threshold_methods.h"
+#include "analysis/words/said.h"
 
 namespace jnd::analysis {
 namespace threshold_report_test {
@@ -95,6 +96,18 @@ TEST_F(ThresholdReportTest, SectionsOfAProcedureAreTitledByIt) {
   EXPECT_EQ(section_title(titles, "felt_intervals"), "Least viscosity: order of the intervals");
   titles.stages["felt_limits"] = "A block of its own";
   EXPECT_EQ(section_title(titles, "felt_limits"), "A block of its own");
+}
+
+TEST_F(ThresholdReportTest, SectionsOfTheWholeStudyAreTitledInTheReportsLanguage) {
+  StudyTitles titles;
+  titles.stages["movement"] = "Movement";
+  EXPECT_EQ(section_title(titles, "response_times"), "Response times");
+  speak({.code = "xx", .words = [](const char*) { return "translated"; }});
+  const std::string whole = section_title(titles, "response_times");
+  const std::string own = section_title(titles, "movement");
+  speak({});
+  EXPECT_EQ(whole, "translated");
+  EXPECT_EQ(own, "Movement") << "a study's own title stays as it is";
 }
 
 TEST_F(ThresholdReportTest, MethodsTellWhatTheStudyHasAndNothingElse) {

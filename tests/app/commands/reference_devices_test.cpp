@@ -235,8 +235,17 @@ INSTANTIATE_TEST_SUITE_P(Names, WrongReferenceDevice,
                                            "bad_key", "replay", "stale", "sequence_wrap",
                                            "sequence_step", "half_rate", "rearms",
                                            "arms_with_force", "no_limits", "echo",
-                                           "told_as_sent", "slow_velocity", "description"),
+                                           "told_as_sent", "slow_velocity", "description",
+                                           "other_version", "datagrams", "arming", "jitter",
+                                           "time", "velocity", "busy", "goodbye", "gone"),
                          [](const auto& info) { return info.param; });
+
+TEST_F(ReferenceDevice, WhichSaysNothingOfUnknownStreamsIsFoundWithoutAKey) {
+  ASSERT_TRUE(start("python", {"--wrong", "unknown_stream"}));
+  const ProgramOutcome told = checked("network:" + place_ + ",simulated");
+  EXPECT_EQ(told.exit_code, 1) << told.err;
+  EXPECT_NE(told.out.find("\nfail  unknown_stream "), std::string::npos) << told.out;
+}
 
 /// One that a person moves: what its mistakes are is seen only then.
 class FollowedReferenceDevice : public ReferenceDevice {

@@ -55,6 +55,13 @@ TEST(BlockWords, LimitsAndQuestPlusTellTheirLevels) {
   EXPECT_EQ(quest.stages[0].details[1], "viscous, levels 4, 8, 16 Pa s");
 }
 
+TEST(BlockWords, ARuleWithoutListedLevelsTellsNone) {
+  experiments::Block block{.procedure = "rating"};
+  EXPECT_EQ(analysis::adaptive_words(block), "rating on a scale");
+  block.intensities = {1.0, 2.0};
+  EXPECT_EQ(analysis::adaptive_words(block), "rating on a scale over 2 levels");
+}
+
 TEST(BlockWords, WhereTheDesignDecidesTheNumberIsNoGuess) {
   const experiments::Study study = study_with(R"json("procedure": "constant_stimuli",
     "viscosity_pa_s": [4, 16], "reference_viscosity_pa_s": 8, "repetitions": 3)json");

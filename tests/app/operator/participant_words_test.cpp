@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "app/operator/session_words.h"
+#include "support/places.h"
 
 namespace jnd::app {
 namespace participant_words_test {
@@ -34,6 +37,20 @@ SessionView item_of(ItemView item, const std::string& language = "en") {
   SessionView view{.language = language, .step = Step::kItem, .item = std::move(item)};
   add_words(view, "Questions", "");
   return view;
+}
+
+TEST(ParticipantWords, EveryLanguageOfTheWindowHasThemToo) {
+  int num_languages = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(test_support::source_folder() / "data/languages")) {
+    if (entry.path().extension() != ".po") continue;
+    const std::string language = entry.path().stem();
+    EXPECT_NE(participant_word(ParticipantWord::kThanks, language), "Thank you!") << language;
+    ++num_languages;
+  }
+  EXPECT_GT(num_languages, 0);
+  EXPECT_EQ(participant_word(ParticipantWord::kThanks, "en"), "Thank you!");
+  EXPECT_EQ(participant_word(ParticipantWord::kThanks, "none of them"), "Thank you!");
 }
 
 TEST(ParticipantWords, AConsentHasItsTextAndWhatIsAgreedTo) {

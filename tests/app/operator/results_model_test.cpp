@@ -4,13 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 
 #include "analysis/hand_made_study.h"
 #include "analysis/results/number_words.h"
+#include "app/environment.h"
+#include "app/language/words.h"
 #include "app/operator/simulated_study.h"
 #include "app/results/results_output.h"
 #include "core/error.h"
 #include "core/storage/recording.h"
+#include "support/places.h"
+#include "support/temporary_folder.h"
 
 namespace jnd::app {
 namespace results_model_test {
@@ -48,6 +54,30 @@ TEST(ResultsModel, EveryNumberIsTheOneOfTheResultsCommand) {
     num_estimates += section.estimates.size();
   }
   EXPECT_EQ(model.numbers.size(), num_estimates);
+}
+
+TEST(ResultsModel, SectionsOfTheWholeStudyAreTitledInTheWindowsLanguage) {
+  if (std::system("command -v msgfmt >/dev/null") != 0) GTEST_SKIP() << "no msgfmt";
+  const EnvironmentVariable language("LANGUAGE", nullptr);
+  SimulatedStudy study;
+  study.simulate(1);
+  const test_support::TemporaryFolder temporary;
+  const std::filesystem::path compiled = temporary.path() / "de/LC_MESSAGES/jnd.mo";
+  std::filesystem::create_directories(compiled.parent_path());
+  const auto source = test_support::source_folder() / "data/languages/de.po";
+  const std::string command =
+      "msgfmt --output-file='" + compiled.string() + "' '" + source.string() + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const auto has = [&](const std::string& section) {
+    const ResultsModel model = model_of(study.folder());
+    return std::ranges::find(model.numbers, section, &NumberLine::section) !=
+           model.numbers.end();
+  };
+  EXPECT_TRUE(has("Movement"));
+  ASSERT_TRUE(begin_language(temporary.path(), "de"));
+  const bool is_german = has("Bewegung");
+  (void)begin_language(temporary.path(), "en");
+  EXPECT_TRUE(is_german);
 }
 
 /// The answers are nine of ten right at 12, but with a pse above the reference.

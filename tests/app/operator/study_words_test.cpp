@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <regex>
 #include <string>
 
 #include "app/operator/session_words.h"
@@ -42,6 +44,29 @@ TEST(StudyWords, EveryMediumAndEveryProcedureIsInTheCatalogue) {
   }
   EXPECT_EQ(medium_words("free_space"), "free space");
   EXPECT_EQ(procedure_words("magnitude_estimation"), "Magnitude estimation");
+}
+
+TEST(StudyWords, EverySectionOfResultsIsInTheCatalogue) {
+  const std::regex section(R"re(ResultsSection section\{\.name = "([a-z_]+)"\})re");
+  const std::regex of_block(R"re(\.block \+ "_([a-z_]+)"\})re");
+  int num_sections = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(
+           test_support::source_folder() / "analysis")) {
+    if (entry.path().extension() != ".cpp") continue;
+    const std::string source = test_support::read_file(entry.path());
+    for (const bool as_title : {true, false}) {
+      const std::regex& names = as_title ? section : of_block;
+      for (std::sregex_iterator it(source.begin(), source.end(), names), end; it != end; ++it) {
+        expect_in_catalogue(name_words((*it)[1], as_title));
+        ++num_sections;
+      }
+    }
+  }
+  EXPECT_GE(num_sections, 10);
+  for (const experiments::Procedure* procedure : experiments::procedures()) {
+    if (!procedure->adapts()) continue;
+    expect_in_catalogue(name_words(std::string(procedure->name())));
+  }
 }
 
 TEST(StudyWords, EveryFaultWarningPointAndDeviceIsInTheCatalogue) {

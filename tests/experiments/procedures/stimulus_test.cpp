@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "experiments/protocol/study_reader.h"
 #include "experiments/study/media.h"
 #include "experiments/study/parameter_table.h"
 
@@ -44,6 +45,24 @@ TEST(Stimulus, BuoyancyAndFrictionComeOnTop) {
                                                 .details = {{"friction_ratio", 0.4}}});
   EXPECT_NEAR(rough.plane_friction_n_per_m, 400.0, 1e-9);
   EXPECT_EQ(amounts_of("solid", 1000.0).plane_friction_n_per_m, 0.0);
+}
+
+TEST(Stimulus, TheSphereOfAStudyFileHasItsStokesDrag) {
+  const auto force_n = [](const std::string& radius) {
+    const Study study = read_study_text(
+        R"json({"format": 1, "name": "tool", "languages": ["en"], "title": {"en": "Tool"},
+  "authors": ["A. Author"], "stages": [{"kind": "block", "name": "tip",
+  "medium": "viscous_sphere", )json" +
+            radius + R"json("instruction": {"en": "Stir."}, "question": {"en": "Thicker?"},
+  "expected_trial_s": 10, "procedure": "constant_stimuli", "viscosity_pa_s": [2, 5],
+  "reference_viscosity_pa_s": 4, "repetitions": 1}]})json",
+        "s.json");
+    const auto& block = std::get<Block>(study.stages.front().content);
+    return amounts_of(setting_of(block, "test", 2.0)).drag_n({.speed_m_per_s = 0.5});
+  };
+  // Stokes: 6 pi radius viscosity speed, here 6 pi 0.02 m 2 Pa s 0.5 m/s.
+  EXPECT_NEAR(force_n(R"("sphere_radius_m": 0.02, )"), 0.3769911, 1e-6);
+  EXPECT_NEAR(force_n(""), 0.1884956, 1e-6) << "a tip of 0.01 m unless the study says so";
 }
 
 TEST(Stimulus, OfABlockIsItsMediumOrFreeSpace) {

@@ -60,6 +60,24 @@ TEST(SolidBlocks, EveryProcedureCanAskAboutStiffness) {
   }
 }
 
+TEST(SolidBlocks, NoProcedureThatAdaptsCanAskWhetherTwoAreTheSame) {
+  int num_refused = 0;
+  for (const Procedure* procedure : procedures()) {
+    if (!procedure->adapts()) continue;
+    const std::string name(procedure->name());
+    const std::vector<StudyProblem> problems =
+        study_text_problems(study_with(R"("task": "same_different", "procedure": ")" + name +
+                                       R"(", )" + kKeys.at(name)),
+                            "s.json");
+    ASSERT_FALSE(problems.empty()) << name;
+    EXPECT_NE(to_string(problems.front()).find("cannot follow how often the same"),
+              std::string::npos)
+        << to_string(problems.front());
+    ++num_refused;
+  }
+  EXPECT_GE(num_refused, 3);
+}
+
 TEST(SolidBlocks, TheSurfaceHasTheBlocksFriction) {
   const Study study =
       read_study_text(study_with(R"("procedure": "constant_stimuli", "friction_ratio": 0.3, )" +

@@ -6,9 +6,11 @@
 #include <cstdlib>
 #include <memory>
 #include <thread>
+#include <vector>
 
 #include "app/environment.h"
 #include "app/gui/headless_ui.h"
+#include "app/gui/views/study_tabs.h"
 #include "app/tiny_study.h"
 #include "support/files.h"
 #include "support/temporary_folder.h"
@@ -57,6 +59,34 @@ TEST_F(ApplicationTest, EveryTabOfAStudyOpensItsScreen) {
   EXPECT_EQ(after({letter('1'), true}), "sessions");
   EXPECT_EQ(after({letter('4'), true}), "device");
   EXPECT_EQ(after({letter('0'), true}), "start");
+}
+
+TEST_F(ApplicationTest, EveryNameThatTheProgramGoesToIsAScreen) {
+  open({.study_folder = folder_});
+  std::vector<StudyTab> names = {StudyTab::kStart,   StudyTab::kSessions, StudyTab::kResults,
+                                 StudyTab::kStudy,   StudyTab::kDevice,   StudyTab::kData,
+                                 StudyTab::kOverview};
+  for (const StudyTabLook& tab : study_tabs()) names.push_back(tab.tab);
+  for (const StudyTab& name : names) {
+    application_->go_to(name);
+    EXPECT_EQ(application_->view_name(), name.screen);
+  }
+}
+
+TEST_F(ApplicationTest, AScreenThatIsNotThereIsToldAndTheOldOneStays) {
+  open({.study_folder = folder_});
+  application_->go_to({"sesions"});
+  draw();
+  EXPECT_STREQ(application_->view_name(), "sessions");
+  EXPECT_TRUE(ui_.drawn().shows("The view cannot be opened"));
+  EXPECT_TRUE(ui_.drawn().shows("sesions"));
+}
+
+TEST_F(ApplicationTest, NoScreenIsWhereTheWindowStays) {
+  open({.study_folder = folder_});
+  application_->go_to(StudyTab::kNone);
+  draw();
+  EXPECT_FALSE(ui_.drawn().shows("The view cannot be opened"));
 }
 
 TEST_F(ApplicationTest, TheDeviceIsThereWithoutAStudy) {
