@@ -48,7 +48,9 @@ void choose_messages(const std::string& chosen) {
   const bool is_installed = std::setlocale(LC_MESSAGES, "") != nullptr;
   if (is_installed && !asked.empty()) return;
   if (std::setlocale(LC_MESSAGES, "C.UTF-8") == nullptr) return;
-  if (!asked.empty()) setenv("LANGUAGE", asked.c_str(), /*overwrite=*/0);
+  if (asked.empty()) return;
+  const char* const wanted = std::getenv("LANGUAGE");
+  if (wanted == nullptr || *wanted == '\0') setenv("LANGUAGE", asked.c_str(), /*overwrite=*/1);
 }
 
 /// The value of a line "NAME: VALUE" in a catalogue's description; "" if there is none.

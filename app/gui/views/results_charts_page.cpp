@@ -29,7 +29,7 @@ void draw_chart(Ui& ui, const Rect& place, const analysis::ChartSet& set,
   if (chart == nullptr) {
     return draw_notice(ui, inside, tr("{} has no answers in {}.", who, set.heading));
   }
-  if (chart->value.empty()) {
+  if (chart->value.empty() && !chart->reason.empty()) {
     return draw_without_value(ui, inside, chart_plot(set, *chart),
                               tr("No value: {}.", chart->reason));
   }

@@ -125,6 +125,7 @@ TEST_F(WordsTest, ComeOutTranslated) {
   EXPECT_EQ(said({{"LANG", "C.UTF-8"}, {"LANGUAGE", "xx"}}, say), translated);
   EXPECT_EQ(said({{"LANG", "yy_YY.UTF-8"}, {"LANGUAGE", "yy:xx"}}, say), translated);
   EXPECT_EQ(said({{"LANGUAGE", "xx"}}, say), translated);
+  EXPECT_EQ(said({{"LANG", "xx_XX.UTF-8"}, {"LANGUAGE", ""}}, say), translated);
 }
 
 TEST_F(WordsTest, StayEnglishInAPlainLocaleAndInOneWithoutACatalogue) {
