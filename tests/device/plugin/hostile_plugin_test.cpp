@@ -143,6 +143,15 @@ TEST_F(HostilePluginTest, OneThatDoesNotAnswerAnyMoreSaysSo) {
   }
 }
 
+TEST_F(HostilePluginTest, TheFirstReadHasToBringAMeasurement) {
+  const auto device = opened(troubled("no_sample"));
+  core::HapticState state;
+  EXPECT_FALSE(device->read(state));
+  EXPECT_NE(device->words_of_fault().find("the first jnd_device_read found no measurement"),
+            std::string::npos)
+      << device->words_of_fault();
+}
+
 TEST_F(HostilePluginTest, WhatADriverSaysOfItsFailureIsKept) {
   for (const char* trouble : {"fail_in_read", "fail_in_write"}) {
     const auto device = opened(troubled(trouble, ",after=20"));
