@@ -286,7 +286,13 @@ class NetworkChecker {
     judge_.judge(
         kArmsWithForce,
         !std::ranges::any_of(states, [](const Seen& seen) { return seen.state.armed; }), "");
-    judge_.judge(kArming, program.arm(2), "");
+    const bool arms = program.arm(2);
+    const States& at_zero = program.talk(0.3, 0, core::zero_vectors());
+    const bool arms_at_zero = std::ranges::any_of(at_zero, [](const Seen& seen) {
+      return seen.state.armed && seen.state.armed_number == 0;
+    });
+    judge_.judge(kArming, arms && !arms_at_zero,
+                 arms_at_zero ? "it arms at the number 0, which asks for none" : "");
   }
 
   /// Returns the position of the pushed point, m.

@@ -234,7 +234,7 @@ INSTANTIATE_TEST_SUITE_P(Names, WrongReferenceDevice,
                          ::testing::Values("units_mm", "force_sign", "silence", "halt",
                                            "bad_key", "replay", "stale", "sequence_wrap",
                                            "sequence_step", "half_rate", "rearms",
-                                           "arms_with_force", "no_limits", "echo",
+                                           "arms_with_force", "arming", "no_limits", "echo",
                                            "told_as_sent", "slow_velocity", "description"),
                          [](const auto& info) { return info.param; });
 
