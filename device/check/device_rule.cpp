@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 namespace jnd::device {
@@ -18,6 +20,17 @@ int pushed_point(const DeviceCapabilities& can) {
   int point = 0;
   while (point + 1 < core::kNumContactPoints && !can.has_point(point)) ++point;
   return point;
+}
+
+bool stands_still(std::span<const core::HapticState> states, std::size_t point, int axis) {
+  if (states.empty()) return true;
+  constexpr double kStill_m = 0.002;
+  const auto [low, high] =
+      std::ranges::minmax(states.subspan(states.size() / 2) |
+                          std::views::transform([&](const core::HapticState& state) {
+                            return state.tip_position_m[point][axis];
+                          }));
+  return high - low < kStill_m;
 }
 
 std::string unlikely_numbers(const DeviceCapabilities& can) {

@@ -150,11 +150,7 @@ class DriverChecker {
                    .step_s = *check_.by_hand_step_s,
                    .watch =
                        [this](double duration_s) {
-                         std::vector<core::HapticState> states;
-                         for (Measured& one : ticks(duration_s, core::zero_vectors())) {
-                           states.push_back(one.state);
-                         }
-                         return states;
+                         return states_of(ticks(duration_s, core::zero_vectors()));
                        },
                    .prompt = check_.prompt},
                   judge_);
@@ -217,16 +213,10 @@ class DriverChecker {
                              num_risen, all.size() - 1, 1e6 * drift));
   }
 
-  /// Returns how far the hand moves by itself along this axis in the time of a push, m. A push
-  /// would be hidden in it.
-  static double own_way_m(const std::vector<Measured>& all, std::size_t point, int axis) {
-    double low = 1e9, high = -1e9;
-    for (std::size_t i = all.size() / 2; i < all.size(); ++i) {
-      const double at_m = all[i].state.tip_position_m[point][axis];
-      low = std::min(low, at_m);
-      high = std::max(high, at_m);
-    }
-    return all.empty() ? 0.0 : high - low;
+  static std::vector<core::HapticState> states_of(const std::vector<Measured>& all) {
+    std::vector<core::HapticState> states;
+    for (const Measured& one : all) states.push_back(one.state);
+    return states;
   }
 
   void judge_pushes() {
@@ -234,8 +224,7 @@ class DriverChecker {
     int num_tried = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const std::vector<Measured> before = ticks(0.3, core::zero_vectors());
-      constexpr double kStill_m = 0.002;
-      const bool is_still = own_way_m(before, point_, axis) < kStill_m;
+      const bool is_still = stands_still(states_of(before), point_, axis);
       num_tried += is_still ? 1 : 0;
       Eigen::Vector3d force_n = Eigen::Vector3d::Zero();
       force_n[axis] = push_n_;
@@ -270,7 +259,7 @@ class DriverChecker {
       }
     }
     if (num_tried == 0) {
-      judge_.skip(kForceSign, "its hand moves by itself along every axis, which hides a push");
+      judge_.skip(kForceSign, kHidesPush);
     } else {
       judge_.judge(kForceSign, wrong.empty(), wrong);
     }
@@ -280,10 +269,8 @@ class DriverChecker {
 
   /// While it is pushed, and while it comes back.
   void observe_lag(const std::vector<Measured>& pushed, const std::vector<Measured>& after) {
-    std::vector<core::HapticState> states;
-    for (const auto* some : {&pushed, &after}) {
-      for (const Measured& one : *some) states.push_back(one.state);
-    }
+    std::vector<core::HapticState> states = states_of(pushed);
+    for (const Measured& one : after) states.push_back(one.state);
     lag_.observe(states, point_);
   }
 
