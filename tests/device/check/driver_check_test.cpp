@@ -168,6 +168,20 @@ TEST(DriverCheck, ASlowFilterOfTheVelocityIsFound) {
       << told.outcomes.at("slow_velocity").found;
 }
 
+/// The movement by itself is far larger than what a push adds, and often of an even speed.
+TEST(DriverCheck, AHandThatMovesByItselfIsJudgedAsAnyOther) {
+  WrongDevice good("nothing"), slow("slow_velocity"), other_way("force_sign");
+  for (WrongDevice* device : {&good, &slow, &other_way}) device->stroke_by_itself();
+  const Told kept = told_of(good);
+  EXPECT_TRUE(kept.is_kept) << kept.outcomes.at("force_sign").found;
+  EXPECT_EQ(kept.outcomes.at("slow_velocity").verdict, RuleOutcome::Verdict::kPassed);
+  const Told late = told_of(slow);
+  EXPECT_EQ(late.outcomes.at("slow_velocity").verdict, RuleOutcome::Verdict::kFailed)
+      << late.outcomes.at("slow_velocity").found;
+  EXPECT_EQ(told_of(other_way).outcomes.at("force_sign").verdict,
+            RuleOutcome::Verdict::kFailed);
+}
+
 TEST(DeviceRule, APushIsSeenOnlyAlongAnAxisOnWhichTheHandStandsStill) {
   std::vector<core::HapticState> states(300);
   for (std::size_t i = 0; i < states.size(); ++i) {
