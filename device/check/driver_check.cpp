@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/safety/fault.h"
 #include "core/safety/force_limiter.h"
 #include "device/check/velocity_lag.h"
 
@@ -95,7 +96,10 @@ class DriverChecker {
       return false;
     }
     begin_ = Clock::now();
-    judge_.judge(rule, true, "");
+    core::HapticState state;
+    const bool is_read = rule.name != kDriverOpens.name || device_.read(state);
+    const std::string said = is_read ? "" : device_.words_of_fault();
+    judge_.judge(rule, said.empty(), said);
     return true;
   }
 
@@ -162,10 +166,15 @@ class DriverChecker {
     const std::vector<Measured> all = ticks(2.0, core::zero_vectors());
     const auto num_read = static_cast<double>(all.size());
     constexpr double kFewest = 0.99;
-    judge_.judge(kDriverPace,
-                 num_read >= kFewest * static_cast<double>(num_ticks_) && num_not_taken_ == 0,
-                 fmt::format("{} of {} ticks brought one, {} forces were not taken", all.size(),
-                             num_ticks_, num_not_taken_));
+    const bool keeps_pace =
+        num_read >= kFewest * static_cast<double>(num_ticks_) && num_not_taken_ == 0;
+    const std::string said = keeps_pace ? "" : device_.words_of_fault();
+    DeviceRule pace = kDriverPace;
+    if (!said.empty()) pace.advice = "Mend what the driver says; it hides how punctual it is.";
+    judge_.judge(pace, keeps_pace,
+                 fmt::format("{} of {} ticks brought one, {} forces were not taken{}",
+                             all.size(), num_ticks_, num_not_taken_,
+                             said.empty() ? "" : ". The driver says: " + said));
     if (all.size() < 2) return;
     judge_time(all);
     double largest = 0.0;
@@ -220,7 +229,7 @@ class DriverChecker {
   }
 
   void judge_pushes() {
-    std::string wrong, fast;
+    std::string wrong, fast, latched;
     int num_tried = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const std::vector<Measured> before = ticks(0.3, core::zero_vectors());
@@ -230,6 +239,7 @@ class DriverChecker {
       force_n[axis] = push_n_;
       const std::vector<Measured> pushed =
           ticks(0.15, push_of(static_cast<int>(point_), force_n));
+      if (latched.empty()) latched = latched_words();
       observe_lag(pushed, ticks(0.3, core::zero_vectors()));
       if (before.empty() || pushed.size() < 2) {
         wrong = fast = "no measurement came while it was pushed";
@@ -261,7 +271,7 @@ class DriverChecker {
     if (num_tried == 0) {
       judge_.skip(kForceSign, kHidesPush);
     } else {
-      judge_.judge(kForceSign, wrong.empty(), wrong);
+      judge_.judge(kForceSign, wrong.empty(), wrong.empty() ? "" : wrong + latched);
     }
     judge_.judge(kDriverVelocity, fast.empty(), fast);
     lag_.judge(judge_);
@@ -281,12 +291,30 @@ class DriverChecker {
         [this](const Measured& one) { return !one.state.acted_n[point_].isZero(0.0); });
   }
 
+  /// The fault that keeps forces away, in words behind a finding; "" if there is none.
+  [[nodiscard]] std::string latched_words() const {
+    const core::Fault fault = device_.fault();
+    if (fault == core::Fault::kNone) return "";
+    return fmt::format("; the fault {} keeps it away: {}", core::name(fault),
+                       core::words(fault));
+  }
+
   void judge_halt() {
     if (!can_.tells_acting_force) {
       judge_.skip(kDriverHalt, "the device does not tell which force acted");
       return;
     }
-    (void)ticks(0.05, push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0}));
+    const double delay_s = std::min(can_.closed_loop_delay_s, kMostDelay_s);
+    const std::vector<Measured> before =
+        ticks(0.05 + delay_s, push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0}));
+    if (before.empty()) return judge_.skip(kDriverHalt, "no measurement came");
+    if (!acts(before, 0)) {
+      DeviceRule halt = kDriverHalt;
+      halt.advice =
+          "Tell in acted_n the force that acted, and see that the device takes a push: nothing "
+          "is known of a halt before.";
+      return judge_.judge(halt, false, "no force acted before the halt" + latched_words());
+    }
     device_.halt();
     constexpr std::size_t kUnderWay = 3;
     // jnd withholds what is written after a halt. That the driver itself ends the force shows
@@ -306,11 +334,12 @@ class DriverChecker {
     (void)ticks(0.1, core::zero_vectors());
     const bool comes_back =
         acts(ticks(0.1, push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0})), 0);
+    const std::string latched = latched_words();
     (void)ticks(0.3, core::zero_vectors());
     judge_.judge(kDriverHalt, !still_acts && comes_back,
                  still_acts   ? "a force acted after the halt"
                  : comes_back ? ""
-                              : "no force came back after a write of zeros");
+                              : "no force came back after a write of zeros" + latched);
   }
 
   void judge_limits() {

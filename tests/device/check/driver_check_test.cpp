@@ -182,6 +182,32 @@ TEST(DriverCheck, AHandThatMovesByItselfIsJudgedAsAnyOther) {
             RuleOutcome::Verdict::kFailed);
 }
 
+TEST(DriverCheck, WhatTheDriverSaysIsToldWithThePace) {
+  WrongDevice device("says_why");
+  const RuleOutcome pace = told_of(device).outcomes.at("pace");
+  EXPECT_EQ(pace.verdict, RuleOutcome::Verdict::kFailed);
+  EXPECT_NE(pace.found.find("The driver says: gripper_m is not finite"), std::string::npos)
+      << pace.found;
+  EXPECT_TRUE(pace.rule.advice.starts_with("Mend what the driver says")) << pace.rule.advice;
+}
+
+TEST(DriverCheck, AFirstReadWithoutAMeasurementIsFound) {
+  WrongDevice device("no_first_sample");
+  const RuleOutcome opens = told_of(device).outcomes.at("opens");
+  EXPECT_EQ(opens.verdict, RuleOutcome::Verdict::kFailed);
+  EXPECT_EQ(opens.found, "the first read found none");
+}
+
+TEST(DriverCheck, WhatKeepsAForceAwayBeforeAHaltIsNamed) {
+  WrongDevice device("latches");
+  const RuleOutcome halt = told_of(device).outcomes.at("halt");
+  EXPECT_EQ(halt.verdict, RuleOutcome::Verdict::kFailed);
+  EXPECT_TRUE(halt.found.starts_with(
+      "no force acted before the halt; the fault over_velocity keeps it away: "))
+      << halt.found;
+  EXPECT_TRUE(halt.rule.advice.starts_with("Tell in acted_n")) << halt.rule.advice;
+}
+
 TEST(DeviceRule, APushIsSeenOnlyAlongAnAxisOnWhichTheHandStandsStill) {
   std::vector<core::HapticState> states(300);
   for (std::size_t i = 0; i < states.size(); ++i) {
