@@ -59,6 +59,38 @@ std::string unlikely_numbers(const DeviceCapabilities& can) {
   return words;
 }
 
+std::string beyond_what_is_told(const DeviceCapabilities& can,
+                                std::span<const core::HapticState> states) {
+  if (!can.simulated) return "";
+  Eigen::Vector3d furthest_m = Eigen::Vector3d::Zero();
+  double fastest_m_per_s = 0.0;
+  for (const core::HapticState& state : states) {
+    for (int i = 0; i < core::kNumContactPoints; ++i) {
+      if (!can.has_point(i)) continue;
+      const auto point = static_cast<std::size_t>(i);
+      furthest_m = furthest_m.cwiseMax(state.tip_position_m[point].cwiseAbs());
+      fastest_m_per_s = std::max(fastest_m_per_s, state.tip_velocity_m_per_s[point].norm());
+    }
+  }
+  const std::array told_m = {can.workspace.half_width_x_m, can.workspace.half_width_y_m,
+                             can.workspace.half_width_z_m};
+  std::string words;
+  const auto add = [&words](const std::string& one) {
+    words += (words.empty() ? "" : ", ") + one;
+  };
+  for (std::size_t axis = 0; axis < told_m.size(); ++axis) {
+    const double at_m = furthest_m[static_cast<Eigen::Index>(axis)];
+    if (at_m <= told_m[axis]) continue;
+    add(fmt::format("it was {:.0f} mm from the origin along {}, and tells {:.0f} mm",
+                    1e3 * at_m, "xyz"[axis], 1e3 * told_m[axis]));
+  }
+  if (fastest_m_per_s > can.max_speed_m_per_s) {
+    add(fmt::format("it moved at {:.2f} m/s, and tells {:.2f} m/s at most", fastest_m_per_s,
+                    can.max_speed_m_per_s));
+  }
+  return words;
+}
+
 std::string_view name(RuleOutcome::Verdict verdict) noexcept {
   switch (verdict) {
     case RuleOutcome::Verdict::kPassed:

@@ -29,6 +29,11 @@ inline constexpr DeviceRule kTellsOfAHand = {
 /// Which numbers are not, with their units; "": all are, as far as it says them.
 [[nodiscard]] std::string unlikely_numbers(const DeviceCapabilities& can);
 
+/// What was seen of a simulation's points beyond the workspace and the speed that it tells; "":
+/// nothing. A real device may be parked elsewhere.
+[[nodiscard]] std::string beyond_what_is_told(const DeviceCapabilities& can,
+                                              std::span<const core::HapticState> states);
+
 /// A force on one point alone.
 [[nodiscard]] core::PointVectors push_of(int point, const Eigen::Vector3d& force_n);
 /// Returns the first point that the device has, which is pushed.

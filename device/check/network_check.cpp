@@ -237,7 +237,12 @@ class NetworkChecker {
     constexpr double kLargestOfAHand = 20.0;
     judge_.judge(kUnits, largest_m < kLargestOfAHand,
                  fmt::format("the largest position or velocity is {:.3g}", largest_m));
-    const std::string unlikely = unlikely_numbers(program.welcome().capabilities);
+    const DeviceCapabilities& can = program.welcome().capabilities;
+    std::string unlikely = unlikely_numbers(can);
+    // Positions of another unit are the fault of the rule before.
+    if (unlikely.empty() && largest_m < kLargestOfAHand) {
+      unlikely = beyond_what_is_told(can, measured_in(states));
+    }
     judge_.judge(kTellsOfAHand, unlikely.empty(), unlikely);
     judge_.judge(
         kStale, static_cast<double>(num_risen) > 0.5 * num_states,

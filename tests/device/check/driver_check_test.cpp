@@ -208,6 +208,20 @@ TEST(DriverCheck, WhatKeepsAForceAwayBeforeAHaltIsNamed) {
   EXPECT_TRUE(halt.rule.advice.starts_with("Tell in acted_n")) << halt.rule.advice;
 }
 
+TEST(DeviceRule, ASimulationThatLeavesWhatItTellsIsFound) {
+  DeviceCapabilities can{.simulated = true, .max_speed_m_per_s = 0.1};
+  can.workspace = {.half_width_x_m = 0.05, .half_width_y_m = 0.05, .half_width_z_m = 0.05};
+  std::vector<core::HapticState> states(2);
+  EXPECT_EQ(beyond_what_is_told(can, states), "");
+  states[1].tip_position_m[0].y() = -0.14;
+  states[1].tip_velocity_m_per_s[0].x() = 0.4;
+  EXPECT_EQ(beyond_what_is_told(can, states),
+            "it was 140 mm from the origin along y, and tells 50 mm, it moved at 0.40 m/s, and "
+            "tells 0.10 m/s at most");
+  can.simulated = false;
+  EXPECT_EQ(beyond_what_is_told(can, states), "") << "it may be parked elsewhere";
+}
+
 TEST(DeviceRule, APushIsSeenOnlyAlongAnAxisOnWhichTheHandStandsStill) {
   std::vector<core::HapticState> states(300);
   for (std::size_t i = 0; i < states.size(); ++i) {
