@@ -54,6 +54,7 @@ class FaultInjectingDevice final : public HapticDevice {
   void close() noexcept override { inner_.close(); }
   [[nodiscard]] core::Fault fault() const noexcept override { return inner_.fault(); }
   [[nodiscard]] std::string words_of_fault() const override { return inner_.words_of_fault(); }
+  [[nodiscard]] bool answers() const override { return inner_.answers(); }
   [[nodiscard]] bool may_arm() const noexcept override { return inner_.may_arm(); }
   void halt() noexcept override { inner_.halt(); }
   [[nodiscard]] SimulatedHand* simulated_hand() noexcept override {

@@ -147,6 +147,10 @@ class HapticDevice {
   /// opened, as part of a sentence, or "". Any thread. Not real time.
   [[nodiscard]] virtual std::string words_of_fault() const { return ""; }
 
+  /// Whether the device's own program still runs and answers. If not, `words_of_fault` says so.
+  /// Any thread. Not real time.
+  [[nodiscard]] virtual bool answers() const { return true; }
+
   /// Whether a person may bring the force back now, after a fault. It is false until the cause
   /// is gone, which `fault` or the connection tells. Real time.
   [[nodiscard]] virtual bool may_arm() const noexcept { return true; }

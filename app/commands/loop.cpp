@@ -235,6 +235,7 @@ int run_loop(const LoopOptions& options) {
   }
   // Known while it is open.
   const std::string said_by_device = device->words_of_fault();
+  const bool device_answers = device->answers();
   run->stop();
 
   const device::DeviceCapabilities can = device->capabilities();
@@ -255,9 +256,7 @@ int run_loop(const LoopOptions& options) {
   const core::Fault fault = run->telemetry().fault;
   const bool was_ended = fault == core::Fault::kEmergencyStop && stop_requested();
   if (!core::is_failure(fault) || was_ended) return kDone;
-  const bool says_more = core::is_of_driver(fault) && !said_by_device.empty();
-  fmt::print(stderr, "jnd: {}{}\n", core::words(fault),
-             says_more ? " The driver says: " + said_by_device + "." : "");
+  fmt::print(stderr, "jnd: {}\n", fault_words(fault, said_by_device, device_answers));
   return kHasProblems;
 }
 

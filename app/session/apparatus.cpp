@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/command_line/stop_signals.h"
+#include "app/session/device_checks.h"
 #include "app/session/movement_meter.h"
 #include "app/session/sleep_inhibitor.h"
 #include "core/error.h"
@@ -428,10 +429,8 @@ bool Apparatus::is_laboratory_hand() const noexcept {
 }
 
 std::string Apparatus::fault_words(core::Fault fault) const {
-  std::string told(words(fault));
-  const std::string said = implementation_->device->words_of_fault();
-  if (core::is_of_driver(fault) && !said.empty()) told += " The driver says: " + said + ".";
-  return told;
+  const device::HapticDevice& device = *implementation_->device;
+  return app::fault_words(fault, device.words_of_fault(), device.answers());
 }
 
 bool Apparatus::measures_force() const noexcept {

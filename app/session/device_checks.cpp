@@ -83,6 +83,18 @@ experiments::RangeLimits range_limits_of(const device::DeviceCapabilities& can,
       .expected_speed_m_per_s = expected_speed_m_per_s};
 }
 
+std::string fault_words(core::Fault fault, const std::string& said_by_device,
+                        bool device_answers) {
+  const bool is_of_silence = !device_answers && (fault == core::Fault::kStaleSample ||
+                                                 fault == core::Fault::kHostTooSlow);
+  if (is_of_silence) fault = core::Fault::kDeviceReadFailed;
+  std::string told(core::words(fault));
+  if (core::is_of_driver(fault) && !said_by_device.empty()) {
+    told += " The driver says: " + said_by_device + ".";
+  }
+  return told;
+}
+
 std::string own_limit_words(const std::string& device, const device::DeviceCapabilities& can) {
   if (can.max_force_per_point_n <= kOwnLimits.per_point_n &&
       can.max_total_force_n <= kOwnLimits.total_n) {

@@ -42,6 +42,12 @@ void require_device_starts(const std::string& name, double rate_hz);
 [[nodiscard]] experiments::RangeLimits range_limits_of(const device::DeviceCapabilities& can,
                                                        double expected_speed_m_per_s);
 
+/// A fault of the loop in words, with what the device's own program says about it, if anything.
+/// If that program does not answer any more, its silence was the cause, whatever the loop
+/// noticed of it first.
+[[nodiscard]] std::string fault_words(core::Fault fault, const std::string& said_by_device,
+                                      bool device_answers);
+
 /// "this program renders at most 10 N at a point and 30 N in all, although `NAME` says 15 N and
 /// 40 N": where the device says more than the program gives; else "".
 [[nodiscard]] std::string own_limit_words(const std::string& device,

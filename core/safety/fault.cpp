@@ -93,9 +93,9 @@ std::string_view words(Fault fault) noexcept {
           "came loose, then arm the device again.");
     case Fault::kHeartbeatLost:
       return for_people(
-          "The program's window stopped answering or was minimised, or a slow disk or this "
-          "machine held the session up, so the force was faded out: see that the stop is in "
-          "sight and the program answers, then arm the device again.");
+          "The program stopped answering (its window was minimised or held up, or a slow disk "
+          "or this machine held the session up), so the force was faded out: see that the stop "
+          "is in sight and the program answers, then arm the device again.");
     case Fault::kOutsideWorkspace:
       return for_people(
           "A contact point left the space in which force may be given: bring the hand back to "

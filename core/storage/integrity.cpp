@@ -173,6 +173,8 @@ class SessionCheck {
   /// `accounted` are the ticks of intact chunks and `missed`, the ticks that never ran.
   void check_claims(const std::vector<TickRange>& accounted,
                     const std::vector<TickRange>& missed, const std::vector<EventRow>& events) {
+    std::int64_t num_held_up = 0, most_held_up = 0, all_held_up = 0;
+    std::string longest;
     for (const TickClaim& claim : tick_claims(events)) {
       const std::string whose =
           claim.kind + (claim.trial ? " in trial " + std::to_string(*claim.trial) : "");
@@ -184,11 +186,17 @@ class SessionCheck {
       }
       const std::int64_t never_ran =
           num_ticks({claim.ticks}) - num_ticks(missing_in(missed, claim.ticks));
-      if (never_ran > 0) {
-        remark(std::to_string(never_ran) + " of the ticks " + ticks + " of " + whose +
-               " never ran: the loop was held up");
-      }
+      if (never_ran == 0) continue;
+      ++num_held_up;
+      all_held_up += never_ran;
+      if (never_ran <= most_held_up) continue;
+      most_held_up = never_ran;
+      longest = std::to_string(never_ran) + " of the ticks " + ticks + " of " + whose;
     }
+    if (num_held_up == 0) return;
+    const std::string others = ", the most of " + std::to_string(num_held_up) + " times (" +
+                               std::to_string(all_held_up) + " ticks in all)";
+    remark(longest + " never ran" + (num_held_up > 1 ? others : "") + ": the loop was held up");
   }
 
   const StudyStore& store_;

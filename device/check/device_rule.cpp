@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 namespace jnd::device {
@@ -18,6 +20,17 @@ int pushed_point(const DeviceCapabilities& can) {
   int point = 0;
   while (point + 1 < core::kNumContactPoints && !can.has_point(point)) ++point;
   return point;
+}
+
+bool stands_still(std::span<const core::HapticState> states, std::size_t point, int axis) {
+  if (states.empty()) return true;
+  constexpr double kStill_m = 0.002;
+  const auto [low, high] =
+      std::ranges::minmax(states.subspan(states.size() / 2) |
+                          std::views::transform([&](const core::HapticState& state) {
+                            return state.tip_position_m[point][axis];
+                          }));
+  return high - low < kStill_m;
 }
 
 std::string unlikely_numbers(const DeviceCapabilities& can) {
@@ -42,6 +55,38 @@ std::string unlikely_numbers(const DeviceCapabilities& can) {
     if (number.value >= number.least && number.value <= number.most) continue;
     words += fmt::format("{}{} {:g} {}", words.empty() ? "" : ", ", number.what, number.value,
                          number.unit);
+  }
+  return words;
+}
+
+std::string beyond_what_is_told(const DeviceCapabilities& can,
+                                std::span<const core::HapticState> states) {
+  if (!can.simulated) return "";
+  Eigen::Vector3d furthest_m = Eigen::Vector3d::Zero();
+  double fastest_m_per_s = 0.0;
+  for (const core::HapticState& state : states) {
+    for (int i = 0; i < core::kNumContactPoints; ++i) {
+      if (!can.has_point(i)) continue;
+      const auto point = static_cast<std::size_t>(i);
+      furthest_m = furthest_m.cwiseMax(state.tip_position_m[point].cwiseAbs());
+      fastest_m_per_s = std::max(fastest_m_per_s, state.tip_velocity_m_per_s[point].norm());
+    }
+  }
+  const std::array told_m = {can.workspace.half_width_x_m, can.workspace.half_width_y_m,
+                             can.workspace.half_width_z_m};
+  std::string words;
+  const auto add = [&words](const std::string& one) {
+    words += (words.empty() ? "" : ", ") + one;
+  };
+  for (std::size_t axis = 0; axis < told_m.size(); ++axis) {
+    const double at_m = furthest_m[static_cast<Eigen::Index>(axis)];
+    if (at_m <= told_m[axis]) continue;
+    add(fmt::format("it was {:.0f} mm from the origin along {}, and tells {:.0f} mm",
+                    1e3 * at_m, "xyz"[axis], 1e3 * told_m[axis]));
+  }
+  if (fastest_m_per_s > can.max_speed_m_per_s) {
+    add(fmt::format("it moved at {:.2f} m/s, and tells {:.2f} m/s at most", fastest_m_per_s,
+                    can.max_speed_m_per_s));
   }
   return words;
 }

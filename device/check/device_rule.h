@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "core/hand.h"
+#include "core/haptic_state.h"
 #include "device/haptic_device.h"
 
 namespace jnd::device {
@@ -27,10 +29,20 @@ inline constexpr DeviceRule kTellsOfAHand = {
 /// Which numbers are not, with their units; "": all are, as far as it says them.
 [[nodiscard]] std::string unlikely_numbers(const DeviceCapabilities& can);
 
+/// What was seen of a simulation's points beyond the workspace and the speed that it tells; "":
+/// nothing. A real device may be parked elsewhere.
+[[nodiscard]] std::string beyond_what_is_told(const DeviceCapabilities& can,
+                                              std::span<const core::HapticState> states);
+
 /// A force on one point alone.
 [[nodiscard]] core::PointVectors push_of(int point, const Eigen::Vector3d& force_n);
 /// Returns the first point that the device has, which is pushed.
 [[nodiscard]] int pushed_point(const DeviceCapabilities& can);
+
+/// Whether a point hardly moved along this axis in the second half of these states, in which
+/// nothing pushed it. A push would be hidden in what a hand moves by itself.
+[[nodiscard]] bool stands_still(std::span<const core::HapticState> states, std::size_t point,
+                                int axis);
 
 /// The outcome of a rule on one device.
 struct RuleOutcome {
@@ -65,6 +77,10 @@ class RuleJudge {
 
 /// What only a person who moves the device can find out, and how to be asked.
 inline constexpr char kHandIsIn[] = "a hand is in the device, which is not pushed then";
+
+/// Why nothing can be said about where a push moves the hand.
+inline constexpr char kHidesPush[] =
+    "its hand moves by itself along every axis, which hides a push";
 
 /// Why a rule that takes a push is not tried.
 inline constexpr char kNoPush[] =

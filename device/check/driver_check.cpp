@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/safety/fault.h"
 #include "core/safety/force_limiter.h"
 #include "device/check/velocity_lag.h"
 
@@ -95,7 +96,10 @@ class DriverChecker {
       return false;
     }
     begin_ = Clock::now();
-    judge_.judge(rule, true, "");
+    core::HapticState state;
+    const bool is_read = rule.name != kDriverOpens.name || device_.read(state);
+    const std::string said = is_read ? "" : device_.words_of_fault();
+    judge_.judge(rule, said.empty(), said);
     return true;
   }
 
@@ -150,11 +154,7 @@ class DriverChecker {
                    .step_s = *check_.by_hand_step_s,
                    .watch =
                        [this](double duration_s) {
-                         std::vector<core::HapticState> states;
-                         for (Measured& one : ticks(duration_s, core::zero_vectors())) {
-                           states.push_back(one.state);
-                         }
-                         return states;
+                         return states_of(ticks(duration_s, core::zero_vectors()));
                        },
                    .prompt = check_.prompt},
                   judge_);
@@ -166,10 +166,15 @@ class DriverChecker {
     const std::vector<Measured> all = ticks(2.0, core::zero_vectors());
     const auto num_read = static_cast<double>(all.size());
     constexpr double kFewest = 0.99;
-    judge_.judge(kDriverPace,
-                 num_read >= kFewest * static_cast<double>(num_ticks_) && num_not_taken_ == 0,
-                 fmt::format("{} of {} ticks brought one, {} forces were not taken", all.size(),
-                             num_ticks_, num_not_taken_));
+    const bool keeps_pace =
+        num_read >= kFewest * static_cast<double>(num_ticks_) && num_not_taken_ == 0;
+    const std::string said = keeps_pace ? "" : device_.words_of_fault();
+    DeviceRule pace = kDriverPace;
+    if (!said.empty()) pace.advice = "Mend what the driver says; it hides how punctual it is.";
+    judge_.judge(pace, keeps_pace,
+                 fmt::format("{} of {} ticks brought one, {} forces were not taken{}",
+                             all.size(), num_ticks_, num_not_taken_,
+                             said.empty() ? "" : ". The driver says: " + said));
     if (all.size() < 2) return;
     judge_time(all);
     double largest = 0.0;
@@ -181,7 +186,11 @@ class DriverChecker {
     constexpr double kLargestOfAHand = 20.0;
     judge_.judge(kDriverUnits, largest < kLargestOfAHand,
                  fmt::format("the largest position or velocity is {:.3g}", largest));
-    const std::string unlikely = unlikely_numbers(can_);
+    std::string unlikely = unlikely_numbers(can_);
+    // Positions of another unit are the fault of the rule before.
+    if (unlikely.empty() && largest < kLargestOfAHand) {
+      unlikely = beyond_what_is_told(can_, states_of(all));
+    }
     judge_.judge(kTellsOfAHand, unlikely.empty(), unlikely);
     int num_absent = 0;
     for (int point = 0; point < core::kNumContactPoints; ++point) {
@@ -217,30 +226,24 @@ class DriverChecker {
                              num_risen, all.size() - 1, 1e6 * drift));
   }
 
-  /// Returns how far the hand moves by itself along this axis in the time of a push, m. A push
-  /// would be hidden in it.
-  static double own_way_m(const std::vector<Measured>& all, std::size_t point, int axis) {
-    double low = 1e9, high = -1e9;
-    for (std::size_t i = all.size() / 2; i < all.size(); ++i) {
-      const double at_m = all[i].state.tip_position_m[point][axis];
-      low = std::min(low, at_m);
-      high = std::max(high, at_m);
-    }
-    return all.empty() ? 0.0 : high - low;
+  static std::vector<core::HapticState> states_of(const std::vector<Measured>& all) {
+    std::vector<core::HapticState> states;
+    for (const Measured& one : all) states.push_back(one.state);
+    return states;
   }
 
   void judge_pushes() {
-    std::string wrong, fast;
+    std::string wrong, fast, latched;
     int num_tried = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const std::vector<Measured> before = ticks(0.3, core::zero_vectors());
-      constexpr double kStill_m = 0.002;
-      const bool is_still = own_way_m(before, point_, axis) < kStill_m;
+      const bool is_still = stands_still(states_of(before), point_, axis);
       num_tried += is_still ? 1 : 0;
       Eigen::Vector3d force_n = Eigen::Vector3d::Zero();
       force_n[axis] = push_n_;
       const std::vector<Measured> pushed =
           ticks(0.15, push_of(static_cast<int>(point_), force_n));
+      if (latched.empty()) latched = latched_words();
       observe_lag(pushed, ticks(0.3, core::zero_vectors()));
       if (before.empty() || pushed.size() < 2) {
         wrong = fast = "no measurement came while it was pushed";
@@ -270,9 +273,9 @@ class DriverChecker {
       }
     }
     if (num_tried == 0) {
-      judge_.skip(kForceSign, "its hand moves by itself along every axis, which hides a push");
+      judge_.skip(kForceSign, kHidesPush);
     } else {
-      judge_.judge(kForceSign, wrong.empty(), wrong);
+      judge_.judge(kForceSign, wrong.empty(), wrong.empty() ? "" : wrong + latched);
     }
     judge_.judge(kDriverVelocity, fast.empty(), fast);
     lag_.judge(judge_);
@@ -280,10 +283,8 @@ class DriverChecker {
 
   /// While it is pushed, and while it comes back.
   void observe_lag(const std::vector<Measured>& pushed, const std::vector<Measured>& after) {
-    std::vector<core::HapticState> states;
-    for (const auto* some : {&pushed, &after}) {
-      for (const Measured& one : *some) states.push_back(one.state);
-    }
+    std::vector<core::HapticState> states = states_of(pushed);
+    for (const Measured& one : after) states.push_back(one.state);
     lag_.observe(states, point_);
   }
 
@@ -294,12 +295,30 @@ class DriverChecker {
         [this](const Measured& one) { return !one.state.acted_n[point_].isZero(0.0); });
   }
 
+  /// The fault that keeps forces away, in words behind a finding; "" if there is none.
+  [[nodiscard]] std::string latched_words() const {
+    const core::Fault fault = device_.fault();
+    if (fault == core::Fault::kNone) return "";
+    return fmt::format("; the fault {} keeps it away: {}", core::name(fault),
+                       core::words(fault));
+  }
+
   void judge_halt() {
     if (!can_.tells_acting_force) {
       judge_.skip(kDriverHalt, "the device does not tell which force acted");
       return;
     }
-    (void)ticks(0.05, push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0}));
+    const double delay_s = std::min(can_.closed_loop_delay_s, kMostDelay_s);
+    const std::vector<Measured> before =
+        ticks(0.05 + delay_s, push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0}));
+    if (before.empty()) return judge_.skip(kDriverHalt, "no measurement came");
+    if (!acts(before, 0)) {
+      DeviceRule halt = kDriverHalt;
+      halt.advice =
+          "Tell in acted_n the force that acted, and see that the device takes a push: nothing "
+          "is known of a halt before.";
+      return judge_.judge(halt, false, "no force acted before the halt" + latched_words());
+    }
     device_.halt();
     constexpr std::size_t kUnderWay = 3;
     // jnd withholds what is written after a halt. That the driver itself ends the force shows
@@ -319,11 +338,12 @@ class DriverChecker {
     (void)ticks(0.1, core::zero_vectors());
     const bool comes_back =
         acts(ticks(0.1, push_of(static_cast<int>(point_), {push_n_, 0.0, 0.0})), 0);
+    const std::string latched = latched_words();
     (void)ticks(0.3, core::zero_vectors());
     judge_.judge(kDriverHalt, !still_acts && comes_back,
                  still_acts   ? "a force acted after the halt"
                  : comes_back ? ""
-                              : "no force came back after a write of zeros");
+                              : "no force came back after a write of zeros" + latched);
   }
 
   void judge_limits() {

@@ -29,7 +29,7 @@ inline constexpr DeviceRule kArmsWithForce = {
 inline constexpr DeviceRule kArming = {
     "arming", "It arms on a new number, without force, once the connection is good.",
     "Tell armed and armed_number in the state; 100 good datagrams and a round trip are "
-    "enough."};
+    "enough. The number 0 asks for no arming."};
 inline constexpr DeviceRule kHalfRate = {
     "half_rate", "States come at the rate of the welcome.",
     "Send one state a tick, and tell the rate of the loop that really runs."};

@@ -82,30 +82,36 @@ VelocityLag velocity_lag(std::span<const core::HapticState> states, std::size_t 
       found.lag_s = lag_s;
     }
   }
-  constexpr double kAgrees = 0.1, kBetter = 0.5, kClear = 0.02;
-  found.is_known = best_m < kAgrees * found.moved_m;
-  found.is_too_late = found.is_known && found.lag_s > kLateFrom_s &&
-                      at_once_m > kClear * found.moved_m && best_m < kBetter * at_once_m;
+  std::vector<double> steps;
+  for (std::size_t k = 0; k < times_s.size() && times_s[k] <= end_s; ++k) {
+    steps.push_back(way.at(times_s[k] + kMostLag_s) - ways_m[k]);
+  }
+  found.shown_m = scatter(steps);
+  constexpr double kAgrees = 0.1, kBetter = 0.5, kClear = 0.1;
+  const bool is_late = found.lag_s > kLateFrom_s;
+  const bool is_clear = at_once_m > kClear * found.shown_m && best_m < kBetter * at_once_m;
+  found.is_known = best_m < kAgrees * found.moved_m && (!is_late || is_clear);
+  found.is_too_late = found.is_known && is_late;
   return found;
 }
 
 void VelocityLagJudge::observe(std::span<const core::HapticState> states, std::size_t point) {
   for (int axis = 0; axis < 3; ++axis) {
     const VelocityLag lag = velocity_lag(states, point, axis);
-    if (!lag.is_known || (most_.is_known && lag.moved_m <= most_.moved_m)) continue;
-    most_ = lag;
+    if (lag.is_known && lag.shown_m > clearest_.shown_m) clearest_ = lag;
   }
 }
 
 void VelocityLagJudge::judge(RuleJudge& judge) const {
-  if (!most_.is_known) {
+  if (!clearest_.is_known) {
     return judge.skip(
         kSlowVelocity,
-        "it moved too little, or its velocities agree with the positions nowhere");
+        "it moved too little or too evenly, or its velocities agree with the positions "
+        "nowhere");
   }
-  judge.judge(kSlowVelocity, !most_.is_too_late,
-              fmt::format("{:.0f} ms behind, while it moved by {:.1f} mm", 1e3 * most_.lag_s,
-                          1e3 * most_.moved_m));
+  judge.judge(kSlowVelocity, !clearest_.is_too_late,
+              fmt::format("{:.0f} ms behind, while it moved by {:.1f} mm",
+                          1e3 * clearest_.lag_s, 1e3 * clearest_.moved_m));
 }
 
 }  // namespace jnd::device

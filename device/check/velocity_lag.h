@@ -15,9 +15,12 @@ inline constexpr DeviceRule kSlowVelocity = {
 /// How late velocities are by the positions of the same measurements.
 struct VelocityLag {
   double lag_s = 0.0;
-  double moved_m = 0.0;      ///< Between the extremes; of less than 0.5 mm nothing is known.
-  bool is_known = false;     ///< It moved enough, and at some lag both agree.
-  bool is_too_late = false;  ///< More than 15 ms, and the agreement is clearly better there.
+  double moved_m = 0.0;  ///< Between the extremes; of less than 0.5 mm nothing is known.
+  /// How much the longest lag that is tried would show. Movement at an even speed shows none.
+  double shown_m = 0.0;
+  /// It moved enough, and at some lag both agree: up to 15 ms, or clearly better than without.
+  bool is_known = false;
+  bool is_too_late = false;  ///< It is known, and more than 15 ms.
 };
 
 /// Along one axis of one point. The way that velocities add up to is moved against the
@@ -26,14 +29,14 @@ struct VelocityLag {
 [[nodiscard]] VelocityLag velocity_lag(std::span<const core::HapticState> states,
                                        std::size_t point, int axis);
 
-/// Judges the axis that moved most of those that were seen.
+/// Judges the axis, of those that were seen, whose movement shows a lag best.
 class VelocityLagJudge {
  public:
   void observe(std::span<const core::HapticState> states, std::size_t point);
   void judge(RuleJudge& judge) const;
 
  private:
-  VelocityLag most_;
+  VelocityLag clearest_;
 };
 
 }  // namespace jnd::device

@@ -147,8 +147,9 @@ std::string NetworkDevice::what_is_wrong() const {
   if (refusal_ == wire::RefusalReason::kBusy) {
     return place + "a device that is free, found that another program uses it; end that one";
   }
-  return place + "a device to answer, found none; start its program (`jnd device-simulator`) " +
-         "and check address and port";
+  return place +
+         "a device to answer, found none; start its program, see that a key "
+         "is on both sides or on none, and check address and port";
 }
 
 void NetworkDevice::close() noexcept {

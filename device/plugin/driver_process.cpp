@@ -256,6 +256,14 @@ void DriverProcess::request(const DriverRequest& request, bool wakes) noexcept {
   if (wakes) futex_wake(program_page().request.version());
 }
 
+std::uint64_t DriverProcess::num_unanswered() const noexcept {
+  DriverRequest asked;
+  DriverAnswer answered;
+  if (process_ <= 0 || !program_page().request.load(asked)) return 0;
+  if (!host_page().answer.load(answered)) answered.read_number = 0;
+  return asked.read_number - std::min(asked.read_number, answered.read_number);
+}
+
 void DriverProcess::wait_for_answer(std::uint32_t seen,
                                     std::int64_t deadline_ns) const noexcept {
   constexpr std::int64_t kLook_ns = 80'000;  // Most answers come within this time.

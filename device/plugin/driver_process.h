@@ -60,6 +60,8 @@ class DriverProcess {
   [[nodiscard]] bool answer(DriverAnswer& answer) const noexcept {
     return host_page().answer.load(answer);
   }
+  /// Returns how many reads were asked for since the one that was answered last. Any thread.
+  [[nodiscard]] std::uint64_t num_unanswered() const noexcept;
   /// Waits until there may be another answer than that with this version, or until this
   /// monotonic time. Real time apart from the waiting.
   void wait_for_answer(std::uint32_t seen, std::int64_t deadline_ns) const noexcept;

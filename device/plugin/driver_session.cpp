@@ -109,6 +109,10 @@ Fault DriverSession::read(jnd_device_state& measured) noexcept {
     measured = *newest_;
     return Fault::kNone;
   }
+  if (outcome == JND_DEVICE_NO_SAMPLE) {
+    problem_ =
+        "the first jnd_device_read found no measurement; open has to wait until there is one";
+  }
   if (outcome != JND_DEVICE_OK) return Fault::kDeviceReadFailed;
   core::HapticState state;
   if (const Fault found = checked_state(description_, now, state); found != Fault::kNone) {

@@ -47,8 +47,10 @@
 /* Results of the functions. */
 enum {
   JND_DEVICE_OK = 0,
-  JND_DEVICE_FAILED = 1,   /* `jnd_device_error` says why. */
-  JND_DEVICE_NO_SAMPLE = 2 /* Only from read: nothing new; the measurement before is reused. */
+  JND_DEVICE_FAILED = 1, /* `jnd_device_error` says why. */
+  /* Only from read: nothing new; the measurement before is reused. The first read after open
+   * has none before, and has to bring a measurement. */
+  JND_DEVICE_NO_SAMPLE = 2
 };
 
 /* What a device is and has, as `flags` of its description. */
@@ -163,7 +165,8 @@ JND_DEVICE_EXPORT int jnd_device_describe(jnd_device* device, const char* option
 JND_DEVICE_EXPORT int jnd_device_open(const char* options, double rate_hz, jnd_device** device);
 
 /* Reads the newest measurement within 0.2 ms, without waiting for one, and without heap or
- * lock. A device that paces the loop waits for the next measurement here. */
+ * lock. The first read after open has to bring one, so open waits for it. A device that paces
+ * the loop waits for the next measurement here. */
 JND_DEVICE_EXPORT int jnd_device_read(jnd_device* device, jnd_device_state* state);
 
 /* Renders the command, under the same conditions. If it fails, the force was not taken, and

@@ -173,8 +173,17 @@ bool PluginDevice::stand_in(core::HapticState& state, std::int64_t now_ns) noexc
   return true;
 }
 
-std::string PluginDevice::words_of_fault() const {
+/// Why no answers come any more; "" if they do.
+std::string PluginDevice::words_of_silence() const {
   if (std::string ended = process_.words_of_end(); !ended.empty()) return ended;
+  constexpr std::uint64_t kMostUnanswered = 3;
+  const std::uint64_t unanswered = process_.num_unanswered();
+  if (unanswered <= kMostUnanswered) return "";
+  return "its process has not answered the last " + std::to_string(unanswered) + " reads";
+}
+
+std::string PluginDevice::words_of_fault() const {
+  if (std::string silent = words_of_silence(); !silent.empty()) return silent;
   DriverAnswer answer;
   if (!process_.answer(answer)) return "";
   answer.words.back() = '\0';

@@ -66,6 +66,7 @@ class PluginDevice final : public HapticDevice {
   void close() noexcept override;
   [[nodiscard]] core::Fault fault() const noexcept override { return fault_; }
   [[nodiscard]] std::string words_of_fault() const override;
+  [[nodiscard]] bool answers() const override { return words_of_silence().empty(); }
   /// Whether the driver answers and its last measurement was a new one.
   [[nodiscard]] bool may_arm() const noexcept override { return is_well_; }
   void halt() noexcept override { process_.halt(); }
@@ -75,6 +76,7 @@ class PluginDevice final : public HapticDevice {
   [[nodiscard]] int process() const noexcept { return process_.process(); }
 
  private:
+  [[nodiscard]] std::string words_of_silence() const;
   [[nodiscard]] bool receive(std::int64_t deadline_ns, DriverAnswer& answer) noexcept;
   [[nodiscard]] bool take(const DriverAnswer& answer) noexcept;
   [[nodiscard]] bool stand_in(core::HapticState& state, std::int64_t now_ns) noexcept;

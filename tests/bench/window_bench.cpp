@@ -127,8 +127,8 @@ void window_first_3d(benchmark::State& state) {
     state.counters["longest_frame_ms"] = percentile(all, 1.0);
     state.counters["frames"] = static_cast<double>(all.size());
     state.counters["stopped"] =
-        window.person().every_text().find("window stopped answering") == std::string::npos ? 0
-                                                                                           : 1;
+        window.person().every_text().find("program stopped answering") == std::string::npos ? 0
+                                                                                            : 1;
   });
 }
 

@@ -42,6 +42,7 @@ WRONG = {
     "half_rate": "ticks half as often as its welcome says",
     "rearms": "arms again after a fault, without a new number of an arming",
     "arms_with_force": "arms on a command that has a force",
+    "arming": "arms at the number 0 as well, which asks for none",
     "no_limits": "has no limit of force and none of its change",
     "echo": "echoes a clock that nobody sent, a second ahead",
     "told_as_sent": "gives every force 30 ms late and tells it as if it acted at once",
@@ -49,7 +50,6 @@ WRONG = {
     "other_version": "does not answer a hello of another version",
     "unknown_stream": "does not answer a command on a stream that it does not know (without a key)",
     "datagrams": "sends four bytes that are no datagram after every hundredth state",
-    "arming": "never arms",
     "jitter": "stands still for 150 ms at every fiftieth tick",
     "time": "tells the device time in us",
     "velocity": "tells velocities with the other sign",
@@ -445,7 +445,7 @@ class Server:
                 link.judge_anew()
             last_states = range(
                 self._number + 1 - round(0.04 * self._rate_hz), self._number + 1)
-            if (command.arm_number > 0 and link.is_settled() and self._wrong != "arming"
+            if ((command.arm_number > 0 or self._wrong == "arming") and link.is_settled()
                     and (not any(command.force_n) or self._wrong == "arms_with_force")
                     and command.state_number in (n & 0xFFFFFFFF for n in last_states)
                     and self._measured is not None):

@@ -34,6 +34,21 @@ class SessionSetupTest : public ::testing::Test {
   experiments::Laboratory laboratory_ = experiments::thesis_laboratory();
 };
 
+TEST(FaultWords, TheSilenceOfADriverComesBeforeWhatTheLoopNoticed) {
+  using core::Fault;
+  const std::string killed = "its process crashed (Killed)";
+  for (const Fault fault :
+       {Fault::kStaleSample, Fault::kHostTooSlow, Fault::kDeviceReadFailed}) {
+    EXPECT_EQ(fault_words(fault, killed, /*device_answers=*/false),
+              std::string(core::words(Fault::kDeviceReadFailed)) +
+                  " The driver says: its process crashed (Killed).");
+  }
+  EXPECT_EQ(fault_words(Fault::kEmergencyStop, killed, false),
+            core::words(Fault::kEmergencyStop));
+  EXPECT_EQ(fault_words(Fault::kStaleSample, "the cable is out", true),
+            core::words(Fault::kStaleSample));
+}
+
 TEST_F(SessionSetupTest, EverySessionHasASeedOfItsOwnAndEverythingNeededToRepeatIt) {
   ASSERT_EQ(add_sessions(store_, setup(), {"P01", "P02"}), (std::vector<std::int64_t>{1, 2}));
   const std::vector<core::SessionRow> rows = store_.sessions();

@@ -10,7 +10,7 @@
 
 namespace jnd::app {
 
-inline constexpr const char* kStalled = "window stopped answering";
+inline constexpr const char* kStalled = "program stopped answering";
 
 /// Takes pictures of every view, large and small, light and dark, for people who check them and
 /// for the documents. It does not test what is stored.

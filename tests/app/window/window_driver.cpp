@@ -123,7 +123,7 @@ Screen WindowDriver::wait_until(const std::string& what, const Condition& condit
     }
     std::this_thread::sleep_for(kGlance);
     now = screen();
-    if (forgives_stalls && now.offers("rearm") && now.shows("window stopped answering")) {
+    if (forgives_stalls && now.offers("rearm") && now.shows("program stopped answering")) {
       press("ctrl+Return");
     }
   }

@@ -92,6 +92,29 @@ class IntegrityTest : public ::testing::Test {
   std::int64_t sequence_ = 0;
 };
 
+TEST_F(IntegrityTest, TicksThatNeverRanAreOneRemarkWithTheMost) {
+  std::filesystem::remove(recording());
+  {
+    RecordingWriter writer(recording(), 1000.0, Durability::kAtClose);
+    for (std::int64_t tick = 0; tick < 10'000; ++tick) {
+      Sample sample;
+      sample.tick = tick;
+      sample.monotonic_ns = 1'000'000 * (tick + 1);
+      if (tick == 3000) sample.num_missed_before = 2;
+      if (tick == 7000) sample.num_missed_before = 5;
+      const bool is_missed = tick == 2998 || tick == 2999 || (tick >= 6995 && tick < 7000);
+      if (!is_missed) writer.append(sample);
+    }
+  }
+  const Integrity integrity = verified();
+  EXPECT_TRUE(integrity.complete);
+  ASSERT_EQ(integrity.remarks.size(), 1U);
+  EXPECT_EQ(
+      integrity.remarks[0].message,
+      "5 of the ticks 5000 to 9999 of presentation_ended in trial 1 never ran, the most of "
+      "2 times (7 ticks in all): the loop was held up");
+}
+
 TEST_F(IntegrityTest, CountsWhatAWholeStudyHolds) {
   const Integrity integrity = verified();
   EXPECT_TRUE(integrity.complete);

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "device/lumped_hand_device.h"
@@ -36,11 +38,14 @@ class WrongDevice final : public HapticDevice {
   [[nodiscard]] bool read(core::HapticState& state) noexcept override {
     if (!hand_.read(state)) return false;
     ++num_reads_;
+    if (wrong_ == "no_first_sample" && num_reads_ == 1) return false;
+    if (wrong_ == "says_why" && num_reads_ > 600) return false;
     if (wrong_ == "blind" && num_reads_ > 2400) return false;
     if (wrong_ == "pace" && num_reads_ % 20 == 0) return false;
     if (wrong_ == "time") state.device_time_ns += state.device_time_ns / 10;
     for (auto& at : state.tip_position_m) at *= wrong_ == "units" ? 1000.0 : 1.0;
     for (auto& speed : state.tip_velocity_m_per_s) speed *= wrong_ == "velocity" ? 0.001 : 1.0;
+    if (strokes_) stroke(state);
     // A low-pass of first order at 4 Hz.
     for (std::size_t i = 0; i < 5; ++i) {
       slow_m_per_s_[i] += (state.tip_velocity_m_per_s[i] - slow_m_per_s_[i]) / 41.0;
@@ -57,7 +62,7 @@ class WrongDevice final : public HapticDevice {
   }
   [[nodiscard]] bool write(const core::PointVectors& force_on_hand_n) noexcept override {
     largest_n_ = std::max(largest_n_, force_on_hand_n[0].norm());
-    core::PointVectors given_n = force_on_hand_n;
+    core::PointVectors given_n = wrong_ == "latches" ? core::zero_vectors() : force_on_hand_n;
     const double most_n = capabilities().max_force_per_point_n;
     if (wrong_ != "limits" && given_n[0].norm() > most_n)
       given_n[0] *= most_n / given_n[0].norm();
@@ -69,14 +74,33 @@ class WrongDevice final : public HapticDevice {
     return hand_.write(given_n);
   }
   void close() noexcept override { hand_.close(); }
+  [[nodiscard]] std::string words_of_fault() const override {
+    if (wrong_ == "no_first_sample") return "the first read found none";
+    return wrong_ == "says_why" ? "gripper_m is not finite" : "";
+  }
+  [[nodiscard]] core::Fault fault() const noexcept override {
+    return wrong_ == "latches" ? core::Fault::kOverVelocity : core::Fault::kNone;
+  }
   void halt() noexcept override { is_halted_ = wrong_ != "halt"; }
 
+  /// Its hand moves by itself along x.
+  void stroke_by_itself() { strokes_ = true; }
   [[nodiscard]] double largest_n() const { return largest_n_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  static void stroke(core::HapticState& state) {
+    constexpr double kHalfWidth_m = 0.13, kTurn_rad_per_s = 3.14;
+    const double turn_rad = kTurn_rad_per_s * 1e-9 * static_cast<double>(state.device_time_ns);
+    for (auto& at : state.tip_position_m) at.x() -= kHalfWidth_m * std::cos(turn_rad);
+    for (auto& speed : state.tip_velocity_m_per_s) {
+      speed.x() += kHalfWidth_m * kTurn_rad_per_s * std::sin(turn_rad);
+    }
+  }
+
   std::string wrong_;
+  bool strokes_ = false;
   bool has_own_clock_;
   Clock::time_point told_at_;
   LumpedHandDevice hand_{LumpedHandDevice::Parameters{}};
@@ -142,6 +166,72 @@ TEST(DriverCheck, ASlowFilterOfTheVelocityIsFound) {
   const Told told = told_of(device);
   EXPECT_EQ(told.outcomes.at("slow_velocity").verdict, RuleOutcome::Verdict::kFailed)
       << told.outcomes.at("slow_velocity").found;
+}
+
+/// The movement by itself is far larger than what a push adds, and often of an even speed.
+TEST(DriverCheck, AHandThatMovesByItselfIsJudgedAsAnyOther) {
+  WrongDevice good("nothing"), slow("slow_velocity"), other_way("force_sign");
+  for (WrongDevice* device : {&good, &slow, &other_way}) device->stroke_by_itself();
+  const Told kept = told_of(good);
+  EXPECT_TRUE(kept.is_kept) << kept.outcomes.at("force_sign").found;
+  EXPECT_EQ(kept.outcomes.at("slow_velocity").verdict, RuleOutcome::Verdict::kPassed);
+  const Told late = told_of(slow);
+  EXPECT_EQ(late.outcomes.at("slow_velocity").verdict, RuleOutcome::Verdict::kFailed)
+      << late.outcomes.at("slow_velocity").found;
+  EXPECT_EQ(told_of(other_way).outcomes.at("force_sign").verdict,
+            RuleOutcome::Verdict::kFailed);
+}
+
+TEST(DriverCheck, WhatTheDriverSaysIsToldWithThePace) {
+  WrongDevice device("says_why");
+  const RuleOutcome pace = told_of(device).outcomes.at("pace");
+  EXPECT_EQ(pace.verdict, RuleOutcome::Verdict::kFailed);
+  EXPECT_NE(pace.found.find("The driver says: gripper_m is not finite"), std::string::npos)
+      << pace.found;
+  EXPECT_TRUE(pace.rule.advice.starts_with("Mend what the driver says")) << pace.rule.advice;
+}
+
+TEST(DriverCheck, AFirstReadWithoutAMeasurementIsFound) {
+  WrongDevice device("no_first_sample");
+  const RuleOutcome opens = told_of(device).outcomes.at("opens");
+  EXPECT_EQ(opens.verdict, RuleOutcome::Verdict::kFailed);
+  EXPECT_EQ(opens.found, "the first read found none");
+}
+
+TEST(DriverCheck, WhatKeepsAForceAwayBeforeAHaltIsNamed) {
+  WrongDevice device("latches");
+  const RuleOutcome halt = told_of(device).outcomes.at("halt");
+  EXPECT_EQ(halt.verdict, RuleOutcome::Verdict::kFailed);
+  EXPECT_TRUE(halt.found.starts_with(
+      "no force acted before the halt; the fault over_velocity keeps it away: "))
+      << halt.found;
+  EXPECT_TRUE(halt.rule.advice.starts_with("Tell in acted_n")) << halt.rule.advice;
+}
+
+TEST(DeviceRule, ASimulationThatLeavesWhatItTellsIsFound) {
+  DeviceCapabilities can{.simulated = true, .max_speed_m_per_s = 0.1};
+  can.workspace = {.half_width_x_m = 0.05, .half_width_y_m = 0.05, .half_width_z_m = 0.05};
+  std::vector<core::HapticState> states(2);
+  EXPECT_EQ(beyond_what_is_told(can, states), "");
+  states[1].tip_position_m[0].y() = -0.14;
+  states[1].tip_velocity_m_per_s[0].x() = 0.4;
+  EXPECT_EQ(beyond_what_is_told(can, states),
+            "it was 140 mm from the origin along y, and tells 50 mm, it moved at 0.40 m/s, and "
+            "tells 0.10 m/s at most");
+  can.simulated = false;
+  EXPECT_EQ(beyond_what_is_told(can, states), "") << "it may be parked elsewhere";
+}
+
+TEST(DeviceRule, APushIsSeenOnlyAlongAnAxisOnWhichTheHandStandsStill) {
+  std::vector<core::HapticState> states(300);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    states[i].tip_position_m[0].x() = 1e-4 * static_cast<double>(i);
+    states[i].tip_position_m[0].y() = i < 150 ? 0.1 : 0.0;  // It had come to rest.
+  }
+  EXPECT_FALSE(stands_still(states, 0, 0));
+  EXPECT_TRUE(stands_still(states, 0, 1));
+  EXPECT_TRUE(stands_still(states, 0, 2));
+  EXPECT_TRUE(stands_still({}, 0, 0));
 }
 
 TEST(DriverCheck, ADeviceWithAHandInItIsNeverPushed) {

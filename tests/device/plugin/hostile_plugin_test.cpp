@@ -128,6 +128,30 @@ TEST_F(HostilePluginTest, HowTheProcessOfADriverEndedIsSaid) {
   })) << device->words_of_fault();
 }
 
+TEST_F(HostilePluginTest, OneThatDoesNotAnswerAnyMoreSaysSo) {
+  for (const auto& [trouble, words] :
+       {std::pair("hang_in_read", "its process has not answered the last "),
+        std::pair("crash_in_read", "its process crashed (")}) {
+    const auto device = opened(own_clock(trouble, "simulated") + ",after=20");
+    EXPECT_TRUE(device->answers()) << trouble;
+    EXPECT_TRUE(comes_to([&, words = std::string(words)] {
+      core::HapticState state;
+      (void)device->read(state);
+      return !device->answers() && device->words_of_fault().starts_with(words);
+    })) << trouble
+        << device->words_of_fault();
+  }
+}
+
+TEST_F(HostilePluginTest, TheFirstReadHasToBringAMeasurement) {
+  const auto device = opened(troubled("no_sample"));
+  core::HapticState state;
+  EXPECT_FALSE(device->read(state));
+  EXPECT_NE(device->words_of_fault().find("the first jnd_device_read found no measurement"),
+            std::string::npos)
+      << device->words_of_fault();
+}
+
 TEST_F(HostilePluginTest, WhatADriverSaysOfItsFailureIsKept) {
   for (const char* trouble : {"fail_in_read", "fail_in_write"}) {
     const auto device = opened(troubled(trouble, ",after=20"));
