@@ -5,6 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/words/said.h"
+#include "analysis/words/said_composed.h"
+
 namespace jnd::analysis {
 namespace {
 
@@ -38,6 +41,73 @@ constexpr std::pair<std::string_view, std::string_view> kPhrases[] = {
     {"log mean", ", mean of logarithms"},
     {"log sd", ", standard deviation of logarithms"},
     {"type 2 auroc", "area under the type 2 curve"},
+};
+
+// What the parts of names come to by `in_phrases`. This list puts them into the catalogue.
+[[maybe_unused]] constexpr const char* kTitlesOfNames[] = {
+    said_later("pse, median person"),
+    said_later("pse, median person, without degenerate"),
+    said_later("PSE, median person, without degenerate"),
+    said_later("Weber fraction, median person at reference"),
+    said_later("Weber fraction, median person, PSE free"),
+    said_later("Weber fraction, PSE free"),
+    said_later("Weber fraction order effect ln"),
+    said_later("order effect ln"),
+    said_later("interval bias"),
+    said_later("slope sd between people"),
+    said_later("individual Weber fractions mean"),
+    said_later("individual Weber fractions mean, PSE free"),
+    said_later("individual Weber fractions mean at reference"),
+    said_later("individual Weber fractions median"),
+    said_later("individual Weber fractions median, PSE free"),
+    said_later("individual Weber fractions median at reference"),
+    said_later("individual Weber fractions sd"),
+    said_later("individual Weber fractions sd, PSE free"),
+    said_later("individual Weber fractions sd at reference"),
+    said_later("individual Weber fractions robust sd"),
+    said_later("individual Weber fractions robust sd, PSE free"),
+    said_later("individual Weber fractions robust sd at reference"),
+    said_later("individual Weber fractions beyond stimuli"),
+    said_later("individual Weber fractions beyond stimuli, PSE free"),
+    said_later("individual Weber fractions beyond stimuli at reference"),
+    said_later("staircase threshold"),
+    said_later("staircase threshold sd ln"),
+    said_later("staircase target probability"),
+    said_later("staircase Weber fraction"),
+    said_later("quest plus Weber fraction"),
+    said_later("quest plus pse"),
+    said_later("without affected trials"),
+    said_later("without degenerate"),
+    said_later("with excluded trials"),
+    said_later("num catch trials"),
+    said_later("catch test chosen rate"),
+    said_later("catch second chosen rate"),
+    said_later("spread ln"),
+    said_later("spread ln sd ln"),
+    said_later("right ratio"),
+    said_later("chosen first ratio"),
+    said_later("chosen second ratio"),
+    said_later("chosen third ratio"),
+    said_later("stroke width"),
+    said_later("max speed"),
+    said_later("equal intervals"),
+    said_later("PSE free"),
+    said_later("question"),
+    said_later("when wrong"),
+    said_later("when right"),
+    said_later("right minus wrong"),
+    said_later("rank correlation"),
+    said_later("rank correlation with difference"),
+    said_later("area under the type 2 curve"),
+    said_later("mean"),
+    said_later("median"),
+    said_later("sd"),
+    said_later("mean at {}"),
+    said_later("median at {}"),
+    said_later("geometric mean at {}"),
+    said_later("individual a mean"),
+    said_later("drift per ten trials"),
+    said_later("ratio to standard"),
 };
 
 std::string in_phrases(std::string words) {
@@ -76,7 +146,7 @@ std::string estimate_title(const StudyTitles& titles, const std::string& name,
     if (!ending.empty() && part.ends_with(ending) && part.size() > ending.size()) {
       part.resize(part.size() - ending.size());
     }
-    words += (words.empty() ? "" : ", ") + said_of(in_phrases(in_words(part)));
+    words += (words.empty() ? "" : ", ") + said_composed(in_phrases(in_words(part)));
   }
   if (stage.empty()) {
     if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') {

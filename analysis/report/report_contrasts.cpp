@@ -7,6 +7,7 @@
 #include "analysis/results/contrast_words.h"
 #include "analysis/results/number_words.h"
 #include "analysis/words/said.h"
+#include "analysis/words/said_composed.h"
 
 namespace jnd::analysis {
 namespace {
@@ -44,11 +45,12 @@ HtmlTable plan_table(const StudyResults& results) {
   for (const ContrastResult& one : results.contrasts) {
     const PlannedContrast& plan = one.plan;
     const std::string role = plan.primary ? "primary" : "secondary";
-    table.rows.push_back({title_of(one), measure_words(plan), joined(one.conditions),
-                          plan.family == role ? role : role + ", " + plan.family,
-                          to_string(plan.direction),
-                          plan.smallest_effect ? shortest_words(*plan.smallest_effect) : "–",
-                          shortest_words(plan.alpha), to_string(plan.correction)});
+    table.rows.push_back(
+        {title_of(one), said_measure(plan), joined(one.conditions),
+         plan.family == role ? said_of(role) : said_of(role) + ", " + plan.family,
+         said_of(to_string(plan.direction)),
+         plan.smallest_effect ? shortest_words(*plan.smallest_effect) : "–",
+         shortest_words(plan.alpha), said_of(to_string(plan.correction))});
   }
   return table;
 }
@@ -60,7 +62,7 @@ std::vector<std::string> test_row(const std::string& title, const ContrastTest& 
     statistic = test.statistic_name + " = " + number_words(test.statistic, 2);
   }
   return {title,
-          test.effect ? number_words(test.effect) : "– " + test.reason,
+          test.effect ? number_words(test.effect) : "– " + said_composed(test.reason),
           test.effect ? interval_words(test.ci95, test.effect) : "–",
           statistic,
           test.degrees_of_freedom ? number_words(test.degrees_of_freedom, 1) : "–",
@@ -88,9 +90,10 @@ void write_contrast_sentences(HtmlText& html, const StudyResults& results) {
     std::vector<std::string> sentences;
     for (const ContrastResult& one : results.contrasts) {
       if (one.plan.primary != primary) continue;
-      sentences.push_back(one.sentence.empty() ? said("The contrast “{}” has no value: {}.",
-                                                      spaced(one.plan.name), one.test.reason)
-                                               : one.sentence);
+      sentences.push_back(one.sentence.empty()
+                              ? said("The contrast “{}” has no value: {}.",
+                                     spaced(one.plan.name), said_composed(one.test.reason))
+                              : one.sentence);
     }
     if (sentences.empty()) continue;
     html.paragraph(primary ? said("What the study was planned to answer:")
@@ -132,21 +135,23 @@ void write_contrasts(HtmlText& html, const StudyResults& results) {
   std::vector<std::string> cautions;
   for (const ContrastResult& one : results.contrasts) {
     const std::string title = spaced(one.plan.name);
-    answers.rows.push_back(
-        test_row(title + "\n" + one.test.method, one.test, one.p_value_adjusted));
+    answers.rows.push_back(test_row(title + "\n" + said_composed(one.test.method), one.test,
+                                    one.p_value_adjusted));
     for (const ContrastTest& other : one.otherwise) {
-      otherwise.rows.push_back(test_row(title + "\n" + other.method, other, std::nullopt));
+      otherwise.rows.push_back(
+          test_row(title + "\n" + said_composed(other.method), other, std::nullopt));
     }
     if (one.equivalence) {
       const Equivalence& found = *one.equivalence;
       equivalence.rows.push_back(
           {title, shortest_words(found.margin), interval_words(found.interval, one.test.effect),
-           p_words(found.p_value), found.is_shown ? "yes" : said("not shown")});
+           p_words(found.p_value), found.is_shown ? said("yes") : said("not shown")});
     }
     for (const ExcludedParticipant& left_out : one.excluded) {
-      excluded.rows.push_back({title, left_out.participant, left_out.reason});
+      excluded.rows.push_back({title, left_out.participant, said_composed(left_out.reason)});
     }
-    for (const std::string& caution : one.cautions) cautions.push_back(title + ": " + caution);
+    for (const std::string& caution : one.cautions)
+      cautions.push_back(title + ": " + said_composed(caution));
     if (const std::string looks = looks_sentence(one); !looks.empty()) html.paragraph(looks);
   }
   answers.notes.emplace_back(said(

@@ -4,6 +4,7 @@
 #include "analysis/results/discrimination_own_values.h"
 #include "analysis/results/number_words.h"
 #include "analysis/words/said.h"
+#include "analysis/words/said_composed.h"
 
 namespace jnd::analysis {
 namespace {
@@ -40,7 +41,7 @@ struct OwnRow {
     if (own->value || own->reason.empty())
       return with_interval(own->value, bounded(own->ci95, own->value)) +
              (own->cautions.empty() ? "" : " §");
-    notes.push_back("* " + participant + ", " + title + ": " + own->reason);
+    notes.push_back("* " + participant + ", " + title + ": " + said_composed(own->reason));
     return "– *";
   }
   [[nodiscard]] std::string goodness(const std::string& name) const {

@@ -103,7 +103,7 @@ class FigureChapters {
       caption += " Schmidt (2018): " + figure.thesis + ".";
     }
     if (simulated_) caption += said(" SIMULATED data.");
-    if (drawn_[i].svg.empty()) caption += said(" Not drawn: {}.", drawn_[i].problem);
+    if (drawn_[i].svg.empty()) caption += said(" Not drawn: {}.", said_of(drawn_[i].problem));
     numbers_[i] = html_.figure(figure.name, drawn_[i].svg, figure.title, caption);
   }
 

@@ -13,6 +13,7 @@
 #include "analysis/results/number_words.h"
 #include "analysis/results/test_families.h"
 #include "analysis/words/said.h"
+#include "analysis/words/said_composed.h"
 #include "experiments/procedures/procedure_registry.h"
 
 namespace jnd::analysis {
@@ -28,7 +29,8 @@ std::string effect_words(const Comparison& c) {
 /// Why numbers may be wrong for these data. It follows their description.
 std::string caution_words(const std::vector<std::string>& cautions) {
   std::string words;
-  for (const std::string& caution : cautions) words += said(". Caution: {}", caution);
+  for (const std::string& caution : cautions)
+    words += said(". Caution: {}", said_composed(caution));
   return words;
 }
 
@@ -50,11 +52,13 @@ constexpr std::size_t kHolmColumn = 5;
 std::vector<std::string> comparison_row(const NamedComparison& named) {
   const Comparison& c = named.comparison;
   std::string name = named.name;
-  if (!named.family.empty()) name += " [" + named.family + "]";
+  if (!named.family.empty()) name += " [" + said_of(named.family) + "]";
   name += caution_words(named.cautions);
   if (c.status != FitStatus::kOk) {
-    return {name, std::string(to_string(c.status)) + ": " + c.reason, "–", "–", "–", "–", "–",
-            "–"};
+    return {name, said_of(std::string(to_string(c.status))) + ": " + said_composed(c.reason),
+            "–",  "–",
+            "–",  "–",
+            "–",  "–"};
   }
   using Kind = Comparison::Kind;
   const bool are_two_groups = c.of_other_people || c.kind == Kind::kWelch ||
@@ -70,7 +74,7 @@ std::vector<std::string> comparison_row(const NamedComparison& named) {
           ? "Hodges-Lehmann " + with_interval(c.hodges_lehmann, c.hodges_lehmann_ci95)
           : with_interval(c.estimate, c.ci95);
   if (named.ratio()) {
-    effect = said("{} {} times as large; its logarithm differs by {}", named.ratio_of,
+    effect = said("{} {} times as large; its logarithm differs by {}", said_of(named.ratio_of),
                   with_interval(named.ratio(), named.ratio_ci95()), effect);
   }
   return {name,
@@ -95,7 +99,7 @@ HtmlTable estimates_table(const std::string& caption) {
 std::vector<std::string> estimate_row(const StudyTitles& titles, const Estimate& estimate) {
   const std::string words =
       estimate.meaning +
-      (estimate.reason.empty() ? "" : said(". No value: {}", estimate.reason)) +
+      (estimate.reason.empty() ? "" : said(". No value: {}", said_composed(estimate.reason))) +
       caution_words(estimate.cautions);
   return {estimate_title(titles, estimate.name, estimate.unit) + "\n" + estimate.name + "\n" +
               words,
@@ -155,7 +159,7 @@ void write_comparisons(HtmlText& html, const ResultsSection& section) {
   if (!methods.empty()) {
     std::string note;
     for (const std::string& method : methods)
-      note += (note.empty() ? said("Tests: ") : "; ") + method;
+      note += (note.empty() ? said("Tests: ") : "; ") + said_composed(method);
     table.notes.push_back(note + ".");
   }
   html.table(table);
@@ -216,10 +220,12 @@ class OwnValues {
         const bool is_told = !own.value && !own.reason.empty();
         row.push_back(is_told ? "– *" : with_interval(own.name, own.value, own.ci95));
         if (is_told)
-          table.notes.push_back("* " + person + ", " + names_[i] + ": " + own.reason);
+          table.notes.push_back("* " + person + ", " + names_[i] + ": " +
+                                said_composed(own.reason));
         for (const std::string& caution : own.cautions) {
           row.back() += " §";
-          table.notes.push_back("§ " + person + ", " + names_[i] + ": " + caution);
+          table.notes.push_back("§ " + person + ", " + names_[i] + ": " +
+                                said_composed(caution));
         }
       }
       table.rows.push_back(std::move(row));
@@ -236,7 +242,7 @@ void write_excluded(HtmlText& html, const ResultsSection& section) {
   HtmlTable table{.caption = said("Left out, and why"),
                   .columns = {{said("Who")}, {said("Reason")}}};
   for (const ExcludedParticipant& one : section.excluded) {
-    table.rows.push_back({one.participant, one.reason});
+    table.rows.push_back({one.participant, said_composed(one.reason)});
   }
   html.table(table);
 }
@@ -246,7 +252,7 @@ void write_cautions(HtmlText& html, const ResultsSection& section) {
       .caption = said("Cautions: in the numbers all the same, and why they may be wrong"),
       .columns = {{said("Who")}, {said("What")}}};
   for (const Caution& one : section.cautions) {
-    table.rows.push_back({one.participant, one.caution});
+    table.rows.push_back({one.participant, said_composed(one.caution)});
   }
   html.table(table);
 }

@@ -23,7 +23,7 @@ class Tests {
     const bool any_paired = any([](const NamedComparison& one) {
       return one.comparison.method.starts_with("paired t");
     });
-    if (any_paired) also("paired");
+    if (any_paired) also(said("paired"));
     if (has(Kind::kOneSample)) also(said("of one sample against 0"));
     if (has(Kind::kWelch))
       also(said("Welch’s for unequal variances ({})", cite_("Welch 1947")));

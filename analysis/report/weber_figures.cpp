@@ -40,7 +40,8 @@ std::string pse_words(const FigureSource& source, const std::vector<BlockDesign>
     free_titles += (num_free++ > 0 ? ", " : "") + source.titles.short_title_of(block.block);
   }
   if (num_free == 0) return said("at the reference");
-  return num_free == blocks.size() ? "free" : said("at the reference, free in {}", free_titles);
+  return num_free == blocks.size() ? said("free")
+                                   : said("at the reference, free in {}", free_titles);
 }
 
 std::optional<double> reference_of(const StudyData& data, const std::string& block) {

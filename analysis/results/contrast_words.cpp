@@ -112,7 +112,7 @@ std::string main_words(const PlannedContrast& plan, double effect, const Weights
 std::string interaction_words(const PlannedContrast& plan, double effect,
                               const std::vector<const Weights*>& factors) {
   const bool of_ratios = is_ratio(plan.measure);
-  std::string subject = said("the {}", measure_words(plan));
+  std::string subject = said("the {}", said_measure(plan));
   for (std::size_t i = 0; i + 1 < factors.size(); ++i) {
     const std::string above = joined(levels_with(*factors[i], true));
     const std::string below = joined(levels_with(*factors[i], false));
@@ -152,6 +152,13 @@ std::string equivalence_words(const ContrastResult& result) {
 
 }  // namespace
 
+std::string said_measure(const PlannedContrast& plan) {
+  const std::string words = measure_words(plan);
+  if (plan.question.empty()) return said_of(words);
+  const std::size_t length = words.size() - plan.question.size() - 1;
+  return said_of(words.substr(0, length)) + " " + plan.question;
+}
+
 std::string journal_p_words(double p_value) {
   if (p_value < 0.001) return said("p < .001");
   if (p_value > 0.999) return said("p > .999");
@@ -184,7 +191,7 @@ std::string contrast_sentence(const ContrastResult& result) {
     if (compares(weights)) factors.push_back(&weights);
   }
   std::string sentence = factors.size() == 1
-                             ? said("The {}{}", measure_words(plan),
+                             ? said("The {}{}", said_measure(plan),
                                     main_words(plan, *result.test.effect, *factors.front()))
                              : interaction_words(plan, *result.test.effect, factors);
   sentence += said("{}, 95 % CI {}{}", restriction_words(plan), interval_text(result.test.ci95),

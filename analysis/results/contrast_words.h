@@ -12,6 +12,10 @@ namespace jnd::analysis {
 [[nodiscard]] std::vector<std::string> condition_words(
     const experiments::ContrastConditions& conditions);
 
+/// What a contrast compares, such as "Weber fraction" or "answer to the question ease", in the
+/// language of the report.
+[[nodiscard]] std::string said_measure(const experiments::PlannedContrast& plan);
+
 /// For example "The Weber fraction was 2.1 times as large in thin as in thick, 95 % CI
 /// [1.6, 2.9], t(12) = 4.10, p = .0015." A sentence on the smallest effect of interest follows
 /// if there is one. "" without an effect.

@@ -15,6 +15,7 @@
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
 #include "analysis/words/said.h"
+#include "analysis/words/said_composed.h"
 #include "experiments/study/media.h"
 
 namespace jnd::analysis {
@@ -141,7 +142,7 @@ void add_pooled(const Target& target, const Everybody& all, const std::string& n
   Estimate fraction{.value = fit.weber_fraction, .unit = "1"};
   Estimate pse{.value = fit.pse};
   if (!fit.weber_fraction) {
-    fraction.reason = said("the pooled answers are {}", fit.reason);
+    fraction.reason = said("the pooled answers are {}", said_composed(fit.reason));
     no_value(target, name, fraction.reason);
   }
   if (fit.weber_fraction && !free_pse && are_all_alike(all)) {
@@ -232,7 +233,7 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
     }
   }
   const std::string method =
-      said("hierarchical {}", (fit.method.empty() ? std::string("probit") : fit.method));
+      said("hierarchical {}", said_composed(fit.method.empty() ? "probit" : fit.method));
   add(target, fraction, name,
       said("median person's w: {}{}{}", method,
            (is_primary ? said(" (primary)") : said(" (secondary)")), interval_basis(fit)),
@@ -244,7 +245,7 @@ void add_median_person(const Target& target, const Everybody& all, HierarchicalP
   if (!is_primary) return;
   add(target, spread, "slope_sd_between_people",
       said("sd of ln ln(1 + w) between people: {}{}", method,
-           (fit.note.empty() ? "" : "; " + fit.note)),
+           (fit.note.empty() ? "" : "; " + said_composed(fit.note))),
       all.size());
   add(target, lapses, "lapse_rate",
       said("half the share of random answers, of everybody: {}{}", method, prior_effect(fit)),

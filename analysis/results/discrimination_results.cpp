@@ -94,7 +94,7 @@ void add_own_fraction_tests(ResultsSection& section, const FractionsByName& a,
     section.comparisons.back().ratio_of = "ln(1 + w)";
   };
   if (!paired_a.empty()) {
-    add_of_logarithms("paired", paired_t_test(paired_a, paired_b));
+    add_of_logarithms(said("paired"), paired_t_test(paired_a, paired_b));
     add_of_logarithms(said("Wilcoxon, sensitivity"), wilcoxon_test(paired_a, paired_b));
   }
   if (free_pse) return;
@@ -159,7 +159,7 @@ ResultsSection discrimination_comparison(const StudyData& data, const ComparedBl
     const bool is_primary = free_pse == frees && has_primary;
     section.comparisons.push_back(
         {.name = said("{}ln ln(1 + w) of the median person, hierarchical, {}{}", pair,
-                      (free_pse ? "pse free" : said("pse at the reference")),
+                      (free_pse ? said("pse free") : said("pse at the reference")),
                       (is_primary ? said(" (primary)") : said(" (secondary)"))),
          .comparison = median_person_difference(
              first_answers, first, second_answers, second,

@@ -153,7 +153,7 @@ void compare(ResultsSection& section, const Quantity& quantity, const Weighing& 
            differences, quantity.unit);
   const std::string name =
       first + " - " + second + ": " + quantity.name + said_of(weighing.words) + ", ";
-  section.comparisons.push_back({name + "paired", paired_t_test(a, b)});
+  section.comparisons.push_back({name + said("paired"), paired_t_test(a, b)});
   if (weighing.suffix.empty()) {
     section.comparisons.push_back({name + "unpaired", welch_t_test(a, b)});
   }

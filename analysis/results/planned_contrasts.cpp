@@ -14,6 +14,7 @@
 #include "analysis/statistics/comparison.h"
 #include "analysis/statistics/multiplicity.h"
 #include "analysis/words/said.h"
+#include "analysis/words/said_composed.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -73,7 +74,7 @@ Scores scores_of(const OwnContrasts& own, std::size_t num_groups, const PlannedC
     }
     scores.excluded.push_back(
         {own.participants[person],
-         said("no {} of their own in {}", measure_words(plan), own.lacking[person])});
+         said("no {} of their own in {}", said_measure(plan), own.lacking[person])});
   }
   return scores;
 }
@@ -83,8 +84,8 @@ std::string people_words(const ContrastConditions& conditions) {
                                        : said("Welch's t of people's own contrasts");
 }
 
-constexpr char kTooFew[] =
-    "expected two or more people in each group who differ from each other, found fewer";
+constexpr const char* kTooFew = said_later(
+    "expected two or more people in each group who differ from each other, found fewer");
 
 /// The test by ranks, which assumes no distribution. It exists only for a single group.
 std::optional<ContrastTest> by_ranks(const PlannedContrast& plan, const Scores& scores,
@@ -92,9 +93,10 @@ std::optional<ContrastTest> by_ranks(const PlannedContrast& plan, const Scores& 
   if (scores.by_group.size() != 1 || scores.by_group.front().empty()) return std::nullopt;
   const std::vector<double>& values = scores.by_group.front();
   const Comparison ranks = wilcoxon_test(values, std::vector<double>(values.size(), 0.0));
-  ContrastTest test{.method = said("{} of people's own {}, two-sided", ranks.method, numbers),
-                    .num_participants = scores.num_participants,
-                    .reason = ranks.reason};
+  ContrastTest test{
+      .method = said("{} of people's own {}, two-sided", said_composed(ranks.method), numbers),
+      .num_participants = scores.num_participants,
+      .reason = ranks.reason};
   test.effect = told_effect(plan, ranks.hodges_lehmann);
   test.ci95 = told(plan, ranks.hodges_lehmann_ci95);
   test.statistic = ranks.statistic;
@@ -171,7 +173,8 @@ class HierarchicalTest {
                             : HierarchicalNumber::kLogWeberFraction;
     estimate = hierarchical_contrast(fit, HierarchicalLink::kLogSlope, number, weights_,
                                      groups_, num_people_);
-    std::string method = fit.method.empty() ? said("hierarchical fit") : fit.method;
+    std::string method =
+        fit.method.empty() ? said("hierarchical fit") : said_composed(fit.method);
     for (const HierarchicalCondition& one : fit.conditions) {
       for (const std::string& caution : one.cautions) {
         cautions.push_back(one.condition + ": " + caution);
@@ -323,7 +326,7 @@ std::string own_number_words(ContrastMeasure measure) {
     case ContrastMeasure::kPse:
       return said("ln(pse / reference)");
     case ContrastMeasure::kExponent:
-      return "exponents";
+      return said("exponents");
     case ContrastMeasure::kMagnitude:
       return said("mean ln magnitudes");
     case ContrastMeasure::kMatch:

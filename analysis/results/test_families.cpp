@@ -44,9 +44,9 @@ void mark_pairs_beside_plan(std::vector<ResultsSection>& sections) {
 }
 
 std::string family_note(const NamedComparison& named) {
-  if (named.family == kBesidePlanFamily) return kBesidePlanNote;
-  if (named.family == kPairsFamily) return kPairsNote;
-  return named.family == kAskedFamily ? kAskedNote : "";
+  if (named.family == kBesidePlanFamily) return said(kBesidePlanNote);
+  if (named.family == kPairsFamily) return said(kPairsNote);
+  return named.family == kAskedFamily ? said(kAskedNote) : "";
 }
 
 void adjust_by_family(std::vector<ResultsSection>& sections) {
