@@ -226,7 +226,8 @@ TEST_P(WrongReferenceDevice, IsFoundByTheCheckOfDevices) {
   ASSERT_TRUE(start("python", {"--key", drawn_key(), "--wrong", GetParam()}));
   const ProgramOutcome told = checked("network:" + place_ + ",simulated,key=robot");
   EXPECT_EQ(told.exit_code, 1) << told.err;
-  EXPECT_NE(told.out.find("\nfail  " + GetParam() + " "), std::string::npos) << told.out;
+  EXPECT_NE(("\n" + told.out).find("\nfail  " + GetParam() + " "), std::string::npos)
+      << told.out;
   EXPECT_NE(told.out.find(" to do: "), std::string::npos) << told.out;
 }
 
