@@ -71,7 +71,7 @@ namespace {
 std::string quoted_lines(const std::string& lines) {
   const std::size_t end = lines.find('\n');
   if (end == std::string::npos) return gnuplot_quoted(lines);
-  return gnuplot_quoted(lines.substr(0, end)) + ".\"\\n\"." +
+  return gnuplot_quoted(lines.substr(0, end)) + R"(."\n".)" +
          gnuplot_quoted(lines.substr(end + 1));
 }
 

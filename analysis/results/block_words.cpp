@@ -64,7 +64,7 @@ std::string adaptive_words(const Block& block) {
   if (block.procedure == "quest_plus") {
     return said("QUEST+ over {}", counted_words(num_levels, "level"));
   }
-  const std::string words = said_of(experiments::procedure_named(block.procedure).words());
+  std::string words = said_of(experiments::procedure_named(block.procedure).words());
   if (num_levels == 0) return words;
   return said("{} over {}", words, counted_words(num_levels, "level"));
 }
