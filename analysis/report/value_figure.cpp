@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "analysis/charts/axis_range.h"
 #include "analysis/report/plot_parts.h"
@@ -122,7 +123,7 @@ constexpr int kNumPanelColumns = 4;
 /// aslant and cut where they are very long.
 class NamesBelow {
  public:
-  NamesBelow(const std::vector<std::string>& names, bool small) : names_(names) {
+  NamesBelow(std::vector<std::string> names, bool small) : names_(std::move(names)) {
     const PanelGrid grid;
     const double width_in =
         small
