@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 #include <utility>
 
 namespace jnd::device {
@@ -25,12 +24,12 @@ int pushed_point(const DeviceCapabilities& can) {
 bool stands_still(std::span<const core::HapticState> states, std::size_t point, int axis) {
   if (states.empty()) return true;
   constexpr double kStill_m = 0.002;
-  const auto [low, high] =
-      std::ranges::minmax(states.subspan(states.size() / 2) |
-                          std::views::transform([&](const core::HapticState& state) {
-                            return state.tip_position_m[point][axis];
-                          }));
-  return high - low < kStill_m;
+  double low_m = states.back().tip_position_m[point][axis], high_m = low_m;
+  for (const core::HapticState& state : states.subspan(states.size() / 2)) {
+    low_m = std::min(low_m, state.tip_position_m[point][axis]);
+    high_m = std::max(high_m, state.tip_position_m[point][axis]);
+  }
+  return high_m - low_m < kStill_m;
 }
 
 std::string unlikely_numbers(const DeviceCapabilities& can) {
