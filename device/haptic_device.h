@@ -49,7 +49,10 @@ struct DeviceCapabilities {
   /// simulated.
   bool has_own_clock = false;
   bool simulated = false;  ///< It cannot hurt anybody.
-  int num_joints = 0;      ///< Number of joints that it reports: 0 or `core::kNumJoints`.
+  /// Its driver or server says that it cannot hurt anybody, even if the operator opens it as a
+  /// real one and `simulated` is false.
+  bool says_simulated = false;
+  int num_joints = 0;  ///< Number of joints that it reports: 0 or `core::kNumJoints`.
   /// Its measurements say which force has acted, in `HapticState::acted_n`. A sent force acts
   /// late, and the device may limit it. A device that does not report this is assumed to act at
   /// once, and is armed only if it is simulated.

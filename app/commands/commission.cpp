@@ -138,9 +138,8 @@ int run_daily(const CommissionOptions& options, const MeasuringPlan& plan,
     folders.insert(folders.begin(),
                    folder_for_profile(options.out, options.record, is_simulated));
   }
-  const KnownProfile known = profile_to_check(
-      {.name = options.device, .identity = device.identity(), .is_simulated = is_simulated},
-      options.profile, folders, today());
+  const KnownProfile known = profile_to_check(device_of_profile(options.device, device),
+                                              options.profile, folders, today());
   if (!options.json) {
     fmt::print("{}{}, profile {}, {}\n", options.device, is_simulated ? " (SIMULATED)" : "",
                known.place, age_words(known.profile, today()));

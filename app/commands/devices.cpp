@@ -169,9 +169,10 @@ int describe_device(const DevicesOptions& options) {
   out["own_mass_kg"] = can.own_mass_kg;
   out["own_damping_n_s_per_m"] = can.own_damping_n_s_per_m;
   out["closed_loop_delay_s"] = can.closed_loop_delay_s;
-  const FoundProfile profile = find_profile(
-      {.name = options.device, .identity = told.identity, .is_simulated = told.says_simulated},
-      profile_folders(), today());
+  const FoundProfile profile = find_profile({.name = options.device,
+                                             .identity = told.identity,
+                                             .says_simulated = told.says_simulated},
+                                            profile_folders(), today());
   if (options.json) {
     out["profile"] = profile_json(profile);
     fmt::print("{}\n", json_text(out));

@@ -366,7 +366,7 @@ std::optional<KnownProfile> profile_of_record(const fs::path& record, const std:
                                                             : fs::path(".")};
   for (const fs::path& folder : profile_folders()) folders.push_back(folder);
   return find_profile(
-             {.name = told.device, .identity = told.identity, .is_simulated = told.simulated},
+             {.name = told.device, .identity = told.identity, .says_simulated = told.simulated},
              folders, on_day)
       .known;
 }

@@ -211,9 +211,7 @@ DeviceView look_at_device(const std::string& name, const std::string& profile,
         device::make_device(name, kDeviceRate_hz);
     view.is_simulated = device->capabilities().simulated;
     view.facts = facts_of(*device);
-    look_at_profile(
-        view, {.name = name, .identity = device->identity(), .is_simulated = view.is_simulated},
-        profile);
+    look_at_profile(view, device_of_profile(name, *device), profile);
     look_at_record(
         view, {.name = name, .identity = device->identity(), .can = device->capabilities()},
         plan);

@@ -310,9 +310,8 @@ void OperatedDevice::check_daily() {
       if (is_simulated) {
         folders.insert(folders.begin(), folder_for_profile({}, usual_record(device_), true));
       }
-      const KnownProfile known = profile_to_check(
-          {.name = device_, .identity = device.identity(), .is_simulated = is_simulated},
-          profile_, folders, today());
+      const KnownProfile known =
+          profile_to_check(device_of_profile(device_, device), profile_, folders, today());
       const DailyCheckResult result =
           app::check_daily(device, bench, plan(), known.profile,
                            std::max(today(), experiments::last_checked_on(known.profile)),
@@ -335,13 +334,9 @@ void OperatedDevice::try_force(int axis) {
   begin(DeviceWork::kTryingForce, [this, axis] {
     std::string words;
     measure_at([&](device::HapticDevice& device, device::Bench& bench) {
-      const ForceTest test{
-          .along = Eigen::Vector3d::Unit(axis),
-          .force_n = kTriedForce_n,
-          .rotation = frame_of({.name = device_,
-                                .identity = device.identity(),
-                                .is_simulated = device.capabilities().simulated},
-                               profile_)};
+      const ForceTest test{.along = Eigen::Vector3d::Unit(axis),
+                           .force_n = kTriedForce_n,
+                           .rotation = frame_of(device_of_profile(device_, device), profile_)};
       words = moved_words(
           test_force(device, bench, plan(), test,
                      [this](double done, const std::string& now) { tell(done, now); }),

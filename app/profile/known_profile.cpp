@@ -67,7 +67,7 @@ std::string age_words(const experiments::DeviceProfile& profile, const std::stri
 }
 
 std::string foreign_words(const KnownProfile& known, const device::DeviceIdentity& device,
-                          bool is_simulated, bool is_open) {
+                          bool says_simulated, bool is_open) {
   const experiments::DeviceProfile::Device& its = known.profile.device;
   const bool has_serial = is_open || !device.serial.empty();
   if (its.model != device.model || (has_serial && its.serial != device.serial)) {
@@ -77,7 +77,7 @@ std::string foreign_words(const KnownProfile& known, const device::DeviceIdentit
         known.place, device_words(device.model, device.serial),
         device_words(its.model, its.serial));
   }
-  if (known.profile.simulated && !is_simulated) {
+  if (known.profile.simulated && !says_simulated) {
     return fmt::format(
         "{}: expected a profile that was measured on the device itself, found one of a "
         "SIMULATED device; measure it with `jnd commission`",

@@ -43,10 +43,11 @@ struct KnownProfile {
 
 /// Why the profile does not belong to this device, in a sentence with the profile's place; ""
 /// if it does. Some devices tell their serial only when they are open, so a missing serial is
-/// no difference until `is_open`.
+/// no difference until `is_open`. The profile of a simulated device belongs only to one that
+/// says that it is simulated.
 [[nodiscard]] std::string foreign_words(const KnownProfile& known,
-                                        const device::DeviceIdentity& device, bool is_simulated,
-                                        bool is_open);
+                                        const device::DeviceIdentity& device,
+                                        bool says_simulated, bool is_open);
 
 /// Why the profile does not hold on this day, in such a sentence: it has expired. "" if it
 /// holds.

@@ -84,11 +84,16 @@ fs::path folder_for_profile(const fs::path& given, const fs::path& record, bool 
   return folders.back();
 }
 
-DeviceOfProfile device_of_profile(const std::string& name, double rate_hz) {
-  const std::unique_ptr<device::HapticDevice> device = device::make_device(name, rate_hz);
+DeviceOfProfile device_of_profile(const std::string& name, const device::HapticDevice& device) {
+  const device::DeviceCapabilities can = device.capabilities();
   return {.name = name,
-          .identity = device->identity(),
-          .is_simulated = device->capabilities().simulated};
+          .identity = device.identity(),
+          .is_simulated = can.simulated,
+          .says_simulated = can.simulated || can.says_simulated};
+}
+
+DeviceOfProfile device_of_profile(const std::string& name, double rate_hz) {
+  return device_of_profile(name, *device::make_device(name, rate_hz));
 }
 
 FoundProfile find_profile(const DeviceOfProfile& device, const std::vector<fs::path>& folders,
@@ -98,7 +103,7 @@ FoundProfile find_profile(const DeviceOfProfile& device, const std::vector<fs::p
   for (const fs::path& file : profile_files(folders)) {
     try {
       KnownProfile known = read_known_profile(file);
-      if (foreign_words(known, device.identity, device.is_simulated, false).empty()) {
+      if (foreign_words(known, device.identity, device.says_simulated, false).empty()) {
         fitting.push_back(std::move(known));
       }
     } catch (const core::Error& error) {
@@ -134,7 +139,7 @@ ProfileChoice choose_profile(const DeviceOfProfile& device, const std::string& f
   ProfileChoice choice;
   if (!file.empty()) {
     KnownProfile known = read_known_profile(file);
-    std::string problem = foreign_words(known, device.identity, device.is_simulated, false);
+    std::string problem = foreign_words(known, device.identity, device.says_simulated, false);
     if (problem.empty()) problem = outdated_words(known, on_day);
     if (!problem.empty()) throw core::Error(problem);
     choice.known = std::move(known);
@@ -155,7 +160,7 @@ KnownProfile profile_to_check(const DeviceOfProfile& device, const std::string& 
   std::string problem;
   if (!file.empty()) {
     known = read_known_profile(file);
-    problem = foreign_words(*known, device.identity, device.is_simulated, false);
+    problem = foreign_words(*known, device.identity, device.says_simulated, false);
   } else {
     FoundProfile found = find_profile(device, folders, on_day);
     known = std::move(found.known);
@@ -215,7 +220,7 @@ std::string refused_resume_words(const core::StudyStore& store, const core::Sess
            "; leave it away";
   }
   const KnownProfile stored = stored_profile(store, session.device_profile_sha256);
-  std::string foreign = foreign_words(stored, device.identity, device.is_simulated, false);
+  std::string foreign = foreign_words(stored, device.identity, device.says_simulated, false);
   if (!foreign.empty()) return foreign;
   FoundProfile found;
   if (!file.empty()) {

@@ -28,7 +28,13 @@ struct DeviceOfProfile {
   std::string name;  ///< As it is written after `--device`, for messages.
   device::DeviceIdentity identity;
   bool is_simulated = false;
+  /// It says that it is a simulation, even if it is opened as a real device. Then a profile of
+  /// a simulated device fits.
+  bool says_simulated = false;
 };
+
+[[nodiscard]] DeviceOfProfile device_of_profile(const std::string& name,
+                                                const device::HapticDevice& device);
 
 /// Asks the device without opening it. Throws as `device::make_device` does.
 [[nodiscard]] DeviceOfProfile device_of_profile(const std::string& name, double rate_hz);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/command_line/stop_signals.h"
+#include "app/profile/profile_choice.h"
 #include "app/session/device_checks.h"
 #include "app/session/movement_meter.h"
 #include "app/session/sleep_inhibitor.h"
@@ -199,7 +200,8 @@ struct Apparatus::Implementation {
     if (parameters.profile == nullptr) return;
     const std::string problem =
         foreign_words(*parameters.profile, bare_device->identity(),
-                      bare_device->capabilities().simulated, /*is_open=*/true);
+                      device_of_profile(parameters.device, *bare_device).says_simulated,
+                      /*is_open=*/true);
     if (problem.empty()) return;
     if (running) {
       running->stop();

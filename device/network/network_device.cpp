@@ -68,6 +68,7 @@ DeviceIdentity NetworkDevice::identity() const {
 DeviceCapabilities NetworkDevice::capabilities() const noexcept {
   DeviceCapabilities can =
       device_ ? device_->capabilities : DeviceCapabilities{.rate_hz = parameters_.rate_hz};
+  can.says_simulated = can.simulated;
   can.simulated = can.simulated && parameters_.believes_simulated;
   can.max_stale_s = std::max(can.max_stale_s, parameters_.max_stale_s);
   if (!can.simulated) can.max_stale_s = std::min(can.max_stale_s, kMostStaleOfReal_s);

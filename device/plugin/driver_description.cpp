@@ -199,6 +199,7 @@ DeviceCapabilities capabilities_of(const jnd_device_description& description, do
           .watchdog_timeout_s = command_timeout_s(simulated),
           .has_own_clock = has(description, JND_DEVICE_HAS_OWN_CLOCK) || !simulated,
           .simulated = simulated,
+          .says_simulated = has(description, JND_DEVICE_IS_SIMULATED),
           .tells_acting_force = has(description, JND_DEVICE_TELLS_ACTED_FORCE),
           .moves_by_itself = has(description, JND_DEVICE_MOVES_BY_ITSELF),
           .max_slew_n_per_s = description.max_slew_n_per_s,

@@ -44,7 +44,8 @@ class ProfileChoiceTest : public ::testing::Test {
                                               bool is_simulated = false) {
     return {.name = "plugin:wam",
             .identity = {.model = "wam", .serial = serial, .firmware = "2.1"},
-            .is_simulated = is_simulated};
+            .is_simulated = is_simulated,
+            .says_simulated = is_simulated};
   }
   fs::path write(const DeviceProfile& profile, const std::string& folder = "devices") const {
     return experiments::write_device_profile(profile, temporary_.path() / folder);
@@ -192,6 +193,17 @@ TEST_F(ProfileChoiceTest, OneOfASimulatedDeviceIsNoneOfARealOne) {
   EXPECT_FALSE(choice(device()).known);
   EXPECT_NE(choice(device()).lack, "");
   EXPECT_TRUE(choice(device("17", true), file.string()).known);
+}
+
+TEST_F(ProfileChoiceTest, ASimulationThatIsOpenedAsRealNeedsAProfileAndItsOwnFits) {
+  DeviceOfProfile rehearsed = device();
+  rehearsed.says_simulated = true;
+  EXPECT_NE(choice(rehearsed).lack, "");
+  DeviceProfile profile = sound_profile();
+  profile.simulated = true;
+  write(profile);
+  EXPECT_TRUE(choice(rehearsed).known);
+  EXPECT_EQ(choice(rehearsed).lack, "");
 }
 
 TEST_F(ProfileChoiceTest, AnEditedOneIsRefusedWithThePartThatWasChanged) {
