@@ -9,11 +9,11 @@
 #include "core/storage/export_note.h"
 #include "core/storage/files.h"
 #include "core/storage/flight_record.h"
-#include "core/storage/kept_rows.h"
 #include "core/storage/recording.h"
 #include "core/storage/stream_file.h"
 #include "core/storage/study_format.h"
 #include "core/storage/study_store.h"
+#include "core/storage/table_rules.h"
 #include "core/storage/writer_lock.h"
 
 namespace jnd::core {
@@ -64,16 +64,16 @@ std::set<std::string> texts_of(Database& database, const std::string& query) {
 
 /// Every row of these in an earlier copy is one of the study's, or of somebody who withdrew.
 /// The copy may be of an older layout, and is then compared by its own columns.
-void require_known_rows(Database& copy, Database& study, const KeptRows& kept,
+void require_known_rows(Database& copy, Database& study, const TableRule& rule,
                         const fs::path& target) {
-  const std::string table = kept.table;
+  const std::string& table = rule.table;
   if (!has_table(copy, table)) return;
   std::string whole;
   for (const std::string& column :
        texts_of(copy, "SELECT name FROM pragma_table_info('" + table + "')")) {
     whole += (whole.empty() ? "quote(" : " || ',' || quote(") + column + ")";
   }
-  const std::string column = kept.gone_with;
+  const std::string& column = rule.erased_by;
   const std::set<std::string> known = texts_of(study, "SELECT " + whole + " FROM " + table);
   const std::set<std::string> gone =
       column.empty()
@@ -87,7 +87,7 @@ void require_known_rows(Database& copy, Database& study, const KeptRows& kept,
   while (rows.step()) {
     if (known.contains(rows.text(0)) || gone.contains(rows.text(1))) continue;
     throw Error(target.string() + ": expected an earlier copy of this study, found " +
-                kept.meaning +
+                rule.row +
                 " that the study does not have; nothing was changed, choose another folder");
   }
 }
@@ -124,7 +124,9 @@ void require_earlier(Database& copy, Database& study, const fs::path& target) {
     known_tombstone.reset();
     if (!known) refuse(session, "the withdrawal");
   }
-  for (const KeptRows& kept : kKeptRows) require_known_rows(copy, study, kept, target);
+  for (const TableRule& rule : table_rules(study)) {
+    if (rule.is_compared) require_known_rows(copy, study, rule, target);
+  }
 }
 
 fs::path as_noted(const fs::path& target) { return fs::absolute(target).lexically_normal(); }

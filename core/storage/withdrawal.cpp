@@ -9,6 +9,7 @@
 #include "core/storage/files.h"
 #include "core/storage/study_format.h"
 #include "core/storage/study_store.h"
+#include "core/storage/table_rules.h"
 #include "core/storage/writer_lock.h"
 
 namespace jnd::core {
@@ -86,16 +87,19 @@ void delete_rows(Database& database, const std::string& participant,
   note_state(database, participant, kBegun, time_ns);
   const auto all_guards = guards(database);
   for (const auto& [name, sql] : all_guards) database.execute("DROP TRIGGER " + name);
-  for (const std::int64_t session : sessions) {
-    leave_tombstone(database, session, time_ns);
-    for (const char* table : {"acknowledgement", "question_answer", "answer", "presentation",
-                              "trial", "design", "event", "session"}) {
-      Statement(database, std::string("DELETE FROM ") + table + " WHERE session = ?")
-          .bind(session)
-          .run();
+  for (const std::int64_t session : sessions) leave_tombstone(database, session, time_ns);
+  // Rows of one table refer to those of another, in whatever order the tables come.
+  database.execute("PRAGMA defer_foreign_keys = ON");
+  for (const TableRule& rule : table_rules(database)) {
+    const std::string deletion = "DELETE FROM " + rule.table + " WHERE " + rule.erased_by;
+    if (rule.erased_by == "participant") {
+      Statement(database, deletion + " = ?").bind(participant).run();
+    } else if (rule.erased_by == "session") {
+      for (const std::int64_t session : sessions) {
+        Statement(database, deletion + " = ?").bind(session).run();
+      }
     }
   }
-  Statement(database, "DELETE FROM appointment WHERE participant = ?").bind(participant).run();
   for (const auto& [name, sql] : all_guards) database.execute(sql);
   transaction.commit();
 }
