@@ -222,7 +222,6 @@ class HapticLoop {
   core::Staleness staleness_;
   core::HeartbeatMonitor heartbeat_;
   core::HeartbeatMonitor session_;
-  core::UnseenForce unseen_force_;
   core::PassivityController passivity_;
   core::ForceLimiter limiter_;
   core::ShareRatios shares_;  ///< Shares of the points that the device has; 0 at the others.
@@ -232,6 +231,7 @@ class HapticLoop {
   bool acts_at_once_;  ///< The force that was sent last counts as the force that acted.
   bool may_be_armed_;
   bool tells_acted_;  ///< The device does.
+  core::UnseenForce unseen_force_;
   core::Guards guards_;
   core::FlightRecorder flight_recorder_;
   std::atomic<std::uint64_t> rearm_requested_{0};  ///< Faults seen, and one; 0: nobody asks.

@@ -140,8 +140,9 @@ std::string_view words(Fault fault) noexcept {
           "units and filters and that its time is in ns, then arm it again.");
     case Fault::kActingForceUnknown:
       return for_people(
-          "The device does not tell which force acted while it measured, so nobody could see "
-          "it push the hand: it cannot be armed before its driver tells that.");
+          "The device does not tell which force acted while it measured, or tells more than it "
+          "can give, so nobody could see it push the hand: its driver has to tell the true "
+          "force, in N, before it is armed.");
     case Fault::kNotEnabled:
       return for_people(
           "The enabling switch of the device is open: whoever holds it closes it, then arm the "

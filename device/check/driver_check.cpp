@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/safety/fault.h"
 #include "core/safety/force_limiter.h"
+#include "device/check/push_judge.h"
 #include "device/check/velocity_lag.h"
 
 namespace jnd::device {
@@ -61,6 +62,7 @@ class DriverChecker {
         is_paced_(check.is_paced),
         is_cancelled_(check.is_cancelled),
         check_(check),
+        push_judge_(can_),
         limiter_({.per_point_n = push_n_,
                   .total_n = push_n_,
                   .slew_n_per_s = can_.simulated ? 2000.0 : 100.0,
@@ -76,7 +78,8 @@ class DriverChecker {
       judge_halt();
       judge_limits();
     } else {
-      for (const DeviceRule& rule : {kDriverVelocity, kForceSign, kDriverHalt, kDriverLimits}) {
+      for (const DeviceRule& rule : {kDriverVelocity, kForceSign, kActed, kPoints, kForceSize,
+                                     kDelay, kDriverHalt, kDriverLimits}) {
         judge_.skip(rule, check_.by_hand_step_s ? kHandIsIn : kNoPush);
       }
       if (!check_.by_hand_step_s) judge_.skip(kSlowVelocity, kNoPush);
@@ -118,12 +121,15 @@ class DriverChecker {
     const auto num_ticks = std::llround(duration_s * can_.rate_hz);
     auto due = Clock::now();
     num_ticks_ = num_ticks;
+    std::vector<double> reads_s;
     for (std::int64_t i = 0; i < num_ticks; ++i) {
       if (is_cancelled_ && is_cancelled_()) stop();
       if (is_paced_) std::this_thread::sleep_until(due);
       due = std::max(due + period, Clock::now());
       core::HapticState state;
+      const auto began = Clock::now();
       const bool is_measured = device_.read(state);
+      reads_s.push_back(std::chrono::duration<double>(Clock::now() - began).count());
       if (is_measured) {
         all.push_back({state, std::chrono::duration<double>(Clock::now() - begin_).count(), i});
         newest_ = state;
@@ -133,6 +139,8 @@ class DriverChecker {
       limiter_.limit(newest_.attached, newest_.tip_velocity_m_per_s, limited_n);
       if (!device_.write(limited_n)) ++num_not_taken_;
     }
+    std::ranges::nth_element(reads_s, reads_s.begin() + std::ssize(reads_s) / 2);
+    median_read_s_ = reads_s[reads_s.size() / 2];
     return all;
   }
 
@@ -166,15 +174,18 @@ class DriverChecker {
     const std::vector<Measured> all = ticks(2.0, core::zero_vectors());
     const auto num_read = static_cast<double>(all.size());
     constexpr double kFewest = 0.99;
-    const bool keeps_pace =
-        num_read >= kFewest * static_cast<double>(num_ticks_) && num_not_taken_ == 0;
+    // A device that paces the loop keeps its read waiting on purpose.
+    const double most_s = can_.paces_loop ? 1.0 : kShareOfTick / can_.rate_hz;
+    const bool keeps_pace = num_read >= kFewest * static_cast<double>(num_ticks_) &&
+                            num_not_taken_ == 0 && median_read_s_ <= most_s;
     const std::string said = keeps_pace ? "" : device_.words_of_fault();
     DeviceRule pace = kDriverPace;
     if (!said.empty()) pace.advice = "Mend what the driver says; it hides how punctual it is.";
-    judge_.judge(pace, keeps_pace,
-                 fmt::format("{} of {} ticks brought one, {} forces were not taken{}",
-                             all.size(), num_ticks_, num_not_taken_,
-                             said.empty() ? "" : ". The driver says: " + said));
+    judge_.judge(
+        pace, keeps_pace,
+        fmt::format("{} of {} ticks brought one in {:.2f} ms, {} forces were not taken{}",
+                    all.size(), num_ticks_, 1e3 * median_read_s_, num_not_taken_,
+                    said.empty() ? "" : ". The driver says: " + said));
     if (all.size() < 2) return;
     judge_time(all);
     double largest = 0.0;
@@ -245,6 +256,10 @@ class DriverChecker {
           ticks(0.15, push_of(static_cast<int>(point_), force_n));
       if (latched.empty()) latched = latched_words();
       observe_lag(pushed, ticks(0.3, core::zero_vectors()));
+      push_judge_.observe({.point = static_cast<int>(point_),
+                           .force_n = force_n,
+                           .before = states_of(before),
+                           .during = states_of(pushed)});
       if (before.empty() || pushed.size() < 2) {
         wrong = fast = "no measurement came while it was pushed";
         break;
@@ -279,6 +294,22 @@ class DriverChecker {
     }
     judge_.judge(kDriverVelocity, fast.empty(), fast);
     lag_.judge(judge_);
+    push_other_points();
+    push_judge_.judge(judge_);
+    push_judge_.judge_delay(judge_);
+  }
+
+  void push_other_points() {
+    const Eigen::Vector3d force_n = {push_n_, 0.0, 0.0};
+    for (int point = 0; point < core::kNumContactPoints; ++point) {
+      if (!can_.has_point(point) || point == static_cast<int>(point_)) continue;
+      const std::vector<core::HapticState> before = states_of(ticks(0.3, core::zero_vectors()));
+      const std::vector<core::HapticState> pushed =
+          states_of(ticks(0.15, push_of(point, force_n)));
+      push_judge_.observe(
+          {.point = point, .force_n = force_n, .before = before, .during = pushed});
+    }
+    (void)ticks(0.3, core::zero_vectors());
   }
 
   /// While it is pushed, and while it comes back.
@@ -376,7 +407,7 @@ class DriverChecker {
                  fmt::format("asked for {:g} N, {:.1f} N acted", asked_n, most_n));
   }
 
-  static constexpr double kLeastMoved_m = 0.0002;
+  static constexpr double kLeastMoved_m = 0.0002, kShareOfTick = 1.0 / 3.0;
   static constexpr double kLimitsTime_s = 0.03, kMostDelay_s = 0.1;
   static constexpr std::size_t kOfDelay = 20;  ///< Measurements that may show what was before.
 
@@ -388,12 +419,14 @@ class DriverChecker {
   std::function<bool()> is_cancelled_;
   const DriverCheck& check_;
   VelocityLagJudge lag_;
+  PushJudge push_judge_;
   core::ForceLimiter limiter_;  ///< A push that gets away ends.
   RuleJudge judge_;
   Clock::time_point begin_;
   core::HapticState newest_;
   std::int64_t num_ticks_ = 0;
   int num_not_taken_ = 0;
+  double median_read_s_ = 0.0;  ///< How long a read took in the last ticks.
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "device/check/link_probe.h"
 #include "device/check/network_rules.h"
+#include "device/check/push_judge.h"
 #include "device/check/velocity_lag.h"
 #include "device/haptic_device.h"
 #include "device/network/crc32.h"
@@ -274,8 +275,9 @@ class NetworkChecker {
 
   void skip_pushes(LinkProbe&) {
     if (!check_.by_hand_step_s) judge_.skip(kSlowVelocity, kNoPush);
-    for (const DeviceRule& rule : {kArmsWithForce, kArming, kForceSign, kVelocity, kToldAsSent,
-                                   kNoLimits, kReplay, kSilence, kRearms, kHalt}) {
+    for (const DeviceRule& rule :
+         {kArmsWithForce, kArming, kForceSign, kVelocity, kToldAsSent, kActed, kPoints,
+          kForceSize, kNoLimits, kReplay, kSilence, kRearms, kHalt}) {
       judge_.skip(rule, check_.by_hand_step_s ? kHandIsIn : kNoPush);
     }
   }
@@ -323,6 +325,9 @@ class NetworkChecker {
     int num_tried = 0;
     bool any_acted = false, is_told_in_time = true;
     VelocityLagJudge lag;
+    DeviceCapabilities can = program.welcome().capabilities;
+    can.tells_acting_force = true;  // Every state does.
+    PushJudge pushes(can);
     for (int axis = 0; axis < 3; ++axis) {
       (void)program.arm(arm_number_++);
       const States before = program.talk(0.3, arm_number_ - 1, core::zero_vectors());
@@ -335,6 +340,10 @@ class NetworkChecker {
         moved.push_back(seen.state.measured);
       }
       lag.observe(moved, point_);
+      pushes.observe({.point = static_cast<int>(point_),
+                      .force_n = force_n,
+                      .before = measured_in(before),
+                      .during = measured_in(states)});
       const auto acting = std::ranges::find_if(states, acts);
       if (acting == states.end() || before.empty()) {
         wrong += fmt::format("{}not at all along {}", wrong.empty() ? "" : ", ", "xyz"[axis]);
@@ -371,11 +380,15 @@ class NetworkChecker {
           "no state tells that a force acted: tell it in acted_n, and arm when asked to");
       judge_.skip(kToldAsSent, "no force acted");
       judge_.skip(kVelocity, "no force acted");
-      judge_.skip(kSlowVelocity, "no force acted");
+      for (const DeviceRule& rule : {kSlowVelocity, kActed, kPoints, kForceSize}) {
+        judge_.skip(rule, "no force acted");
+      }
       return;
     }
     judge_.judge(kVelocity, fast.empty(), fast);
     lag.judge(judge_);
+    push_other_points(program, pushes);
+    pushes.judge(judge_);
     if (num_tried == 0 && wrong.empty()) {
       judge_.skip(kForceSign, kHidesPush);
       return judge_.skip(kToldAsSent, kHidesPush);
@@ -384,6 +397,21 @@ class NetworkChecker {
                  wrong.empty() ? "" : "pushed along the axis it moved " + wrong);
     judge_.judge(kToldAsSent, is_told_in_time,
                  is_told_in_time ? "" : "the hand moves long after the force is told to act");
+  }
+
+  void push_other_points(LinkProbe& program, PushJudge& pushes) {
+    const DeviceCapabilities& can = program.welcome().capabilities;
+    const Eigen::Vector3d force_n = {push_n_, 0.0, 0.0};
+    for (int point = 0; point < core::kNumContactPoints; ++point) {
+      if (!can.has_point(point) || point == static_cast<int>(point_)) continue;
+      (void)program.arm(arm_number_++);
+      const std::vector<core::HapticState> before =
+          measured_in(program.talk(0.3, arm_number_ - 1, core::zero_vectors()));
+      const std::vector<core::HapticState> pushed =
+          measured_in(program.talk(0.15, arm_number_ - 1, push_of(point, force_n)));
+      pushes.observe({.point = point, .force_n = force_n, .before = before, .during = pushed});
+    }
+    (void)program.talk(0.3, arm_number_ - 1, core::zero_vectors());
   }
 
   void judge_limits(LinkProbe& program) {

@@ -280,6 +280,27 @@ TEST(HapticLoopPort, AForceThatIsNoNumberBlindsNobody) {
   EXPECT_EQ(after_arming(device), Fault::kNonFiniteState);
 }
 
+TEST(HapticLoopPort, AForceToldInAnotherUnitIsAFault) {
+  ScriptedDevice device;
+  device.device_capabilities = {
+      .max_force_per_point_n = 8.0, .simulated = true, .tells_acting_force = true};
+  double told_n = 99.0;  // A hand may press that hard on a sensor.
+  device.while_read = [&] { device.state.acted_n[1].y() = told_n; };
+  core::LatestValue<core::HapticCommand> commands;
+  core::LatestValue<core::Telemetry> telemetry;
+  core::EmergencyStop stop;
+  HapticLoop loop({.starts_armed = true}, device, {commands, telemetry, stop});
+  const auto fault_after = [&](int num_ticks) {
+    for (int i = 0; i < num_ticks; ++i) loop.tick();
+    telemetry.fetch();
+    return telemetry.value().fault;
+  };
+  EXPECT_EQ(fault_after(500), Fault::kNone);
+  told_n = 2000.0;
+  EXPECT_EQ(fault_after(40), Fault::kNone) << "a blow";
+  EXPECT_EQ(fault_after(20), Fault::kActingForceUnknown);
+}
+
 TEST(HapticLoopPort, ADeviceThatNeverTellsOfTheForceItGivesIsAFault) {
   ScriptedDevice device;
   device.device_capabilities = {.simulated = true, .tells_acting_force = true};

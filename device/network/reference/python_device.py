@@ -46,6 +46,9 @@ WRONG = {
     "no_limits": "has no limit of force and none of its change",
     "echo": "echoes a clock that nobody sent, a second ahead",
     "told_as_sent": "gives every force 30 ms late and tells it as if it acted at once",
+    "acted": "tells half of each force",
+    "points": "moves the next point instead of the one that is pushed",
+    "force_size": "pushes the hand seven times as hard as it was asked",
     "slow_velocity": "filters velocities by a low-pass of first order that lags by 40 ms",
     "other_version": "does not answer a hello of another version",
     "unknown_stream": "does not answer a command on a stream that it does not know (without a key)",
@@ -515,6 +518,9 @@ class Server:
             self._slow_m_per_s = [slow + part * (now - slow) for slow, now
                                   in zip(self._slow_m_per_s, measured[2])]
             measured = (*measured[:2], list(self._slow_m_per_s), *measured[3:])
+        if self._wrong == "points":
+            for i in range(15):
+                measured[1][(i + 3) % 15] += 0.01 * self._acted_n[i]
         self._measured = measured
 
     def _give(self, force_n):
@@ -523,10 +529,11 @@ class Server:
             late = self._waiting_n.pop(0) if len(self._waiting_n) > 0.03 * self._rate_hz else None
             given_n = late or [0.0] * 15
         else:
-            given_n = [-value for value in force_n] if self._wrong == "force_sign" else force_n
+            times = {"force_sign": -1.0, "force_size": 7.0}.get(self._wrong, 1.0)
+            given_n = [times * value for value in force_n]
         try:
             self._robot.write_robot(given_n)
-            self._acted_n = force_n
+            self._acted_n = [0.5 * value for value in force_n] if self._wrong == "acted" else force_n
         except OSError:
             self._disarm(5)
             self._acted_n = given_n = [0.0] * 15

@@ -307,7 +307,7 @@ TEST_F(ServedPluginTest, ASimulatorServesNoDriverThatMayBeReal) {
 TEST_F(PluginCommandTest, TheExampleKeepsTheRulesOfDrivers) {
   const ProgramOutcome told = jnd({"device-check", "plugin:example:simulated", "--json"});
   EXPECT_EQ(told.exit_code, 0) << told.out << told.err;
-  EXPECT_EQ(document(told.out)["num_passed"].get<int>(), 12) << told.out;
+  EXPECT_EQ(document(told.out)["num_passed"].get<int>(), 16) << told.out;
 }
 
 }  // namespace plugin_command_test

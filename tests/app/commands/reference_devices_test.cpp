@@ -236,9 +236,10 @@ INSTANTIATE_TEST_SUITE_P(Names, WrongReferenceDevice,
                                            "bad_key", "replay", "stale", "sequence_wrap",
                                            "sequence_step", "half_rate", "rearms",
                                            "arms_with_force", "no_limits", "echo",
-                                           "told_as_sent", "slow_velocity", "description",
-                                           "other_version", "datagrams", "arming", "jitter",
-                                           "time", "velocity", "busy", "goodbye", "gone"),
+                                           "told_as_sent", "slow_velocity", "acted", "points",
+                                           "force_size", "description", "other_version",
+                                           "datagrams", "arming", "jitter", "time", "velocity",
+                                           "busy", "goodbye", "gone"),
                          [](const auto& info) { return info.param; });
 
 TEST_F(ReferenceDevice, WhichSaysNothingOfUnknownStreamsIsFoundWithoutAKey) {

@@ -4,8 +4,10 @@
 
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
@@ -25,6 +27,7 @@ class WrongDevice final : public HapticDevice {
     DeviceCapabilities can = hand_.capabilities();
     can.share_ratio = core::area_shares_of_first(2);
     can.tells_acting_force = true;
+    can.own_mass_kg = 1.0;
     can.simulated = wrong_ != "real" && wrong_ != "blind";
     can.has_own_clock = has_own_clock_;
     if (wrong_ == "description") can.workspace.half_width_y_m = 400.0;
@@ -41,6 +44,7 @@ class WrongDevice final : public HapticDevice {
     if (wrong_ == "no_first_sample" && num_reads_ == 1) return false;
     if (wrong_ == "says_why" && num_reads_ > 600) return false;
     if (wrong_ == "blind" && num_reads_ > 2400) return false;
+    if (wrong_ == "slow_read") std::this_thread::sleep_for(std::chrono::microseconds(700));
     if (wrong_ == "pace" && num_reads_ % 20 == 0) return false;
     if (wrong_ == "time") state.device_time_ns += state.device_time_ns / 10;
     for (auto& at : state.tip_position_m) at *= wrong_ == "units" ? 1000.0 : 1.0;
@@ -54,6 +58,11 @@ class WrongDevice final : public HapticDevice {
     state.attached = {true, true, false, false, false};
     state.attached[4] = wrong_ == "absent_points";
     state.acted_n = acted_n_;
+    if (wrong_ == "acted") state.acted_n[0] *= 0.5;
+    // It tells of the force at once, and the hand feels it later.
+    late_n_.push_back(given_n_);
+    if (late_n_.size() > 40) late_n_.pop_front();
+    if (wrong_ == "points") state.tip_position_m[1] += 0.02 * acted_n_[0];
     // What it was told acts a while later, by its own clock.
     if (has_own_clock_ && Clock::now() - told_at_ < std::chrono::milliseconds(3)) {
       state.acted_n = core::zero_vectors();
@@ -71,7 +80,9 @@ class WrongDevice final : public HapticDevice {
     if (acted_n_[0].isZero(0.0) && !given_n[0].isZero(0.0)) told_at_ = Clock::now();
     acted_n_ = given_n;
     if (wrong_ == "force_sign") given_n[0].y() = -given_n[0].y();
-    return hand_.write(given_n);
+    if (wrong_ == "force_size") given_n[0] *= 4.4;
+    given_n_ = given_n;
+    return hand_.write(wrong_ == "delay" ? late_n_.front() : given_n);
   }
   void close() noexcept override { hand_.close(); }
   [[nodiscard]] std::string words_of_fault() const override {
@@ -105,6 +116,8 @@ class WrongDevice final : public HapticDevice {
   Clock::time_point told_at_;
   LumpedHandDevice hand_{LumpedHandDevice::Parameters{}};
   core::PointVectors acted_n_ = core::zero_vectors(), slow_m_per_s_ = core::zero_vectors();
+  core::PointVectors given_n_ = core::zero_vectors();
+  std::deque<core::PointVectors> late_n_ = {core::zero_vectors()};
   bool is_halted_ = false;
   int num_opened_ = 0, num_reads_ = 0;
   double largest_n_ = 0.0;
@@ -127,7 +140,7 @@ TEST(DriverCheck, AGoodDriverKeepsEveryRule) {
   WrongDevice device("nothing");
   const Told told = told_of(device);
   EXPECT_TRUE(told.is_kept);
-  EXPECT_EQ(told.outcomes.size(), 12U);
+  EXPECT_EQ(told.outcomes.size(), 16U);
   for (const auto& [rule, outcome] : told.outcomes) {
     EXPECT_EQ(outcome.verdict, RuleOutcome::Verdict::kPassed) << rule << ": " << outcome.found;
   }
@@ -149,8 +162,8 @@ TEST_P(EachWrongDriver, IsFoundByItsRuleAndByNoOther) {
 // far.
 INSTANTIATE_TEST_SUITE_P(Rules, EachWrongDriver,
                          ::testing::Values("opens", "pace", "time", "velocity", "description",
-                                           "absent_points", "force_sign", "halt", "limits",
-                                           "reopens"),
+                                           "absent_points", "force_sign", "acted", "points",
+                                           "force_size", "delay", "halt", "limits", "reopens"),
                          [](const auto& info) { return std::string(info.param); });
 
 /// Of one with a clock of its own no force acts before its time goes on.
@@ -189,6 +202,12 @@ TEST(DriverCheck, WhatTheDriverSaysIsToldWithThePace) {
   EXPECT_NE(pace.found.find("The driver says: gripper_m is not finite"), std::string::npos)
       << pace.found;
   EXPECT_TRUE(pace.rule.advice.starts_with("Mend what the driver says")) << pace.rule.advice;
+}
+
+TEST(DriverCheck, AReadThatTakesMostOfATickIsFound) {
+  WrongDevice device("slow_read");
+  const RuleOutcome pace = told_of(device).outcomes.at("pace");
+  EXPECT_EQ(pace.verdict, RuleOutcome::Verdict::kFailed) << pace.found;
 }
 
 TEST(DriverCheck, AFirstReadWithoutAMeasurementIsFound) {
