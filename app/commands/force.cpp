@@ -19,16 +19,17 @@
 #include "core/hand.h"
 #include "core/media/fluid_force.h"
 #include "core/media/medium.h"
+#include "core/media/water_drag.h"
 #include "experiments/protocol/force_map_file.h"
 
 namespace jnd::app {
 namespace {
 
-// Constants of the thesis's drag equation: water, and the hand that moves through it.
-constexpr double kDensityKgPerM3 = 1000.0;
+// Of the drag equation: water, and the hand that moves through it.
+constexpr double kDensityKgPerM3 = core::WaterDrag::Parameters{}.density_kg_per_m3;
+constexpr double kHandAreaM2 = core::WaterDrag::Parameters{}.projected_area_m2;
 constexpr double kWaterViscosityPaS = 0.001;
 constexpr double kHandLengthM = 0.1;
-constexpr double kHandAreaM2 = 0.0148;
 
 struct ForceOptions {
   std::string law;

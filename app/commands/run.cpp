@@ -16,6 +16,7 @@
 #include "app/command_line/progress_bar.h"
 #include "app/command_line/stop_signals.h"
 #include "app/command_line/usage_message.h"
+#include "app/commands/device_problems.h"
 #include "app/commands/field_options.h"
 #include "app/commands/fitting_option.h"
 #include "app/commands/marker_options.h"
@@ -265,6 +266,20 @@ void require_language(const experiments::Study& study, const std::string& langua
 }
 
 /// Warns of similar pseudonyms, so that one person's two visits do not count as two people's.
+/// A session goes on where the device cuts a stimulus, as its limits say; who runs it is told.
+void warn_of_device_problems(const std::filesystem::path& study_file, const std::string& device,
+                             const std::optional<KnownProfile>& profile) {
+  constexpr double kStrokeSpeed_m_per_s = 0.5;
+  const std::vector<experiments::StudyProblem> problems =
+      device_problems(study_file, device, profile, kStrokeSpeed_m_per_s);
+  if (problems.empty()) return;
+  std::fprintf(stderr, "jnd: caution: %s\n", to_string(problems.front()).c_str());
+  if (problems.size() == 1) return;
+  std::fprintf(stderr,
+               "jnd: caution: %zu more of these; `jnd validate --device %s` tells all\n",
+               problems.size() - 1, device.c_str());
+}
+
 void warn_of_lookalike(const core::StudyStore& store, const std::string& participant) {
   std::vector<std::string> taken;
   for (const core::SessionRow& row : store.sessions()) taken.push_back(row.participant);
@@ -324,6 +339,7 @@ int run_run(RunOptions options) {
   require_device_starts(options.device, study.device.rate_hz);
   const std::optional<KnownProfile> profile =
       profile_for(options.device, options.profile, study);
+  warn_of_device_problems(file, options.device, profile);
   options.realtime |= has_own_clock(options.device);
   require_streams_fit(streams, options.realtime, study, options.folder);
   require_markers_fit(options.markers, options.realtime, /*has_window=*/false);

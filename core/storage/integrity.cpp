@@ -40,7 +40,7 @@ class SessionCheck {
     check_protocol();
     check_device_profile();
     check_sequence(events);
-    check_answers();
+    count_answers();
     if (session_.recorded) check_recording(events);
     check_streams();
   }
@@ -82,7 +82,7 @@ class SessionCheck {
     }
   }
 
-  void check_answers() {
+  void count_answers() {
     const bool ended = store_.finished(session_.session);
     std::set<std::int64_t> answered;
     for (const TrialRow& trial : store_.trials(session_.session, /*include_excluded=*/true)) {

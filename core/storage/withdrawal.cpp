@@ -73,10 +73,13 @@ void leave_tombstone(Database& database, std::int64_t session, std::int64_t time
 }
 
 /// A person who has an appointment and never came can withdraw as well.
-bool is_scheduled(Database& database, const std::string& participant) {
-  return Statement(database, "SELECT 1 FROM appointment WHERE participant = ?")
-      .bind(participant)
-      .step();
+bool has_rows_without_session(Database& database, const std::string& participant) {
+  return std::ranges::any_of(table_rules(database), [&](const TableRule& rule) {
+    return rule.erased_by == "participant" &&
+           Statement(database, "SELECT 1 FROM " + rule.table + " WHERE participant = ?")
+               .bind(participant)
+               .step();
+  });
 }
 
 /// Deletes all rows of the sessions in one transaction, or none. The transaction also notes
@@ -135,7 +138,7 @@ Erased erase_in(const fs::path& folder, const std::string& participant, std::int
   // Freed pages are overwritten with zeros. VACUUM and the emptied log leave no old ones.
   database.execute("PRAGMA secure_delete = ON");
   const std::vector<std::int64_t> there = sessions_in(database, "session", participant);
-  if (!there.empty() || is_scheduled(database, participant)) {
+  if (!there.empty() || has_rows_without_session(database, participant)) {
     delete_rows(database, participant, there, time_ns);
   }
   const std::vector<std::int64_t> gone = sessions_in(database, "withdrawal", participant);

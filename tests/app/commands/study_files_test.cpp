@@ -113,6 +113,19 @@ TEST_F(StudyFileCommandsTest, ValidateHoldsStimuliAgainstADeviceAtTheirPlaces) {
             0);
 }
 
+TEST_F(StudyFileCommandsTest, ARunSaysThatTheDeviceCutsAStimulusAndGoesOn) {
+  write_file(path("strong.json"), replaced(kTinyStudy, "[4, 16]", "[4, 900]"));
+  const ProgramOutcome outcome =
+      jnd({"run", "strong.json", "--study", "s.study", "--participant", "P01", "--headless"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("jnd: caution: strong.json:"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("expected a stimulus that `lumped` can render"), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("1 more of these; `jnd validate --device lumped` tells all"),
+            std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(StudyFileCommandsTest, ValidateTellsWhatADeviceCannotRenderStably) {
   write_file(path("stiff.json"), replaced(kTinyStudy, "\"stages\": [",
                                           R"("stages": [{"kind": "explore", "name": "wall",

@@ -133,6 +133,19 @@ TEST_F(WithdrawalTest, EmptiesATableThatALaterLayoutBrings) {
   EXPECT_THROW(database.execute("DELETE FROM z_rating"), Error) << "its trigger is back";
 }
 
+TEST_F(WithdrawalTest, ReachesAPersonWhoStandsOnlyInATableThatALaterLayoutBrings) {
+  const auto calls = [&](const std::string& sql) {
+    Database database(kept_.folder() / "study.sqlite", Database::Mode::kReadWrite,
+                      Durability::kAtClose);
+    database.execute(sql);
+  };
+  calls("CREATE TABLE phone_call (participant TEXT, words TEXT)");
+  calls("INSERT INTO phone_call VALUES ('P09', 'secret call')");
+  EXPECT_NO_THROW((void)withdraw(kept_.folder(), "P09", 5));
+  EXPECT_FALSE(holds(kept_.folder(), "secret call"));
+  EXPECT_THROW((void)withdraw(kept_.folder(), "P10", 6), Error);
+}
+
 TEST_F(WithdrawalTest, ReachesTheBackupsItKnowsOfAndSaysWhichItCannot) {
   (void)back_up(kept_.folder(), kept_.beside("near"), 1);
   (void)back_up(kept_.folder(), kept_.beside("away"), 2);
