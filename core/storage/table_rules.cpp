@@ -9,9 +9,9 @@ namespace {
 
 struct Exception {
   std::string_view table;
-  bool stays = false;         ///< A withdrawal leaves its rows.
-  bool is_compared = true;    ///< A backup's rows are compared with the study's.
-  std::string_view row = "";  ///< "" if its name says what it is.
+  bool stays = false;       ///< A withdrawal leaves its rows.
+  bool is_compared = true;  ///< A backup's rows are compared with the study's.
+  std::string_view row;     ///< "" if its name says what it is.
 };
 
 constexpr Exception kExceptions[] = {
@@ -46,7 +46,8 @@ constexpr Exception kExceptions[] = {
 };
 
 std::string with_article(std::string_view name) {
-  const bool begins_with_vowel = std::string_view("aeiou").find(name[0]) != name.npos;
+  const bool begins_with_vowel =
+      std::string_view("aeiou").find(name[0]) != std::string_view::npos;
   std::string words = (begins_with_vowel ? "an " : "a ") + std::string(name);
   std::ranges::replace(words, '_', ' ');
   return words;

@@ -148,8 +148,8 @@ Erased erase_in(const fs::path& folder, const std::string& participant, std::int
     remove_unknown_recordings(store, sessions);
   }
   // Withdrawals in older layouts have no state.
-  const Erased erased{.anything = !gone.empty() || !state_of(database, participant).empty(),
-                      .sessions = gone};
+  Erased erased{.anything = !gone.empty() || !state_of(database, participant).empty(),
+                .sessions = gone};
   if (!erased.anything) return erased;
   database.execute("VACUUM");
   database.checkpoint();

@@ -157,6 +157,7 @@ void require_description(const jnd_device_description& description) {
 static std::string different_field(const jnd_device_description& before,
                                    const jnd_device_description& now) {
   const auto differs = [](const auto& one, const auto& other) {
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bytes are meant
     return std::memcmp(&one, &other, sizeof one) != 0;
   };
   if (differs(before.flags, now.flags)) return "flags";

@@ -189,7 +189,7 @@ void draw_run_dialog(Ui& ui, const SessionView& view, RunViewState& state,
   const bool cancelled = ui.button("dialog_cancel", cancel_place, leave, cancel);
   bool adverse = false;
   if (is_note) {
-    const ButtonStyle style{.enabled = ready};
+    const ButtonStyle style{.key = {letter('E'), true}, .enabled = ready};
     if (above > 0) row = inside.take_bottom(48, 8);
     adverse = ui.button("dialog_adverse_event",
                         row.take_left(ui.button_width(words_of_adverse, style)),
