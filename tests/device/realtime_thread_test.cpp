@@ -5,6 +5,7 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -96,18 +97,22 @@ TEST(RealtimeThread, TheNumbersOfTheTicksAreTime) {
   EXPECT_GT(last.num_missed_ticks, 200) << "19 times about 14";
   EXPECT_EQ(last.sample.tick + 1, last.num_ticks + last.num_missed_ticks);
   std::optional<core::Sample> first, before;
+  std::vector<double> late_ns;
   samples.drain([&](const core::Sample& sample) {
     if (before) {
       EXPECT_EQ(sample.tick, before->tick + 1 + sample.num_missed_before);
       EXPECT_GT(sample.monotonic_ns, before->monotonic_ns);
     }
     if (!first) first = sample;
-    // A machine that others use may be late by some periods.
-    const std::int64_t since_ns = sample.monotonic_ns - first->monotonic_ns;
-    EXPECT_NEAR(static_cast<double>(since_ns), 1e6 * static_cast<double>(sample.tick), 5e6);
+    late_ns.push_back(static_cast<double>(sample.monotonic_ns - first->monotonic_ns) -
+                      1e6 * static_cast<double>(sample.tick - first->tick));
     before = sample;
   });
   ASSERT_TRUE(before);
+  // Single ticks, also the first ones, may be late by many periods on a machine that others
+  // use.
+  std::ranges::nth_element(late_ns, late_ns.begin() + std::ssize(late_ns) / 2);
+  EXPECT_NEAR(late_ns[late_ns.size() / 2], 0.0, 5e6);
 }
 
 std::atomic<std::int64_t> slept_ns = 0;
