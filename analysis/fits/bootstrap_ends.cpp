@@ -1,5 +1,8 @@
 #include "analysis/fits/bootstrap_ends.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/statistics/summary.h"
@@ -10,6 +13,7 @@ namespace jnd::analysis {
 namespace {
 
 constexpr double kBootstrapTail = 0.025;
+constexpr double kMostRefits = 1e6;
 
 std::optional<double> end_at(const std::vector<double>& ascending, double probability) {
   const double value = percentile(ascending, probability);
@@ -26,10 +30,20 @@ bool refused(Interval& interval, double estimate) {
   return true;
 }
 
-/// The probability at which BCa reads the end that the percentile interval reads at `tail_z`.
-double corrected_probability(double tail_z, double bias, double acceleration) {
+/// The probability at which BCa reads the end that the percentile interval reads at `tail_z`;
+/// none if the acceleration turns the correction around.
+std::optional<double> corrected_probability(double tail_z, double bias, double acceleration) {
   const double shifted = bias + tail_z;
-  return core::standard_normal_cdf(bias + shifted / (1.0 - acceleration * shifted));
+  const double stretch = 1.0 - acceleration * shifted;
+  if (!(stretch > 0.0)) return std::nullopt;
+  return core::standard_normal_cdf(bias + shifted / stretch);
+}
+
+/// How many refits it takes until at least one lies beyond this probability, whichever tail it
+/// is in.
+double refits_beyond(double probability) {
+  const double tail = std::min(probability, 1.0 - probability);
+  return std::ceil(1.0 / tail) - 1.0;
 }
 
 void add_bca(BootstrapEnds& result, const std::vector<double>& ascending, double estimate,
@@ -48,11 +62,24 @@ void add_bca(BootstrapEnds& result, const std::vector<double>& ascending, double
   }
   const double bias = core::standard_normal_quantile(share);
   const double z = core::standard_normal_quantile(kBootstrapTail);
-  const double low = corrected_probability(z, bias, *acceleration);
-  const double high = corrected_probability(-z, bias, *acceleration);
+  const std::optional<double> low = corrected_probability(z, bias, *acceleration);
+  const std::optional<double> high = corrected_probability(-z, bias, *acceleration);
   result.bias_correction = bias;
-  result.bca_ci95 = {.low = end_at(ascending, low), .high = end_at(ascending, high)};
-  if (!(low < high) || refused(result.bca_ci95, estimate)) {
+  if (!low || !high) {
+    result.bca_reason = "single answers have so much influence that there is no correction";
+    return;
+  }
+  const double needed = std::max(refits_beyond(*low), refits_beyond(*high));
+  if (!(needed <= static_cast<double>(ascending.size()))) {
+    result.bca_reason =
+        needed < kMostRefits
+            ? fmt::format("its ends lie beyond the outermost refits; {:.0f} refits are needed",
+                          needed)
+            : "its ends lie beyond the outermost refits, however many there are";
+    return;
+  }
+  result.bca_ci95 = {.low = end_at(ascending, *low), .high = end_at(ascending, *high)};
+  if (!(*low < *high) || refused(result.bca_ci95, estimate)) {
     result.bca_ci95 = {};
     result.bca_reason = "refused, because it would miss the estimate";
   }
