@@ -114,7 +114,7 @@ TEST_F(StudyFileCommandsTest, ValidateHoldsStimuliAgainstADeviceAtTheirPlaces) {
 }
 
 TEST_F(StudyFileCommandsTest, ARunSaysThatTheDeviceCutsAStimulusAndGoesOn) {
-  write_file(path("strong.json"), replaced(kTinyStudy, "[4, 16]", "[4, 900]"));
+  write_file(path("strong.json"), replaced(kTinyStudy, "[4, 16]", "[4, 800, 900]"));
   const ProgramOutcome outcome =
       jnd({"run", "strong.json", "--study", "s.study", "--participant", "P01", "--headless"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
