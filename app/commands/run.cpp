@@ -273,7 +273,8 @@ void warn_of_device_problems(const std::filesystem::path& study_file, const std:
   const std::vector<experiments::StudyProblem> problems =
       device_problems(study_file, device, profile, kStrokeSpeed_m_per_s);
   if (problems.empty()) return;
-  std::fprintf(stderr, "jnd: caution: %s\n", to_string(problems.front()).c_str());
+  std::fprintf(stderr, "jnd: caution: %s; the session goes on, and the force is cut\n",
+               to_string(problems.front()).c_str());
   if (problems.size() == 1) return;
   std::fprintf(stderr,
                "jnd: caution: %zu more of these; `jnd validate --device %s` tells all\n",
