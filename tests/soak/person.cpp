@@ -339,7 +339,8 @@ bool Person::answer() {
   }
   if (answer_percent()) return true;
   // A break is never ended early, as that would have to be explained.
-  if (offers("finish_break")) return ui_.drawn().shows("0:00") && use("finish_break");
+  if (offers("finish_break"))
+    return ui_.drawn().shows("The rest is over") && use("finish_break");
   for (const char* name :
        {"begin", "go_on", "item_done", "consent_given", "item_yes", "feel_medium",
         "finish_medium", "finish_stage", "present", "answer_yes", "matches"}) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/gui/hand_sign.h"
 #include "app/gui/views/run_parts.h"
@@ -121,7 +122,9 @@ void draw_break(Ui& ui, const Rect& place, const SessionView& view, RunViewState
   Stack stack(ui);
   add_heading(ui, stack, view);
   const bool over = view.break_left_s <= 0.0;
-  stack.add_text(over ? "0:00" : clock_words(view.break_left_s + 0.999), Font::kHuge,
+  using Dialog = RunViewState::Dialog;
+  if (over && state.dialog == Dialog::kGoOnEarly) state.dialog = Dialog::kNone;
+  stack.add_text(over ? "0:00" : clock_words(std::ceil(view.break_left_s)), Font::kHuge,
                  over ? Colour::kGreen : Colour::kInk, place.width, 12);
   add_words(stack, view, place);
   stack.add(kLargeButton, 0, [&](const Rect& strip) {
@@ -134,7 +137,7 @@ void draw_break(Ui& ui, const Rect& place, const SessionView& view, RunViewState
             if (over) {
               result.requests.emplace_back(operate::FinishStage{view.stage, ""});
             } else {
-              open_dialog(state, RunViewState::Dialog::kGoOnEarly);
+              open_dialog(state, Dialog::kGoOnEarly);
             }
           }}},
         260);

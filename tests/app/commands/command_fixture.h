@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ class CommandTest : public ::testing::Test {
   }
   [[nodiscard]] core::StudyStore opened(const std::string& study) const {
     return {path(study), core::StudyStore::Mode::kReadOnly};
+  }
+  [[nodiscard]] int num_events(const std::string& study, int session,
+                               const std::string& kind) const {
+    return static_cast<int>(
+        std::ranges::count(opened(study).events(session), kind, &core::EventRow::kind));
   }
 
   test_support::TemporaryFolder temporary_{test_support::memory_folder()};

@@ -290,8 +290,9 @@ TEST_F(ForceDimensionFaultsTest, WhereTheLibraryIsStuckTheControllerEndsTheForce
   page().trouble = TWIN_STUCK_READ;
   (void)device->read(state);
   device->halt();
-  EXPECT_TRUE(comes_to([] { return force_at_twin_n() == 0.0; }));
-  EXPECT_GE(page().num_watchdog_ends, 1);
+  // On a busy machine the host may have ended the force before the library was stuck.
+  EXPECT_TRUE(comes_to([] { return page().num_watchdog_ends >= 1; }));
+  EXPECT_EQ(force_at_twin_n(), 0.0);
 }
 
 TEST_F(ForceDimensionFaultsTest, AHaltEndsTheForceAtOnceAndZerosAloneBringItBack) {

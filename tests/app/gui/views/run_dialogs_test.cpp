@@ -35,6 +35,25 @@ TEST_F(RunDialogs, APauseIsAskedForAtOnceAndItsReasonOnceItHolds) {
   EXPECT_EQ(ui_.drawn().find("reason_1")->key, "1");
 }
 
+TEST_F(RunDialogs, ARestEndsWhenItsClockSaysSoAndItsQuestionEndsWithIt) {
+  SessionView rest = comparison();
+  rest.step = Step::kBreak;
+  rest.trial.reset();
+  rest.break_left_s = 0.0004;
+  draw(rest);
+  EXPECT_TRUE(ui_.drawn().shows("0:01"));
+  ui_.press(Key::kEnter);
+  EXPECT_TRUE(draw(rest).empty());
+  draw(rest);
+  ASSERT_TRUE(ui_.drawn().shows("Go on before the rest is over"));
+  rest.break_left_s = 0.0;
+  draw(rest);
+  draw(rest);
+  EXPECT_FALSE(ui_.drawn().shows("Go on before the rest is over"));
+  EXPECT_TRUE(ui_.drawn().shows("0:00"));
+  EXPECT_EQ(after_key<operate::FinishStage>(rest, {Key::kEnter}).reason, "");
+}
+
 TEST_F(RunDialogs, OneKeySaysWhyThePauseIs) {
   pause();
   EXPECT_EQ(after_key<operate::ExplainPause>(paused(), {letter('2')}).reason,
