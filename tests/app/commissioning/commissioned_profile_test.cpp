@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/commissioning/measured_twin.h"
 #include "core/error.h"
 #include "device/twin/twin_device.h"
 #include "experiments/device_profile/profile_reader.h"
@@ -23,13 +24,11 @@ const StepProgress kQuiet = [](double, const std::string&) {};
 TEST(CommissionedProfile, IsWhatWasMeasuredAndReadsBackAsItIs) {
   const TemporaryFolder folder;
   device::TwinDevice twin(device::drawn_twin(7));
-  Commissioning commissioning(
-      folder.path() / "record.jsonl",
-      {.name = "twin:seed=7", .identity = twin.identity(), .can = twin.capabilities()}, {});
-  EXPECT_THROW((void)profile_of(commissioning, twin.identity(), "0.1.0"), core::Error);
-  for (const CommissioningStep step : kCommissioningSteps) {
-    commissioning.measure(step, twin, *twin.bench(), kQuiet);
-  }
+  const std::filesystem::path record = folder.path() / "record.jsonl";
+  const Commissioning empty = begun_with_twin(folder.path() / "empty.jsonl", twin);
+  EXPECT_THROW((void)profile_of(empty, twin.identity(), "0.1.0"), core::Error);
+  test_support::write_file(record, record_of_all_steps());
+  const Commissioning commissioning = begun_with_twin(record, twin);
   const experiments::DeviceProfile profile =
       profile_of(commissioning, twin.identity(), "0.1.0");
   EXPECT_EQ(profile.name, "twin_seed_7");

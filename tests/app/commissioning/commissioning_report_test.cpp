@@ -9,6 +9,7 @@
 #include "analysis/report/html_text.h"
 #include "app/commissioning/commissioned_profile.h"
 #include "app/commissioning/measured_quantities.h"
+#include "app/commissioning/measured_twin.h"
 #include "core/error.h"
 #include "core/storage/sha256.h"
 #include "device/twin/twin_device.h"
@@ -40,19 +41,14 @@ std::string without_breaks(std::string html) {
 
 class CommissioningReportTest : public ::testing::Test {
  protected:
-  /// Runs all steps and makes a profile.
+  /// Goes on with a record of all steps and makes a profile.
   void commission() {
-    Commissioning commissioning = begun();
-    for (const Step step : kCommissioningSteps) measure(commissioning, step);
+    test_support::write_file(record_, record_of_all_steps());
+    const Commissioning commissioning = begun();
     profile_file_ = experiments::write_device_profile(
         profile_of(commissioning, twin_.identity(), "0.1.0"), folder_.path());
   }
-  Commissioning begun() {
-    return Commissioning(
-        record_,
-        {.name = "twin:seed=7", .identity = twin_.identity(), .can = twin_.capabilities()},
-        {.operator_name = "A. Person"});
-  }
+  Commissioning begun() { return begun_with_twin(record_, twin_); }
   void measure(Commissioning& commissioning, Step step) {
     commissioning.measure(step, twin_, *twin_.bench(), kQuiet);
   }
