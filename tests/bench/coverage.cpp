@@ -171,7 +171,9 @@ int main(int argc, char** argv) {
       {"curves", [=] { cover_curves(num_sets, kSeed); }},
       {"contrasts", [=] { cover_contrasts(num_sets, kSeed); }},
       {"sequential", [=] { cover_sequential(num_sets, kSeed); }},
-      {"robust", [=] { cover_robust(num_sets, kSeed); }}};
+      {"robust", [=] { cover_robust(num_sets, kSeed); }},
+      {"mixed", [=] { cover_mixed_models(few, kSeed); }},
+      {"power_laws", [=] { cover_power_laws(num_sets, kSeed); }}};
   const std::string wanted = argc > 2 ? argv[2] : "";
   const bool is_known = wanted.empty() || std::ranges::any_of(sections, [&](const auto& one) {
                           return one.first == wanted;
@@ -180,7 +182,7 @@ int main(int argc, char** argv) {
     std::fprintf(
         stderr,
         "coverage: expected person, own_values, groups, difference, curves, contrasts, "
-        "sequential or robust as the section, found %s\n",
+        "sequential, robust, mixed or power_laws as the section, found %s\n",
         argv[2]);
     return 2;
   }

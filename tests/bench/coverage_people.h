@@ -146,6 +146,8 @@ void cover_curves(int num_sets, std::uint64_t seed);
 void cover_groups(int num_sets, std::uint64_t seed);
 void cover_contrasts(int num_sets, std::uint64_t seed);
 void cover_difference(int num_sets, std::uint64_t seed);
+void cover_mixed_models(int num_sets, std::uint64_t seed);
+void cover_power_laws(int num_sets, std::uint64_t seed);
 void cover_sequential(int num_sets, std::uint64_t seed);
 void cover_robust(int num_sets, std::uint64_t seed);
 

@@ -122,7 +122,7 @@ int soak(const Options& options) {
   while (person.now_s() < 3600.0 * options.hours || rounds.size() < kFewestRounds) {
     person.go_round();
     leave_behind(options);
-    rounds.push_back(process_use());
+    rounds.push_back(settled(process_use, rounds));
     if (::testing::UnitTest::GetInstance()->ad_hoc_test_result().Failed()) break;
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;

@@ -4,11 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <thread>
 
 namespace jnd::soak {
 
@@ -37,6 +39,20 @@ ProcessUse process_use() {
   --use.num_handles;
   const struct mallinfo2 heap = ::mallinfo2();
   use.allocated_bytes = static_cast<double>(heap.uordblks + heap.hblkhd);
+  return use;
+}
+
+ProcessUse settled(const std::function<ProcessUse()>& look,
+                   const std::vector<ProcessUse>& rounds) {
+  ProcessUse use = look();
+  for (int i = 0; i < 10 && !rounds.empty(); ++i) {
+    if (use.num_threads <= rounds.back().num_threads &&
+        use.num_handles <= rounds.back().num_handles) {
+      break;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    use = look();
+  }
   return use;
 }
 

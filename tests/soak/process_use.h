@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -22,6 +23,11 @@ struct ProcessUse {
 [[nodiscard]] ProcessUse process_use();
 /// What another process holds, as the system sees it from outside; zeros if there is none.
 [[nodiscard]] ProcessUse use_of(pid_t process);
+
+/// What `look` sees after a round, once what is just ending has ended: looks again for at most
+/// half a second while there are more threads or handles than after the round before.
+[[nodiscard]] ProcessUse settled(const std::function<ProcessUse()>& look,
+                                 const std::vector<ProcessUse>& rounds);
 
 /// The largest relative growth of a quantity from the rounds after the warm-up to the last ones
 /// that counts as none.

@@ -169,7 +169,7 @@ int soak(double minutes, bool tells) {
     fs::remove_all(copy);
     fs::copy(folder.path() / "template.study", copy, fs::copy_options::recursive);
     Round(window, copy).go();
-    rounds.push_back(use_of(window.process()));
+    rounds.push_back(settled([&] { return use_of(window.process()); }, rounds));
     if (tells) {
       std::fprintf(stderr, "round %zu at %.0f s: %.1f MB, %d handles, %d threads\n",
                    rounds.size(), took_s(), 1e-6 * rounds.back().resident_bytes,
