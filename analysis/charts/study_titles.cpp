@@ -26,6 +26,18 @@ std::string StudyTitles::short_title_of(const std::string& block) const {
   return whole.substr(0, whole.find(": "));
 }
 
+std::string StudyTitles::titled(const std::string& comparison) const {
+  const std::size_t colon = std::min(comparison.find(": "), comparison.size());
+  std::string words;
+  for (std::size_t begin = 0; begin < colon;) {
+    const std::size_t end = std::min(comparison.find(" - ", begin), colon);
+    const std::string part = comparison.substr(begin, end - begin);
+    words += (begin == 0 ? "" : " - ") + (stages.contains(part) ? short_title_of(part) : part);
+    begin = end + (end < colon ? 3 : 0);
+  }
+  return words + comparison.substr(colon);
+}
+
 StudyTitles titles_of(const experiments::Study& study) {
   StudyTitles titles{.study = in_spoken_language(study.title)};
   if (titles.study.empty()) titles.study = in_words(study.name);

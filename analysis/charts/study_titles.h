@@ -19,6 +19,9 @@ struct StudyTitles {
   [[nodiscard]] std::string title_of(const std::string& block) const;
   /// The title up to its colon: "Group D" for "Group D: low viscosities".
   [[nodiscard]] std::string short_title_of(const std::string& block) const;
+  /// The name of a comparison with short titles for the names of blocks before its colon:
+  /// "Group D - Group E: peak speed" for "group_d - group_e: peak speed". Other names stay.
+  [[nodiscard]] std::string titled(const std::string& comparison) const;
 };
 
 [[nodiscard]] StudyTitles titles_of(const experiments::Study& study);

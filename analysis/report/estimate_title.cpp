@@ -62,6 +62,8 @@ constexpr std::pair<std::string_view, std::string_view> kPhrases[] = {
     said_later("individual Weber fractions median, PSE free"),
     said_later("individual Weber fractions median at reference"),
     said_later("individual Weber fractions sd"),
+    said_later("individual Weber fractions lsq mean"),
+    said_later("individual Weber fractions lsq sd"),
     said_later("individual Weber fractions sd, PSE free"),
     said_later("individual Weber fractions sd at reference"),
     said_later("individual Weber fractions robust sd"),
@@ -126,6 +128,16 @@ std::string in_phrases(std::string words) {
   return words;
 }
 
+/// The words of "group_d_minus_group_e", if both are stages: "Group D minus Group E".
+std::string difference_title(const StudyTitles& titles, const std::string& part) {
+  constexpr std::string_view kMinus = "_minus_";
+  const std::size_t at = part.find(kMinus);
+  if (at == std::string::npos) return "";
+  const std::string first = part.substr(0, at), second = part.substr(at + kMinus.size());
+  if (!titles.stages.contains(first) || !titles.stages.contains(second)) return "";
+  return said("{} minus {}", titles.short_title_of(first), titles.short_title_of(second));
+}
+
 }  // namespace
 
 std::string estimate_title(const StudyTitles& titles, const std::string& name,
@@ -141,6 +153,10 @@ std::string estimate_title(const StudyTitles& titles, const std::string& name,
   for (std::string& part : parts) {
     if (titles.stages.contains(part)) {
       stage += (stage.empty() ? "" : ", ") + titles.short_title_of(part);
+      continue;
+    }
+    if (const std::string difference = difference_title(titles, part); !difference.empty()) {
+      words += (words.empty() ? "" : ", ") + difference;
       continue;
     }
     if (!ending.empty() && part.ends_with(ending) && part.size() > ending.size()) {

@@ -22,14 +22,11 @@ std::string quantity_of(const FigureSource& source, const ConditionMovement& con
 }  // namespace
 
 ShownCondition shown_condition(const FigureSource& source, const ConditionMovement& condition) {
-  std::string medium = condition.medium;
-  for (char& letter : medium) {
-    if (letter == '_') letter = ' ';
-  }
-  ShownCondition one{
-      .name = condition.block.empty() ? condition.medium : condition.block,
-      .title = condition.block.empty() ? medium : source.titles.short_title_of(condition.block),
-      .movement = &condition};
+  ShownCondition one{.name = condition.block.empty() ? condition.medium : condition.block,
+                     .title = condition.block.empty()
+                                  ? said_of(in_words(condition.medium))
+                                  : source.titles.short_title_of(condition.block),
+                     .movement = &condition};
   if (!condition.intensity || condition.medium == "free_space") return one;
   const std::string amount = shortest_words(*condition.intensity);
   const std::string unit = experiments::quantity_unit(quantity_of(source, condition));

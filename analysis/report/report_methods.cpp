@@ -36,13 +36,14 @@ std::string reference_words(const BlockDesign& block, const std::set<double>& re
     return said("reference {}", joined(references, experiments::quantity_unit(block.quantity)));
   }
   const std::string quantity = block.standard_quantity();
-  return said(
-      "standard {} {} of the medium “{}”{}", said_of(experiments::quantity_words(quantity)),
-      joined(references, experiments::quantity_unit(quantity)), block.written.standard_medium,
-      (block.counts_in_standard()
-           ? said(", which counts as {}",
-                  shortest_words(block.written.settings.number("modulus_value")))
-           : ""));
+  return said("standard {} {} of the medium “{}”{}",
+              said_of(experiments::quantity_words(quantity)),
+              joined(references, experiments::quantity_unit(quantity)),
+              said_of(in_words(block.written.standard_medium)),
+              (block.counts_in_standard()
+                   ? said(", which counts as {}",
+                          shortest_words(block.written.settings.number("modulus_value")))
+                   : ""));
 }
 
 /// How many trials people had. If the answers decide it, the words use the counts in the data.
@@ -130,7 +131,7 @@ std::string block_words(const StudyData& data, const BlockDesign& block) {
       if (trial.reference_intensity) references.insert(*trial.reference_intensity);
       if (trial.starting_intensity) starts.insert(*trial.starting_intensity);
       if (trial.target_percent) targets.insert(*trial.target_percent);
-      if (!trial.medium.empty()) media.insert(trial.medium);
+      if (!trial.medium.empty()) media.insert(said_of(in_words(trial.medium)));
       repetitions = std::max(repetitions, trial.repetition);
     }
   }

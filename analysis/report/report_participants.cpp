@@ -1,9 +1,8 @@
 #include <algorithm>
-#include <charconv>
 #include <map>
-#include <optional>
 #include <set>
 
+#include "analysis/report/answer_words.h"
 #include "analysis/report/report_methods.h"
 #include "analysis/results/number_words.h"
 #include "analysis/statistics/summary.h"
@@ -12,33 +11,15 @@
 namespace jnd::analysis {
 namespace {
 
-std::optional<double> number_of(const std::string& text) {
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
-  return value;
-}
-
-std::string in_words(std::string name, const std::string& unit) {
-  if (!unit.empty() && name.ends_with("_" + unit)) name.resize(name.size() - unit.size() - 1);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
-/// An answer as a person would write it: "not said" for "not_said", 26 for "26.00".
-std::string answer_words(const std::string& answer) {
-  if (const auto number = number_of(answer)) return shortest_words(*number);
-  std::string words = answer;
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
+// Units of numbers that people often give; the others are international.
+[[maybe_unused]] constexpr const char* kUnits[] = {said_later("years"), said_later("hours")};
 
 /// "3, –, 5": of an item whose stage came three times.
-std::string all_answers_words(const std::vector<std::string>& answers) {
+std::string all_answers_words(const std::vector<std::string>& answers,
+                              const QuestionnaireItem& item) {
   std::string words;
   for (const std::string& answer : answers) {
-    words += (words.empty() ? "" : ", ") + (answer.empty() ? "–" : answer_words(answer));
+    words += (words.empty() ? "" : ", ") + (answer.empty() ? "–" : answer_words(answer, item));
   }
   return words.empty() ? "–" : words;
 }
@@ -56,20 +37,21 @@ std::string described(const StudyData& data, const QuestionnaireItem& item) {
     ++counts[answers.front()];
   }
   if (counts.empty()) return "";
-  std::string words = in_words(item.name, item.unit);
+  std::string words = item_words(item);
   if (item.kind != "number") {
     std::string list;
     for (const auto& [answer, count] : counts) {
-      list += (list.empty() ? " " : ", ") + answer_words(answer) + " " + std::to_string(count);
+      list += (list.empty() ? " " : ", ") + answer_words(answer, item) + " " +
+              std::to_string(count);
     }
-    return words + ":" + list;
+    return words + (words.ends_with('?') ? "" : ":") + list;
   }
   if (numbers.empty()) return "";
   const Summary summary = summary_of(numbers);
   const auto [least, most] = std::minmax_element(numbers.begin(), numbers.end());
   words += " " + number_words(summary.mean, 2);
   if (summary.standard_deviation) words += " ± " + number_words(summary.standard_deviation, 2);
-  words += item.unit.empty() ? "" : " " + item.unit;
+  words += item.unit.empty() ? "" : " " + said_of(item.unit);
   return said("{} ({} to {}, n = {})", words, shortest_words(*least), shortest_words(*most),
               std::to_string(summary.num_values));
 }
@@ -119,9 +101,9 @@ HtmlTable quality_table(const ChapterSource& source) {
                               {said("Faults"), true},
                               {said("Duration"), true}}};
   for (const SessionQuality& one : source.quality) {
-    const char* const ended = one.completed             ? "completed"
-                              : one.ended_early.empty() ? "open"
-                                                        : "early";
+    const char* const ended = one.completed             ? said("completed")
+                              : one.ended_early.empty() ? said("open")
+                                                        : said("early");
     table.rows.push_back({one.session.participant, ended, std::to_string(one.num_drawn),
                           std::to_string(one.num_answered), dash_if_none(one.num_missing()),
                           dash_if_none(one.num_excluded),
@@ -153,8 +135,10 @@ HtmlTable movement_table(const ChapterSource& source) {
                               {said("Lost samples"), true},
                               {said("Lost contact"), true}}};
   for (const SessionQuality& one : source.quality) {
-    std::string recording = one.session.recorded ? "missing" : said("summaries of strokes");
-    if (one.missing_ticks) recording = *one.missing_ticks == 0 ? "whole" : said("with gaps");
+    std::string recording =
+        one.session.recorded ? said("missing") : said("summaries of strokes");
+    if (one.missing_ticks)
+      recording = *one.missing_ticks == 0 ? said("whole") : said("with gaps");
     std::int64_t lost_contact = 0;
     std::int64_t num_explored = 0;
     bool analysed = false;
@@ -208,7 +192,7 @@ HtmlTable losses_table(const ChapterSource& source) {
     table.rows.push_back({one.block,
                           one.is_catch ? said("catch trials")
                           : one.level  ? shortest_words(*one.level)
-                                       : "all",
+                                       : said("all"),
                           std::to_string(one.num_drawn), std::to_string(one.num_answered),
                           dash_if_none(one.num_set_aside), dash_if_none(one.num_repeated),
                           dash_if_none(one.num_discarded), dash_if_none(one.num_faulted),
@@ -290,14 +274,15 @@ void write_participants(HtmlText& html, const ChapterSource& source) {
   const std::vector<QuestionnaireItem> items = described_items(data);
   HtmlTable table{.caption = said("Participants"), .columns = {{said("Participant")}}};
   for (const QuestionnaireItem& item : items) {
-    const std::string title = in_words(item.name, item.unit);
-    table.columns.push_back({item.unit.empty() ? title : title + " [" + item.unit + "]"});
+    const std::string title = item_words(item);
+    table.columns.push_back(
+        {item.unit.empty() ? title : title + " [" + said_of(item.unit) + "]"});
   }
   table.columns.push_back({said("Cell")});
   for (const ParticipantData& participant : data.participants) {
     std::vector<std::string> row = {participant.participant};
     for (const QuestionnaireItem& item : items) {
-      row.push_back(all_answers_words(answers_by_time(participant.answers, item)));
+      row.push_back(all_answers_words(answers_by_time(participant.answers, item), item));
     }
     row.push_back(cell_words(participant.cells));
     table.rows.push_back(std::move(row));

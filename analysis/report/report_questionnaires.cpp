@@ -1,5 +1,4 @@
-#include <algorithm>
-
+#include "analysis/report/answer_words.h"
 #include "analysis/report/report_results.h"
 #include "analysis/results/number_words.h"
 #include "analysis/words/said.h"
@@ -67,9 +66,9 @@ void write_counts(HtmlText& html, const StudyData& data, const ResultsSection& s
     int num_answered = 0;
     for (const Estimate& estimate : section.estimates) {
       if (!estimate.name.starts_with(start)) continue;
-      std::string option = estimate.name.substr(start.size());
-      std::replace(option.begin(), option.end(), '_', ' ');
-      answers += (answers.empty() ? "" : ", ") + option + " " + number_words(estimate.value);
+      answers += (answers.empty() ? "" : ", ") +
+                 answer_words(estimate.name.substr(start.size()), item) + " " +
+                 number_words(estimate.value);
       num_answered = estimate.n;
     }
     if (!answers.empty()) {

@@ -49,9 +49,10 @@ std::string statistic_words(const Comparison& c) {
 /// The index of the column of adjusted p values, if there are any.
 constexpr std::size_t kHolmColumn = 5;
 
-std::vector<std::string> comparison_row(const NamedComparison& named) {
+std::vector<std::string> comparison_row(const NamedComparison& named,
+                                        const StudyTitles& titles) {
   const Comparison& c = named.comparison;
-  std::string name = named.name;
+  std::string name = titles.titled(named.name);
   if (!named.family.empty()) name += " [" + said_of(named.family) + "]";
   name += caution_words(named.cautions);
   if (c.status != FitStatus::kOk) {
@@ -128,7 +129,8 @@ void write_estimates(HtmlText& html, const StudyResults& results, const StudyTit
   html.table(table);
 }
 
-void write_comparisons(HtmlText& html, const ResultsSection& section) {
+void write_comparisons(HtmlText& html, const ResultsSection& section,
+                       const StudyTitles& titles) {
   HtmlTable table{.caption = said("Comparisons, with 95 % intervals; p two-sided"),
                   .columns = {{said("Comparison")},
                               {said("Difference or correlation")},
@@ -141,7 +143,7 @@ void write_comparisons(HtmlText& html, const ResultsSection& section) {
   std::vector<std::string> methods;
   bool any_adjusted = false;
   for (const NamedComparison& named : section.comparisons) {
-    table.rows.push_back(comparison_row(named));
+    table.rows.push_back(comparison_row(named, titles));
     const std::string about = family_note(named);
     if (!about.empty() && std::ranges::find(table.notes, about) == table.notes.end()) {
       table.notes.push_back(about);
@@ -346,7 +348,7 @@ void write_at_a_glance(HtmlText& html, const StudyResults& results, const StudyT
   html.heading(2, said("At a glance"));
   write_contrast_sentences(html, results);
   if (!primary.rows.empty()) html.table(primary);
-  if (!comparisons.comparisons.empty()) write_comparisons(html, comparisons);
+  if (!comparisons.comparisons.empty()) write_comparisons(html, comparisons, titles);
   if (!published.rows.empty()) html.table(published);
 }
 
@@ -361,7 +363,7 @@ void write_section(HtmlText& html, const StudyData& data, const StudyResults& re
                     any_primary ? said("How else it can be estimated, and what else was found")
                                 : said("Estimates"));
   }
-  write_comparisons(html, section);
+  write_comparisons(html, section, titles);
   write_excluded(html, section);
   write_cautions(html, section);
   if (!write_own_fractions(html, section)) OwnValues(section).write(html);

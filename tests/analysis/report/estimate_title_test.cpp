@@ -22,5 +22,19 @@ TEST(EstimateTitle, IsInWordsWithTheTitleOfTheBlockAndWithoutTheUnit) {
   EXPECT_EQ(title("group_d"), "Group D");
 }
 
+TEST(EstimateTitle, NamesBothBlocksOfADifference) {
+  StudyTitles titles;
+  titles.stages["group_d"] = "Group D: low viscosities";
+  titles.stages["group_e"] = "Group E: high viscosities";
+  EXPECT_EQ(estimate_title(titles, "max_speed_m_per_s.group_d_minus_group_e", "m/s"),
+            "Max speed, Group D minus Group E");
+  EXPECT_EQ(estimate_title(titles, "one_minus_other", ""), "One minus other");
+  EXPECT_EQ(titles.titled("group_d - group_e: w, pse free"), "Group D - Group E: w, pse free");
+  EXPECT_EQ(titles.titled("order: first - group_e: w"), "order: first - group_e: w");
+  EXPECT_EQ(titles.titled("group_d"), "Group D");
+  EXPECT_EQ(titles.titled("a - b"), "a - b");
+  EXPECT_EQ(titles.titled(""), "");
+}
+
 }  // namespace estimate_title_test
 }  // namespace jnd::analysis
