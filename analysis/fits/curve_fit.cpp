@@ -107,27 +107,34 @@ class LimitOfRedraw {
   }
 
  private:
+  [[nodiscard]] double low_end() const { return levels_.ends.low(curve_.lapse, curve_.guess); }
+  [[nodiscard]] double rise() const { return levels_.ends.rise(curve_.lapse, curve_.guess); }
+
+  /// Whether yes is more frequent than in the middle of the fitted curve. For a forced choice
+  /// between two this is three quarters, for half of the guesses are right.
   [[nodiscard]] bool mostly_yes() const {
     double yes = 0.0, trials = 0.0;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       yes += levels_.num_yes[i];
       trials += levels_.num_trials[i];
     }
-    return 2.0 * yes > trials;
+    return yes > (low_end() + 0.5 * rise()) * trials;
   }
-  /// The place of the step with the fewest errors, in the middle between its two neighbouring
-  /// levels.
+  /// The place of the likeliest step between the ends of the fitted curve, in the middle
+  /// between its two neighbouring levels. An answer that an end at 0 or 1 excludes is very
+  /// unlikely, so that the step with the fewest of them is chosen.
   [[nodiscard]] double step_place() const {
-    // The errors of a step that has every yes below it and every no above it.
-    double errors = 0.0;
+    constexpr double kUnlikely = 1e-9;
+    const double low = std::clamp(low_end(), kUnlikely, 1.0 - kUnlikely);
+    const double high = std::clamp(low_end() + rise(), kUnlikely, 1.0 - kUnlikely);
+    // Minus the log-likelihood, less that of a step below every level.
+    double cost = 0.0, least = 0.0, place = levels_.abscissa.front();
     for (std::size_t i = 0; i < levels_.size(); ++i) {
-      errors += levels_.num_trials[i] - levels_.num_yes[i];
-    }
-    double least = errors, place = levels_.abscissa.front();
-    for (std::size_t i = 0; i < levels_.size(); ++i) {
-      errors += 2.0 * levels_.num_yes[i] - levels_.num_trials[i];
-      if (!(errors < least)) continue;
-      least = errors;
+      const double num_no = levels_.num_trials[i] - levels_.num_yes[i];
+      cost += levels_.num_yes[i] * std::log(high / low) +
+              num_no * std::log((1.0 - high) / (1.0 - low));
+      if (!(cost < least)) continue;
+      least = cost;
       place =
           0.5 * (levels_.abscissa[i] + levels_.abscissa[std::min(i + 1, levels_.size() - 1)]);
     }

@@ -51,6 +51,28 @@ TEST(CurveFit, TwoLevelsOfALogisticCurveAreWorkedByHand) {
   EXPECT_NEAR(*fit.bic, 2.0 * std::log(200.0) - 2.0 * log_likelihood, 1e-10);
 }
 
+/// A refit of a forced choice that tends to a step has it where its likelihood is greatest, and
+/// one that tends to a level line lies beyond the levels on the side of its rarer answers. R,
+/// with a search of its own, finds percentiles of 2.83 and 4.00, and of 4.75 and infinity.
+TEST(CurveFit, RefitsOfAForcedChoiceThatTendToAStepOrALineKeepTheirPlace) {
+  const CurveOptions how = {.model = {.family = CurveFamily::kNormal, .guess_rate = 0.5},
+                            .num_bootstrap = 1000};
+  const std::vector<AnswerCount> steep = {{1.0, 10, 20}, {2.0, 11, 20}, {3.0, 12, 20},
+                                          {4.0, 18, 20}, {5.0, 20, 20}, {6.0, 20, 20}};
+  const CurveFit fit = fit_curve(steep, how);
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_GT(fit.num_bootstrap_degenerate, 300);
+  EXPECT_NEAR(fit.pse.bootstrap_ci95.low.value_or(0.0), 2.83, 0.1);
+  EXPECT_NEAR(fit.pse.bootstrap_ci95.high.value_or(0.0), 4.0, 0.1);
+
+  const std::vector<AnswerCount> flat = {{1.0, 10, 20}, {2.0, 10, 20}, {3.0, 11, 20},
+                                         {4.0, 12, 20}, {5.0, 13, 20}, {6.0, 15, 20}};
+  const CurveFit near_chance = fit_curve(flat, how);
+  ASSERT_EQ(near_chance.status, FitStatus::kOk) << near_chance.reason;
+  EXPECT_NEAR(near_chance.pse.bootstrap_ci95.low.value_or(0.0), 4.75, 0.2);
+  EXPECT_FALSE(near_chance.pse.bootstrap_ci95.high.has_value());
+}
+
 TEST(CurveFit, TwoLevelsOfEachFamilyGiveLocationAndScaleOfItsFormula) {
   // F is computed at location 0.4 and scale 0.8, for x = 0 and 1, by each formula of the help.
   const double low = -0.5, high = 0.75;  // (x - location) / scale
