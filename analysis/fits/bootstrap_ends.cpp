@@ -102,12 +102,21 @@ std::optional<double> acceleration_of(const std::vector<LeftOut>& all) {
   return cubes / (6.0 * std::pow(squares, 1.5));
 }
 
+std::string too_few_refits() {
+  return fmt::format(
+      "a bootstrap of fewer than {} refits has no interval, for none lies beyond its ends: ask "
+      "for 1000 or more",
+      kFewestRefits);
+}
+
 BootstrapEnds bootstrap_ends(const std::vector<double>& ascending, double estimate,
                              std::optional<double> acceleration) {
   BootstrapEnds result;
-  result.ci95 = {.low = end_at(ascending, kBootstrapTail),
-                 .high = end_at(ascending, 1.0 - kBootstrapTail)};
-  result.is_refused = refused(result.ci95, estimate);
+  if (ascending.size() >= static_cast<std::size_t>(kFewestRefits)) {
+    result.ci95 = {.low = end_at(ascending, kBootstrapTail),
+                   .high = end_at(ascending, 1.0 - kBootstrapTail)};
+    result.is_refused = refused(result.ci95, estimate);
+  }
   add_bca(result, ascending, estimate, acceleration);
   return result;
 }

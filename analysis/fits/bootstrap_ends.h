@@ -19,10 +19,18 @@ struct LeftOut {
 /// (Efron 1987). It is absent if no answer has any influence.
 [[nodiscard]] std::optional<double> acceleration_of(const std::vector<LeftOut>& all);
 
+/// With fewer refits none is expected beyond the 2.5 and the 97.5 percentile.
+inline constexpr int kFewestRefits = 39;
+
+/// Says in one sentence that there are fewer refits.
+[[nodiscard]] std::string too_few_refits();
+
 /// Intervals of an estimate from its resampled values. Infinite values are included, because
 /// leaving them out would narrow the interval.
 struct BootstrapEnds {
-  Interval ci95;  ///< The 2.5 and 97.5 percentiles. An infinite end is open.
+  /// The 2.5 and 97.5 percentiles. An infinite end is open, and so are both with fewer than
+  /// `kFewestRefits`.
+  Interval ci95;
   /// The percentile interval would miss the estimate, so both ends are open.
   bool is_refused = false;
   Interval bca_ci95;       ///< The interval corrected for bias and acceleration (Efron 1987).

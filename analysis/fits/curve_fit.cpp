@@ -92,8 +92,9 @@ class LimitOfRedraw {
         if (is_step_ || quantity.kind == Kind::kGuess || quantity.kind == Kind::kLapse) {
           return value_of(quantity, model_, levels_, curve_);
         }
-        // The limit lies beyond all levels, on the side of the rarer answers.
-        return mostly_yes() == model_.falling ? core::kInfinity : -core::kInfinity;
+        // The limit lies beyond all levels, on the side of the rarer answers. The engine's
+        // curve rises, whatever the model does.
+        return mostly_yes() ? -core::kInfinity : core::kInfinity;
       case Kind::kDistance:
         return is_step_ ? 0.0 : core::kInfinity;
       case Kind::kScale:
@@ -289,7 +290,7 @@ std::optional<double> misfit_of(const CurveFit& fit, const PsychometricLevels& l
   const bool are_many = std::ranges::any_of(
       levels.num_trials, [](double num_trials) { return num_trials > kManyAnswers; });
   if (!are_many) return misfit_p_value(binned(levels, kMostLevelsOfMany), free, curve);
-  const int degrees_of_freedom = fit.num_levels - fit.model.num_parameters();
+  const int degrees_of_freedom = residual_degrees_of_freedom(levels, free, curve);
   if (degrees_of_freedom < 1 || !fit.deviance) return std::nullopt;
   return chi_squared_above(*fit.deviance, degrees_of_freedom);
 }
@@ -325,6 +326,9 @@ void settle_proportions(CurveFit& fit, std::vector<Told>& all, const Psychometri
 void add_warnings(CurveFit& fit, const PsychometricLevels& levels, const FreeParameters& free,
                   const PsychometricCurve& curve, const CurveOptions& options) {
   const bool are_few = have_fewer_answers(levels, kFewAnswers);
+  if (fit.num_bootstrap > 0 && fit.num_bootstrap < kFewestRefits) {
+    fit.warnings.push_back(too_few_refits());
+  }
   if (fit.num_bootstrap > 0 && are_few) {
     fit.warnings.emplace_back(
         "bootstrap intervals hold the truth too rarely at so few answers a level: rather use "
@@ -520,7 +524,7 @@ CurveFit fit_curve(const std::vector<AnswerCount>& rows, const CurveOptions& opt
   fit.deviance = deviance_of(levels, log_likelihood);
   fit.aic = 2.0 * k - 2.0 * log_likelihood;
   fit.bic = k * std::log(static_cast<double>(fit.num_trials)) - 2.0 * log_likelihood;
-  const int degrees_of_freedom = static_cast<int>(levels.size()) - k;
+  const int degrees_of_freedom = residual_degrees_of_freedom(levels, found.free, curve);
   if (degrees_of_freedom > 0) {
     fit.overdispersion = pearson_statistic(levels, curve) / degrees_of_freedom;
   }

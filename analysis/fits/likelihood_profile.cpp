@@ -175,7 +175,9 @@ Interval likelihood_ratio_interval(const SmoothCost& cost, const LikelihoodOptim
         if (other.cost < least.cost) least = std::move(other);
       }
       last = least.at;
-      return least.cost - optimum.cost - drop;
+      // An infinite cost would leave a search for the root without a number.
+      constexpr double kMost = 1e6;
+      return std::min(least.cost - optimum.cost - drop, kMost);
     };
     const std::optional<double> found = crossing(excess, drop, farthest);
     return found ? std::optional(optimum.at[parameter] + direction * *found) : std::nullopt;

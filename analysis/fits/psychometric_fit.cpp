@@ -105,8 +105,7 @@ void add_uncertainty(PsychometricFit& fit, const std::vector<AnswerCount>& data,
     double scale = 1.0;
     if (options.overdispersion == Overdispersion::kScaled) {
       const PsychometricLevels by_row = levels_by_row(data, levels);
-      const int degrees_of_freedom =
-          residual_degrees_of_freedom(by_row, free, optimum.curve.lapse);
+      const int degrees_of_freedom = residual_degrees_of_freedom(by_row, free, optimum.curve);
       if (degrees_of_freedom < 1) {
         fit.overdispersion.note =
             "no degree of freedom is left to tell how far answers scatter";

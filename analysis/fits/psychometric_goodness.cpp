@@ -35,6 +35,11 @@ double deviance_residual(double yes, double trials, double fitted) {
   return std::copysign(std::sqrt(std::max(0.0, share)), yes / trials - fitted);
 }
 
+/// The probability of yes at intensity 0, which a logarithmic family keeps apart.
+double probability_at_zero(const PsychometricLevels& levels, const PsychometricCurve& curve) {
+  return levels.ends.low(curve.lapse, curve.guess);
+}
+
 /// How redrawn answers compare with the given ones.
 struct Judgement {
   bool is_as_far = false, has_correlation = false, is_as_correlated = false;
@@ -58,6 +63,10 @@ StandardResiduals residuals_of(const PsychometricLevels& levels,
     all.deviance.push_back(
         deviance_residual(levels.num_yes[level], levels.num_trials[level], fitted));
   }
+  const double at_zero = probability_at_zero(levels, curve);
+  const double variance = levels.zero_trials * at_zero * (1.0 - at_zero);
+  const double difference = levels.zero_yes - levels.zero_trials * at_zero;
+  if (variance > 0.0) all.pearson += difference * difference / variance;
   return all;
 }
 
@@ -102,9 +111,11 @@ double pearson_statistic(const PsychometricLevels& levels, const PsychometricCur
 }
 
 int residual_degrees_of_freedom(const PsychometricLevels& levels, const FreeParameters& free,
-                                double lapse) {
-  return static_cast<int>(levels.size()) - 1 - (free[1] ? 1 : 0) -
-         (free[2] && lapse > 0.0 ? 1 : 0);
+                                const PsychometricCurve& curve) {
+  const double at_zero = probability_at_zero(levels, curve);
+  const bool has_zero = levels.zero_trials > 0.0 && at_zero > 0.0 && at_zero < 1.0;
+  return static_cast<int>(levels.size()) + (has_zero ? 1 : 0) - 1 - (free[1] ? 1 : 0) -
+         (free[2] && curve.lapse > 0.0 ? 1 : 0) - (free[3] && curve.guess > 0.0 ? 1 : 0);
 }
 
 std::optional<double> misfit_p_value(const PsychometricLevels& levels,
@@ -115,8 +126,12 @@ std::optional<double> misfit_p_value(const PsychometricLevels& levels,
     answers.push_back(
         {levels.num_yes[level], levels.num_trials[level], fitted.probability(levels, level)});
   }
+  const double at_zero = probability_at_zero(levels, fitted);
+  if (levels.zero_trials > 0.0 && at_zero > 0.0 && at_zero < 1.0) {
+    answers.push_back({levels.zero_yes, levels.zero_trials, at_zero});
+  }
   const int num_fitted =
-      static_cast<int>(levels.size()) - residual_degrees_of_freedom(levels, free, fitted.lapse);
+      static_cast<int>(answers.size()) - residual_degrees_of_freedom(levels, free, fitted);
   return misfit_p_value(answers, num_fitted);
 }
 
@@ -131,8 +146,7 @@ PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
   };
   const StandardResiduals residuals = residuals_of(levels, fitted);
   PsychometricGoodness goodness;
-  goodness.degrees_of_freedom =
-      residual_degrees_of_freedom(levels, search.free(), fitted.lapse);
+  goodness.degrees_of_freedom = residual_degrees_of_freedom(levels, search.free(), fitted);
   for (std::size_t level = 0; level < levels.size(); ++level) {
     goodness.residuals.push_back(
         {levels.intensity[level], residuals.fitted[level], residuals.deviance[level]});
@@ -145,8 +159,7 @@ PsychometricGoodness goodness_of_fit(const PsychometricSearch& search,
   if (goodness.degrees_of_freedom < 1) {
     goodness.reason =
         "no degree of freedom is left: a curve with as many parameters as levels suits "
-        "whatever "
-        "is answered";
+        "whatever is answered";
     return goodness;
   }
 

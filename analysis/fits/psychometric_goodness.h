@@ -8,14 +8,17 @@ namespace jnd::analysis {
 /// model gives each level its own proportion.
 [[nodiscard]] double deviance_of(const PsychometricLevels& levels, double log_likelihood);
 
-/// Pearson's statistic: the sum of squared standardised residuals over levels > 0.
+/// Pearson's statistic: the sum of squared standardised residuals. Answers at intensity 0 of a
+/// logarithmic family belong to it where the curve's lower end lies between 0 and 1.
 [[nodiscard]] double pearson_statistic(const PsychometricLevels& levels,
                                        const PsychometricCurve& curve);
 
-/// The number of levels minus the number of free parameters. A lapse rate on its bound 0 does
-/// not count as free.
+/// The number of levels minus the number of free parameters. A lapse or guess rate on its bound
+/// 0 does not count as free. Intensity 0 of a logarithmic family is a level where the curve's
+/// lower end lies between 0 and 1; elsewhere no answer there can surprise.
 [[nodiscard]] int residual_degrees_of_freedom(const PsychometricLevels& levels,
-                                              const FreeParameters& free, double lapse);
+                                              const FreeParameters& free,
+                                              const PsychometricCurve& curve);
 
 /// The probability that answers of the curve lie as far from it as these do; see
 /// `answer_scatter.h`.

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "analysis/fits/answer_scatter.h"
+#include "analysis/fits/bootstrap_ends.h"
 #include "analysis/fits/psychometric_goodness.h"
 #include "analysis/fits/psychometric_search.h"
 
@@ -179,6 +180,9 @@ void add_psychometric_warnings(PsychometricFit& fit, const std::vector<AnswerCou
                                const PsychometricLevels& levels,
                                const PsychometricOptions& options, bool falls) {
   const bool are_few = have_fewer_answers(levels, kFewAnswers);
+  if (fit.bootstrap.n > 0 && fit.bootstrap.n < kFewestRefits) {
+    fit.warnings.push_back(too_few_refits());
+  }
   if (fit.bootstrap.n > 0 && are_few) {
     fit.warnings.emplace_back(
         "bootstrap intervals cover less than 95 % at so few answers a level (74 to 95 % at "

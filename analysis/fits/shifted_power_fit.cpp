@@ -91,6 +91,26 @@ class Law {
     return is_log_ ? in_logarithms(x, y, k) : in_magnitudes(x, y, k, offset);
   }
 
+  /// The squares that S = c + d ln I leaves. A law with an offset tends to it as the exponent
+  /// nears 0, while k grows and the offset falls without bound.
+  [[nodiscard]] double squares_of_logarithm() const {
+    const auto n = static_cast<double>(rows_.size());
+    double mean_x = 0.0, mean_y = 0.0, xx = 0.0, xy = 0.0, squares = 0.0;
+    for (const Magnitude& row : rows_) {
+      mean_x += std::log(row.intensity) / n;
+      mean_y += row.magnitude / n;
+    }
+    for (const Magnitude& row : rows_) {
+      const double x = std::log(row.intensity) - mean_x;
+      xx += x * x;
+      xy += x * (row.magnitude - mean_y);
+    }
+    for (const Magnitude& row : rows_) {
+      const double fitted = mean_y + xy / xx * (std::log(row.intensity) - mean_x);
+      squares += std::pow(row.magnitude - fitted, 2);
+    }
+    return squares;
+  }
   [[nodiscard]] double squares_about_mean() const {
     double mean = 0.0, sum = 0.0;
     for (const Magnitude& row : rows_)
@@ -228,6 +248,10 @@ void fill_intervals(ShiftedPowerFit& fit, const Law& law, const Search& search,
   const auto of_exponent = [&](double a) { return search.with_exponent(a); };
   fit.a_ci95 = {profile_end(of_exponent, *fit.a, 0.01, kLowestExponent, most),
                 profile_end(of_exponent, *fit.a, 0.01, kHighestExponent, most)};
+  // Where a logarithm does not lie too far off, nothing bounds the exponent on the side of 0.
+  if (fit.magnitude_offset && law.squares_of_logarithm() < most) {
+    (*fit.a > 0.0 ? fit.a_ci95.low : fit.a_ci95.high).reset();
+  }
   // The walk is along ln k, so k stays above 0.
   const auto of_factor = [&](double log_k) { return search.with_factor(std::exp(log_k)); };
   const double log_k = std::log(*fit.k);
@@ -286,6 +310,12 @@ ShiftedPowerFit fit_shifted_power(const std::vector<Magnitude>& data, PowerMetho
   }
   const Law law(rows, method, shift);
   const Search search(law, shift);
+  const double about_mean = law.squares_about_mean();
+  if (shift != PowerShift::kNone && !(about_mean > 0.0)) {
+    fit.reason = std::string("the magnitudes are all the same, so that every ") +
+                 (shift == PowerShift::kThreshold ? "threshold" : "offset") + " does as well";
+    return fit;
+  }
   double u = 0.0;
   if (shift == PowerShift::kThreshold) {
     const LeastSquares best =
@@ -304,6 +334,14 @@ ShiftedPowerFit fit_shifted_power(const std::vector<Magnitude>& data, PowerMetho
         "no power law: the best exponent lies beyond -4 to 8, or no factor > 0 is best";
     return fit;
   }
+  // A best exponent so near to 0 that a logarithm does as well stands for none.
+  constexpr double kAsGood = 1.0 - 1e-6;
+  if (shift == PowerShift::kOffset && best.squares > kAsGood * law.squares_of_logarithm()) {
+    fit.reason =
+        "no power law with an offset: a logarithm, to which it tends as the exponent nears 0, "
+        "suits the magnitudes as well or better; leave the offset out";
+    return fit;
+  }
   const Law::Linear linear = law.linear(best.at, u);
   fit.status = FitStatus::kOk;
   fit.k = linear.k;
@@ -311,7 +349,6 @@ ShiftedPowerFit fit_shifted_power(const std::vector<Magnitude>& data, PowerMetho
   if (shift == PowerShift::kThreshold) fit.intensity_threshold = law.threshold_at(u);
   if (shift == PowerShift::kOffset) fit.magnitude_offset = linear.offset;
   fit.sum_of_squares = linear.squares;
-  const double about_mean = law.squares_about_mean();
   if (about_mean > 0.0) fit.r_squared = 1.0 - linear.squares / about_mean;
   const int degrees_of_freedom = fit.num_rows - static_cast<int>(num_parameters);
   constexpr double kRounding = 1e-18;

@@ -6,11 +6,13 @@
 #include <limits>
 #include <set>
 
+#include "analysis/statistics/distributions.h"
+#include "analysis/statistics/summary.h"
+
 namespace jnd::analysis {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kNormal95 = 1.959963984540054;
 constexpr std::array<const char*, 3> kQuantities = {"PSE", "JND", "Weber fraction"};
 
 /// The indices of two cells. The difference is the first minus the second.
@@ -40,7 +42,7 @@ bool is_straight(const Eigen::VectorXd& first, const Eigen::VectorXd& second,
 }
 
 /// Computes rows of the design for given levels and stimuli, with other covariates at their
-/// means.
+/// means over the trials.
 class CellRows {
  public:
   CellRows(const Design& design, const TrialTable& table, const std::string& stimulus)
@@ -51,9 +53,12 @@ class CellRows {
         continue;
       }
       const TrialVariable& column = *table.find(variable.column);
-      double sum = 0.0;
-      for (const std::uint32_t place : column.place) sum += variable.value_of_cell[place];
-      values_.push_back(sum / static_cast<double>(column.place.size()));
+      double sum = 0.0, num_trials = 0.0;
+      for (std::size_t row = 0; row < column.place.size(); ++row) {
+        sum += table.num_trials[row] * variable.value_of_cell[column.place[row]];
+        num_trials += table.num_trials[row];
+      }
+      values_.push_back(sum / num_trials);
     }
   }
 
@@ -91,16 +96,17 @@ CellQuantities quantities_of(const MixedCell& cell, const StimulusLines& lines, 
   for (Eigen::VectorXd& one : found.gradient) one = Eigen::VectorXd::Zero(beta.size());
   if (b == 0.0 || !std::isfinite(a) || !std::isfinite(b)) return found;
   const double middle = link_quantile(link, 0.5);
-  const double distance = std::fabs(link_quantile(link, jnd_at) - middle);
-  const double place = (middle - a) / b, width = distance / std::fabs(b);
+  // The stimulus where F is `jnd_at` is this much further on the axis than the PSE.
+  const double step = (link_quantile(link, jnd_at) - middle) / b;
+  const double place = (middle - a) / b, width = std::fabs(step);
   const Eigen::VectorXd by_place = -(cell.offset + place * cell.slope) / b;
   const Eigen::VectorXd by_width = -(width / b) * cell.slope;
   const bool is_log = lines.axis == StimulusAxis::kLogarithmic;
   const double pse = is_log ? std::exp(place) : place;
   const Eigen::VectorXd by_pse = is_log ? Eigen::VectorXd(pse * by_place) : by_place;
-  const double weber = is_log ? std::expm1(width) : width / pse;
+  const double weber = is_log ? std::fabs(std::expm1(step)) : width / pse;
   const Eigen::VectorXd by_weber =
-      is_log ? Eigen::VectorXd(std::exp(width) * by_width)
+      is_log ? Eigen::VectorXd(std::exp(step) * by_width)
              : Eigen::VectorXd(by_width / pse - (weber / pse) * by_place);
   found.value = {pse, is_log ? pse * weber : width,
                  lines.has_weber_fraction && pse > 0.0 ? weber : kNone};
@@ -109,12 +115,18 @@ CellQuantities quantities_of(const MixedCell& cell, const StimulusLines& lines, 
   return found;
 }
 
-/// The quantile of sorted values at `share`, interpolated between neighbours.
-double sorted_quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+/// The interval between the expanded percentiles of sorted values, if so many redraws beside
+/// these had no value. Those may lie beyond either end.
+Interval percentiles(const std::vector<double>& sorted, std::size_t num_without,
+                     std::size_t num_groups) {
+  const std::size_t num_redraws = sorted.size() + num_without;
+  const std::optional<std::size_t> needed = num_redraws_needed(num_groups);
+  if (!needed || num_redraws < *needed) return {};
+  const double place = expanded_tail(num_groups) * static_cast<double>(num_redraws - 1);
+  const double below = place - static_cast<double>(num_without);
+  if (!(below >= 0.0)) return {};
+  const double share = below / static_cast<double>(sorted.size() - 1);
+  return {percentile(sorted, share), percentile(sorted, 1.0 - share)};
 }
 
 }  // namespace
@@ -206,18 +218,28 @@ std::vector<double> derived_values(const StimulusLines& lines, MixedLink link, d
   return values;
 }
 
+std::optional<std::size_t> num_redraws_needed(std::size_t num_groups) {
+  if (num_groups < kFewestResampled) return std::nullopt;
+  return static_cast<std::size_t>(std::ceil(1.0 / expanded_tail(num_groups)));
+}
+
 std::vector<DerivedQuantity> derived_quantities(const StimulusLines& lines, MixedLink link,
                                                 double jnd_at, const Eigen::VectorXd& beta,
-                                                const Eigen::MatrixXd& covariance,
-                                                const std::vector<Eigen::VectorXd>& redrawn) {
+                                                const MixedUncertainty& uncertainty) {
   std::vector<DerivedQuantity> all;
-  const auto add = [&](const std::string& name, double value, const Eigen::VectorXd& gradient) {
+  const double student_t =
+      student_t_quantile(0.975, static_cast<double>(uncertainty.num_groups) - 1.0);
+  const auto add = [&](const std::string& name, double value, const Eigen::VectorXd& gradient,
+                       bool is_positive) {
     DerivedQuantity quantity{.name = name};
     if (std::isfinite(value)) {
-      const double error = std::sqrt(gradient.dot(covariance * gradient));
+      const double error = std::sqrt(gradient.dot(uncertainty.covariance * gradient));
+      const double reach = student_t * error;
       quantity.value = value;
       quantity.standard_error = error;
-      quantity.ci95 = {value - kNormal95 * error, value + kNormal95 * error};
+      quantity.ci95 = is_positive ? Interval{value * std::exp(-reach / value),
+                                             value * std::exp(reach / value)}
+                                  : Interval{value - reach, value + reach};
     }
     all.push_back(std::move(quantity));
   };
@@ -225,8 +247,9 @@ std::vector<DerivedQuantity> derived_quantities(const StimulusLines& lines, Mixe
   for (const MixedCell& cell : lines.cells) {
     cells.push_back(quantities_of(cell, lines, link, jnd_at, beta));
     for (std::size_t k = 0; k < kQuantities.size(); ++k) {
+      const bool is_positive = k > 0 || lines.axis == StimulusAxis::kLogarithmic;
       add(kQuantities[k] + (cell.name.empty() ? "" : ", " + cell.name), cells.back().value[k],
-          cells.back().gradient[k]);
+          cells.back().gradient[k], is_positive);
     }
   }
   for (const auto& [later, earlier] : compared_cells(lines.cells)) {
@@ -234,22 +257,22 @@ std::vector<DerivedQuantity> derived_quantities(const StimulusLines& lines, Mixe
       add(std::string(kQuantities[k]) + ", " + lines.cells[later].name + " - " +
               lines.cells[earlier].name,
           cells[later].value[k] - cells[earlier].value[k],
-          cells[later].gradient[k] - cells[earlier].gradient[k]);
+          cells[later].gradient[k] - cells[earlier].gradient[k], false);
     }
   }
   std::vector<std::vector<double>> drawn(all.size());
-  for (const Eigen::VectorXd& one : redrawn) {
+  for (const Eigen::VectorXd& one : uncertainty.redrawn) {
+    if (one.size() == 0) continue;
     const std::vector<double> values = derived_values(lines, link, jnd_at, one);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (std::isfinite(values[i])) drawn[i].push_back(values[i]);
     }
   }
-  constexpr std::size_t kFewestDrawn = 20;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!all[i].value || drawn[i].size() < kFewestDrawn) continue;
+    if (!all[i].value || drawn[i].empty()) continue;
     std::ranges::sort(drawn[i]);
-    all[i].bootstrap_ci95 = {sorted_quantile(drawn[i], 0.025),
-                             sorted_quantile(drawn[i], 0.975)};
+    all[i].bootstrap_ci95 = percentiles(drawn[i], uncertainty.redrawn.size() - drawn[i].size(),
+                                        uncertainty.num_groups);
   }
   // A Weber fraction that no cell has is not reported.
   std::erase_if(all, [&](const DerivedQuantity& one) {

@@ -43,32 +43,50 @@ struct StimulusLines {
                                            const std::string& stimulus);
 
 /// A quantity of the median group, whose random effects are 0. q(p) is the quantile of the
-/// link, D = |q(at) - q(0.5)|, and t = (q(0.5) - a) / b on either axis:
+/// link, D = q(at) - q(0.5), and t = (q(0.5) - a) / b on either axis:
 ///
 ///     PSE             t                  exp(t)
-///     JND             D / |b|            exp(t) (exp(D / |b|) - 1)
-///     Weber fraction  JND / PSE          exp(D / |b|) - 1
+///     JND             |D / b|            exp(t) |exp(D / b) - 1|
+///     Weber fraction  JND / PSE          |exp(D / b) - 1|
 ///                     (linear)           (logarithmic)
 ///
-/// The Weber fraction exists if all stimuli and the PSE are > 0.
+/// The JND is the distance from the PSE to the stimulus where F is `at`, so that on a
+/// logarithmic axis it is shorter where that stimulus lies below the PSE. The Weber fraction
+/// exists if all stimuli and the PSE are > 0.
 struct DerivedQuantity {
   std::string name;  ///< For example "PSE, condition A" or "JND, condition B - condition A".
   std::optional<double> value;
-  std::optional<double> standard_error;
-  Interval ci95;            ///< By the delta method: value +- 1.96 standard errors.
-  Interval bootstrap_ci95;  ///< The 2.5 and 97.5 percentiles of the redraws, if there are any.
+  std::optional<double> standard_error;  ///< By the delta method.
+  /// By the delta method and Student's t. A quantity that is > 0 (a JND, a Weber fraction, a
+  /// PSE on a logarithmic axis) has the interval of its logarithm, others that of the value.
+  Interval ci95;
+  /// Percentiles of the redraws, expanded for few groups (Hesterberg 2015). A redraw that has
+  /// no fit, or in which the quantity does not exist, counts as beyond either end.
+  Interval bootstrap_ci95;
+};
+
+/// How far the fixed effects may be from the truth.
+struct MixedUncertainty {
+  Eigen::MatrixXd covariance;
+  /// Of the grouping with the fewest groups, >= 2. Student's t has one degree of freedom less.
+  std::size_t num_groups = 2;
+  /// The fixed effects of bootstrap refits. Those of a redraw without a fit are empty.
+  std::vector<Eigen::VectorXd> redrawn;
 };
 
 /// Only the values, in the order of `derived_quantities`. Values that do not exist are NaN.
 [[nodiscard]] std::vector<double> derived_values(const StimulusLines& lines, MixedLink link,
                                                  double jnd_at, const Eigen::VectorXd& beta);
 
+/// How many redraws the percentiles of a bootstrap need with this number of groups. With fewer
+/// than five groups no feasible number is enough.
+[[nodiscard]] std::optional<std::size_t> num_redraws_needed(std::size_t num_groups);
+
 /// PSE, JND and Weber fraction of each cell, and then the differences between every two cells
-/// that differ in one factor only. `redrawn` holds the fixed effects of bootstrap refits.
-/// `jnd_at` is a level of the curve between guess and lapse rate, and is not 0.5.
-/// Not real time.
+/// that differ in one factor only. `jnd_at` is a level of the curve between guess and lapse
+/// rate, and is not 0.5. Not real time.
 [[nodiscard]] std::vector<DerivedQuantity> derived_quantities(
     const StimulusLines& lines, MixedLink link, double jnd_at, const Eigen::VectorXd& beta,
-    const Eigen::MatrixXd& covariance, const std::vector<Eigen::VectorXd>& redrawn);
+    const MixedUncertainty& uncertainty);
 
 }  // namespace jnd::analysis

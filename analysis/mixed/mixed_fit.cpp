@@ -266,11 +266,10 @@ Eigen::VectorXd MixedRefit::redrawn(std::uint64_t seed, std::int64_t index) cons
   Eigen::MatrixXd inverse = covariance_;
   inverse.diagonal().array() += 1e-6;
   double log_likelihood = 0.0;
-  const bool is_there = climb(likelihood, parameters, inverse, log_likelihood);
-  const Eigen::VectorXd fixed = parameters.head(model_.num_fixed());
-  constexpr double kFarOff = 100.0;  // The answers are separated, so nothing bounds the effect.
-  if (!is_there || !(fixed.cwiseAbs().maxCoeff() < kFarOff)) return {};
-  return fixed_scale_ * fixed;
+  if (!climb(likelihood, parameters, inverse, log_likelihood)) return {};
+  // A climb among separated answers stops wherever the likelihood hardly rises any more.
+  if (unbounded_effect(likelihood, parameters, model_.num_fixed()) != -1) return {};
+  return fixed_scale_ * parameters.head(model_.num_fixed());
 }
 
 }  // namespace jnd::analysis

@@ -105,6 +105,14 @@ bool climb(MixedLikelihood& likelihood, Eigen::VectorXd& parameters, Eigen::Matr
   return false;
 }
 
+std::optional<int> unbounded_effect(MixedLikelihood& likelihood, const Eigen::VectorXd& at,
+                                    int num_fixed) {
+  Eigen::MatrixXd information;
+  if (!information_at(likelihood, at, information)) return std::nullopt;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(information);
+  return unbounded_effect(solver, num_fixed);
+}
+
 MixedOptimum most_likely(MixedLikelihood& likelihood, const Eigen::VectorXd& start,
                          int num_fixed) {
   MixedOptimum optimum;

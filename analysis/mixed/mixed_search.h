@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 
 #include "analysis/mixed/mixed_likelihood.h"
@@ -27,6 +28,12 @@ struct MixedOptimum {
 /// false if numbers left their range or it took too long. `parameters` are of the order of 1.
 [[nodiscard]] bool climb(MixedLikelihood& likelihood, Eigen::VectorXd& parameters,
                          Eigen::MatrixXd& inverse, double& log_likelihood);
+
+/// The fixed effect that has no most likely value because answers are separated: near `at`,
+/// where a climb came to rest, the likelihood hardly depends on it. -1 if every one has, and
+/// nothing if numbers left their range.
+[[nodiscard]] std::optional<int> unbounded_effect(MixedLikelihood& likelihood,
+                                                  const Eigen::VectorXd& at, int num_fixed);
 
 /// Climbs, and then takes Newton steps with an information from differences of gradients. A
 /// spread of 0 may be a saddle or a minimum of the likelihood. The search leaves such a place

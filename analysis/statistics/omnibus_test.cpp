@@ -118,7 +118,10 @@ OmnibusTest repeated_measures_anova(const RepeatedMeasures& data) {
   const double largest = table.cwiseAbs().maxCoeff();
   constexpr double kRounding = 1e-24;
   if (!(of_errors > kRounding * n * k * largest * largest)) {
-    test.reason = "everybody changes alike from condition to condition: F is infinite";
+    test.reason = of_conditions > kRounding * n * k * largest * largest
+                      ? "everybody changes alike from condition to condition: F is infinite"
+                      : "nobody's values change from condition to condition: there is nothing "
+                        "to test";
     return test;
   }
   test.statistic =

@@ -9,22 +9,14 @@
 #include "core/require.h"
 
 namespace jnd::analysis {
-namespace {
+namespace {}  // namespace
 
-/// Fewer participants give too few different resamples: two give three.
-constexpr std::size_t kFewestParticipants = 5;
-
-/// The tail probability that gives a bootstrap of n values the reach of Student's t. Plain
-/// percentiles are too narrow, by sqrt((n-1)/n) and by the shorter tails of the normal
-/// distribution (Hesterberg 2015, expanded percentiles).
 double expanded_tail(std::size_t num_values) {
   if (num_values < 2) return 0.025;
   const auto n = static_cast<double>(num_values);
   const double t = student_t_quantile(0.975, n - 1.0);
   return core::standard_normal_cdf(-t * std::sqrt(n / (n - 1.0)));
 }
-
-}  // namespace
 
 double percentile(const std::vector<double>& ascending, double probability) noexcept {
   const double place = probability * static_cast<double>(ascending.size() - 1);
@@ -83,7 +75,7 @@ std::vector<Resamples> resampled(std::size_t num_participants, int num_resamples
                 static_cast<double>(num_participants));
   core::require(num_resamples >= 1, "num_resamples", "a number >= 1", num_resamples);
   std::vector<Resamples> all(num_statistics);
-  if (num_participants < kFewestParticipants) return all;
+  if (num_participants < kFewestResampled) return all;
   core::RandomStream random(seed, "bootstrap over participants");
   std::vector<std::size_t> drawn(num_participants);
   std::vector<std::optional<double>> values(num_statistics);

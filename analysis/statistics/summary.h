@@ -38,6 +38,15 @@ struct ResampledInterval {
   int num_undefined = 0;  ///< The number of resamples for which the statistic did not exist.
 };
 
+/// Fewer participants give too few different resamples (two give three), and percentiles that
+/// no feasible number of resamples reaches.
+inline constexpr std::size_t kFewestResampled = 5;
+
+/// The tail probability that gives a bootstrap of n values the reach of Student's t. Plain
+/// percentiles are too narrow, by sqrt((n-1)/n) and by the shorter tails of the normal
+/// distribution (Hesterberg 2015, expanded percentiles).
+[[nodiscard]] double expanded_tail(std::size_t num_values);
+
 /// The bootstrap over participants (Efron 1979), who are drawn with replacement. It shows the
 /// variation between repetitions of a study. `statistic` receives the indices of the drawn
 /// participants, counted from 0: num_participants of them, with repeats. If the statistic is

@@ -80,6 +80,13 @@ void print_comparison(const analysis::Comparison& result) {
   if (result.hodges_lehmann && result.num_zeros > 0) {
     fmt::print("    of the differences other than 0 alone, as the test\n");
   }
+  if (result.kind == Kind::kSign && result.num_zeros > 0) {
+    fmt::print(
+        "    of all differences, of which {} are 0; p leaves those out, so that it can be "
+        "small "
+        "where the interval holds 0\n",
+        result.num_zeros);
+  }
   if (result.status != analysis::FitStatus::kOk) return;
   for (const auto& [name, value] : result.all_statistics()) {
     fmt::print("  {:<24} {}\n", statistic_title(name), defined(value));

@@ -14,6 +14,7 @@
 
 #include "analysis/mixed/mixed_json.h"
 #include "analysis/report/single_figure.h"
+#include "analysis/statistics/summary.h"
 #include "app/command_line/json_text.h"
 #include "app/command_line/option_checks.h"
 #include "app/commands/fit_figures.h"
@@ -196,20 +197,51 @@ void add_trial_before(const FitGlmmOptions& options, GlmmResult& result) {
       num_first));
 }
 
+/// The number of groups of the grouping that has the fewest.
+std::size_t fewest_groups(const GlmmResult& result) {
+  return std::ranges::min_element(result.groups, {},
+                                  &std::pair<std::string, std::size_t>::second)
+      ->second;
+}
+
+/// Says why the bootstrap gives no interval.
+void add_caution_of_bootstrap(const FitGlmmOptions& options, GlmmResult& result) {
+  if (options.num_bootstrap == 0) return;
+  const auto num_redraws = static_cast<std::size_t>(options.num_bootstrap);
+  const std::size_t num_groups = fewest_groups(result);
+  const std::optional<std::size_t> needed = analysis::num_redraws_needed(num_groups);
+  if (!needed) {
+    result.notes.push_back(fmt::format(
+        "the bootstrap has no interval with fewer than {} groups of a random effect",
+        analysis::kFewestResampled));
+  } else if (num_redraws < *needed) {
+    result.notes.push_back(fmt::format(
+        "the bootstrap has no interval with {} redraws: percentiles of {} groups, which reach "
+        "as far as Student's t, need {} or more",
+        num_redraws, num_groups, *needed));
+  }
+}
+
 void add_derived(const FitGlmmOptions& options, const analysis::MixedOptions& how,
                  const analysis::MixedRefit& refit, GlmmResult& result) {
-  std::vector<Eigen::VectorXd> redrawn(static_cast<std::size_t>(options.num_bootstrap));
+  analysis::MixedUncertainty uncertainty = {.covariance = result.fit.fixed_covariance,
+                                            .num_groups = fewest_groups(result),
+                                            .redrawn = {}};
+  std::vector<Eigen::VectorXd>& redrawn = uncertainty.redrawn;
+  redrawn.resize(static_cast<std::size_t>(options.num_bootstrap));
   const int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   core::for_each_index(redrawn.size(), jobs, [&](std::size_t i) {
     redrawn[i] = refit.redrawn(options.seed, static_cast<std::int64_t>(i));
   });
-  result.num_without_fit = static_cast<int>(
-      std::erase_if(redrawn, [](const Eigen::VectorXd& one) { return one.size() == 0; }));
+  result.num_without_fit = static_cast<int>(std::ranges::count_if(
+      redrawn, [](const Eigen::VectorXd& one) { return one.size() == 0; }));
+  result.degrees_of_freedom = static_cast<int>(uncertainty.num_groups) - 1;
   result.derived = analysis::derived_quantities(result.lines, how.curve.link, options.jnd_at,
-                                                result.fit.estimates(),
-                                                result.fit.fixed_covariance, redrawn);
+                                                result.fit.estimates(), uncertainty);
+  add_caution_of_bootstrap(options, result);
   for (const std::string& name : result.lines.held) {
-    result.notes.push_back(fmt::format("PSE and JND are where {} is at its mean", name));
+    result.notes.push_back(
+        fmt::format("PSE and JND are where {} is at its mean over the trials", name));
   }
   for (const analysis::MixedCell& cell : result.lines.cells) {
     const double slope = cell.slope.dot(result.fit.estimates());
@@ -240,9 +272,9 @@ void add_cautions(GlmmResult& result) {
   constexpr std::size_t kFewGroups = 20;
   for (const auto& [name, number] : result.groups) {
     if (number >= kFewGroups) continue;
-    result.notes.push_back(fmt::format(
-        "z, p and intervals hold for many groups: with {} of {} they are somewhat too sure",
-        number, name));
+    result.notes.push_back(
+        fmt::format("z and p hold for many groups: with {} of {} they are somewhat too sure",
+                    number, name));
   }
 }
 
@@ -366,6 +398,7 @@ nlohmann::ordered_json document_of(const FitGlmmOptions& options, const GlmmResu
     json["axis"] =
         result.lines.axis == analysis::StimulusAxis::kLinear ? "linear" : "logarithmic";
     json["jnd_at"] = options.jnd_at;
+    if (!result.derived.empty()) json["degrees_of_freedom"] = result.degrees_of_freedom;
   }
   if (options.num_bootstrap > 0) {
     json["bootstrap"] = {{"num", options.num_bootstrap},

@@ -33,6 +33,7 @@ struct GlmmResult {
   analysis::MixedFit fit;
   analysis::StimulusLines lines;
   std::vector<analysis::DerivedQuantity> derived;
+  int degrees_of_freedom = 0;  ///< Those of Student's t in the intervals of `derived`.
   /// The number of groups of each random term, by the name of the grouping.
   std::vector<std::pair<std::string, std::size_t>> groups;
   int num_without_fit = 0;  ///< How many refits of the bootstrap failed.

@@ -47,22 +47,25 @@ void print_random(const GlmmResult& result) {
 
 void print_derived(const FitGlmmOptions& options, const GlmmResult& result) {
   const bool is_log = result.lines.axis == analysis::StimulusAxis::kLogarithmic;
-  fmt::print("of the median group, over {}{}: PSE where F is 1/2, JND from there to F = {:g}\n",
-             is_log ? "ln " : "", options.stimulus, options.jnd_at);
+  fmt::print(
+      "of the median group, over {}{}: PSE where F is 1/2, JND from there to F = {:g}; "
+      "intervals by Student's t, df = {}\n",
+      is_log ? "ln " : "", options.stimulus, options.jnd_at, result.degrees_of_freedom);
   const std::size_t width =
       longest(5, result.derived, [](const analysis::DerivedQuantity& one) { return one.name; });
   for (const analysis::DerivedQuantity& one : result.derived) {
     fmt::print("  {:<{}}  {:>10}  95 % {}", one.name, width, number(one.value),
                one.value ? whole_range(one.ci95) : "-");
     if (options.num_bootstrap > 0) {
-      fmt::print(", bootstrap {}", one.bootstrap_ci95.low ? whole_range(one.bootstrap_ci95)
-                                                          : std::string("none"));
+      const bool is_told = one.bootstrap_ci95.low.has_value();
+      fmt::print(", bootstrap {}",
+                 is_told ? whole_range(one.bootstrap_ci95) : std::string("none"));
     }
     fmt::print("\n");
   }
   if (options.num_bootstrap > 0) {
-    fmt::print("  {} redraws, of which {} had no fit\n", options.num_bootstrap,
-               result.num_without_fit);
+    fmt::print("  {} redraws, of which {} had no fit and count as beyond either end\n",
+               options.num_bootstrap, result.num_without_fit);
   }
 }
 

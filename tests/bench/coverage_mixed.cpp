@@ -78,12 +78,13 @@ struct TrueMixed {
 
 std::string cover_mixed(int num_people, int num_nodes, int num_sets, std::uint64_t seed) {
   constexpr int kTrials = 10;
-  constexpr int kRedraws = 200;
+  constexpr int kRedraws = 500;
   RandomStream random(seed, "coverage of a mixed model", {num_people, num_nodes});
   const StimulusLines lines = TrueMixed::lines();
   const Eigen::VectorXd truth = TrueMixed::fixed();
-  const std::vector<DerivedQuantity> true_values = derived_quantities(
-      lines, MixedLink::kProbit, 0.75, truth, Eigen::MatrixXd::Zero(4, 4), {});
+  const std::vector<DerivedQuantity> true_values =
+      derived_quantities(lines, MixedLink::kProbit, 0.75, truth,
+                         {.covariance = Eigen::MatrixXd::Zero(4, 4), .redrawn = {}});
   // Both PSEs and JNDs together, and both differences: they are alike.
   Coverage slope, interaction, values_delta, values_redrawn, differences_delta,
       differences_redrawn;
@@ -103,13 +104,14 @@ std::string cover_mixed(int num_people, int num_nodes, int num_sets, std::uint64
     std::vector<DerivedQuantity> found = true_values;
     for (DerivedQuantity& one : found) one.ci95 = {};
     if (exists) {
-      std::vector<Eigen::VectorXd> redrawn;
+      MixedUncertainty uncertainty = {.covariance = fit.fixed_covariance,
+                                      .num_groups = static_cast<std::size_t>(num_people),
+                                      .redrawn = {}};
       for (int index = 0; index < kRedraws; ++index) {
-        Eigen::VectorXd one = refit.redrawn(seed + static_cast<std::uint64_t>(set), index);
-        if (one.size() > 0) redrawn.push_back(std::move(one));
+        uncertainty.redrawn.push_back(
+            refit.redrawn(seed + static_cast<std::uint64_t>(set), index));
       }
-      found = derived_quantities(lines, MixedLink::kProbit, 0.75, fit.estimates(),
-                                 fit.fixed_covariance, redrawn);
+      found = derived_quantities(lines, MixedLink::kProbit, 0.75, fit.estimates(), uncertainty);
     }
     for (std::size_t i = 0; i < found.size(); ++i) {
       const bool is_difference = found[i].name.find(" - ") != std::string::npos;
@@ -197,7 +199,7 @@ void cover_mixed_models(int num_sets, std::uint64_t seed) {
       "\n## Mixed models of answers: `jnd fit glmm`\n\n%d studies of two conditions within "
       "people, seven stimuli, ten answers to each. `u * condition`, random `1 + u`\n(sd 0.4 "
       "and "
-      "0.3, correlation 0.3), probit. D delta method, B percentiles of 200 redraws.\n\n",
+      "0.3, correlation 0.3), probit. D delta method, B percentiles of 500 redraws.\n\n",
       num_sets);
   print_row({"people", "nodes", "slope of u", "u:condition", "PSE and JND, D", "PSE and JND, B",
              "their differences, D", "their differences, B", "studies without a fit"});

@@ -48,6 +48,15 @@ TEST(BootstrapEnds, EndsBeyondTheOutermostRefitsAreRefusedWithTheNumberThatIsNee
   EXPECT_EQ(few.bca_reason, "its ends lie beyond the outermost refits; 748 refits are needed");
 }
 
+/// One refit in forty lies beyond each of the percentiles.
+TEST(BootstrapEnds, FewerThan39RefitsReachNoPercentile) {
+  const BootstrapEnds few = bootstrap_ends(first(38), 19.0, 0.0);
+  EXPECT_FALSE(few.ci95.low || few.ci95.high);
+  EXPECT_FALSE(few.is_refused);
+  EXPECT_FALSE(few.bca_reason.empty());
+  EXPECT_TRUE(bootstrap_ends(first(39), 19.0, 0.0).ci95.low);
+}
+
 TEST(BootstrapEnds, AnAccelerationThatTurnsTheCorrectionAroundGivesNone) {
   const BootstrapEnds ends = bootstrap_ends(first(1000), 500.0, 0.6);
   EXPECT_FALSE(ends.bca_ci95.low || ends.bca_ci95.high);

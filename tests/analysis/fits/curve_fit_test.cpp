@@ -71,6 +71,60 @@ TEST(CurveFit, RefitsOfAForcedChoiceThatTendToAStepOrALineKeepTheirPlace) {
   ASSERT_EQ(near_chance.status, FitStatus::kOk) << near_chance.reason;
   EXPECT_NEAR(near_chance.pse.bootstrap_ci95.low.value_or(0.0), 4.75, 0.2);
   EXPECT_FALSE(near_chance.pse.bootstrap_ci95.high.has_value());
+
+  // The mirror image of a curve that falls.
+  std::vector<AnswerCount> mirrored = flat;
+  for (AnswerCount& row : mirrored) row.intensity = -row.intensity;
+  CurveOptions falling = how;
+  falling.model.falling = true;
+  const CurveFit mirror = fit_curve(mirrored, falling);
+  ASSERT_EQ(mirror.status, FitStatus::kOk) << mirror.reason;
+  EXPECT_FALSE(mirror.pse.bootstrap_ci95.low.has_value());
+  EXPECT_NEAR(mirror.pse.bootstrap_ci95.high.value_or(0.0), -4.75, 0.2);
+}
+
+/// A curve with three parameters passes through three levels, so that no answers could lie
+/// farther from it.
+TEST(CurveFit, AFreeGuessRateTakesADegreeOfFreedom) {
+  const CurveFit fit = fit_curve(
+      {{1.0, 4, 40}, {2.0, 15, 40}, {3.0, 36, 40}},
+      {.model = {.family = CurveFamily::kNormal, .free_guess = true}, .num_goodness = 100});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  ASSERT_GT(*fit.guess_rate.value, 0.0);
+  EXPECT_FALSE(fit.goodness_p_value);
+  EXPECT_FALSE(fit.overdispersion);
+  EXPECT_NE(fit.goodness_reason.find("no degree of freedom"), std::string::npos);
+}
+
+/// R has 0.6442 for the sum of squared residuals of all six levels, of which three degrees of
+/// freedom are left.
+TEST(CurveFit, AnswersAtIntensityZeroCountInTheirScatter) {
+  const CurveFit fit = fit_curve(
+      {{0.0, 5, 20}, {1.0, 4, 20}, {2.0, 7, 20}, {4.0, 11, 20}, {8.0, 18, 20}, {16.0, 20, 20}},
+      {.model = {.family = CurveFamily::kNormal, .log_axis = true, .free_guess = true}});
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_NEAR(*fit.overdispersion, 0.6442 / 3.0, 1e-4);
+}
+
+/// At a rate of 0 an answer at intensity 0 would be impossible. R's profile of the falling
+/// curve ends at 0.0062 and 0.3284.
+TEST(CurveFit, ARateThatAnAnswerAtIntensityZeroNeedsHasALowEndAbove0) {
+  const CurveFit rising = fit_curve(
+      {{0.0, 1, 10}, {1.0, 2, 10}, {2.0, 4, 10}, {4.0, 7, 10}, {8.0, 9, 10}},
+      {.model = {.family = CurveFamily::kNormal, .log_axis = true, .free_guess = true}});
+  ASSERT_EQ(rising.status, FitStatus::kOk) << rising.reason;
+  EXPECT_GT(rising.guess_rate.ci95.low.value_or(-1.0), 0.0);
+  EXPECT_LT(rising.guess_rate.ci95.low.value_or(1.0), *rising.guess_rate.value);
+  const CurveFit falling =
+      fit_curve({{0.0, 9, 10}, {1.0, 8, 10}, {2.0, 6, 10}, {4.0, 3, 10}, {8.0, 1, 10}},
+                {.model = {.family = CurveFamily::kNormal,
+                           .log_axis = true,
+                           .guess_rate = 0.02,
+                           .free_lapse = true,
+                           .falling = true}});
+  ASSERT_EQ(falling.status, FitStatus::kOk) << falling.reason;
+  EXPECT_NEAR(falling.lapse_rate.ci95.low.value_or(-1.0), 0.0062, 1e-4);
+  EXPECT_NEAR(falling.lapse_rate.ci95.high.value_or(-1.0), 0.3284, 1e-4);
 }
 
 TEST(CurveFit, TwoLevelsOfEachFamilyGiveLocationAndScaleOfItsFormula) {
@@ -270,7 +324,7 @@ TEST(CurveFit, AThresholdOfAProportionIsWorkedByHandWhereRatesAreFree) {
                               .falling = falling};
     const CurveFit fit = fit_curve(
         expected_answers(model, 0.25, 0.5, 0.2, 0.1),
-        {.model = model, .at = {}, .at_proportion = {0.55, 0.725}, .num_bootstrap = 20});
+        {.model = model, .at = {}, .at_proportion = {0.55, 0.725}, .num_bootstrap = 60});
     ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
     ASSERT_EQ(fit.thresholds.size(), 2U);
     EXPECT_NEAR(fit.thresholds[0].at, 0.5, 1e-5);

@@ -102,4 +102,35 @@ TEST(ShiftedPowerFit, TooFewRowsAndLogarithmsOfOffsetsAreRefused) {
   EXPECT_NEAR(*zeros.a, 1.0, 1e-8);
 }
 
+/// No k and a are best: the sum of squares falls for ever as a nears 0 and k grows, toward that
+/// of a logarithm.
+TEST(ShiftedPowerFit, AnOffsetOfMagnitudesThatBendMoreThanALogarithmHasNoFit) {
+  const ShiftedPowerFit concave =
+      fit_shifted_power({{1, 0.05}, {2, 0.5}, {4, 0.74}, {8, 0.88}, {16, 0.93}, {32, 0.97}},
+                        PowerMethod::kNonlinear, PowerShift::kOffset);
+  EXPECT_EQ(concave.status, FitStatus::kDegenerate);
+  EXPECT_NE(concave.reason.find("a logarithm"), std::string::npos) << concave.reason;
+  EXPECT_FALSE(concave.k || concave.a || concave.magnitude_offset);
+}
+
+/// The exponent is 0.1, and rows scatter so much that a logarithm does not lie too far off.
+TEST(ShiftedPowerFit, NothingBoundsAnExponentFromWhichALogarithmIsNotFar) {
+  const ShiftedPowerFit fit =
+      fit_shifted_power(rows_of([](double i) { return 2.0 * std::pow(i, 0.1); }, 0.5),
+                        PowerMethod::kNonlinear, PowerShift::kOffset);
+  ASSERT_EQ(fit.status, FitStatus::kOk) << fit.reason;
+  EXPECT_GT(*fit.a, 0.0);
+  EXPECT_FALSE(fit.a_ci95.low);
+  EXPECT_TRUE(fit.a_ci95.high);
+}
+
+TEST(ShiftedPowerFit, MagnitudesThatAreAllTheSameTellNoThreshold) {
+  for (const PowerShift shift : {PowerShift::kThreshold, PowerShift::kOffset}) {
+    const ShiftedPowerFit same =
+        fit_shifted_power({{1, 5}, {2, 5}, {4, 5}, {8, 5}}, PowerMethod::kNonlinear, shift);
+    EXPECT_EQ(same.status, FitStatus::kDegenerate);
+    EXPECT_NE(same.reason.find("all the same"), std::string::npos) << same.reason;
+  }
+}
+
 }  // namespace shifted_power_fit_test

@@ -149,9 +149,9 @@ std::vector<DerivedQuantity> said_of(const PsychophysicalModel& model) {
   const MixedFit fit =
       fit_mixed(mixed_data(formulas, design, table, Contrasts::kTreatment), {});
   EXPECT_EQ(fit.status, FitStatus::kOk) << model.study << fit.reason;
-  std::vector<DerivedQuantity> said =
-      derived_quantities(stimulus_lines(formulas.fixed, design, table, "intensity"),
-                         MixedLink::kProbit, 0.75, fit.estimates(), fit.fixed_covariance, {});
+  std::vector<DerivedQuantity> said = derived_quantities(
+      stimulus_lines(formulas.fixed, design, table, "intensity"), MixedLink::kProbit, 0.75,
+      fit.estimates(), {.covariance = fit.fixed_covariance, .redrawn = {}});
   said.push_back({.name = "log_likelihood", .value = fit.log_likelihood});
   return said;
 }

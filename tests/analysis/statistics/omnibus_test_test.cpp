@@ -81,6 +81,9 @@ TEST(RepeatedMeasuresAnova, WithoutErrorsOrPeopleItSaysWhy) {
   EXPECT_EQ(alike.status, FitStatus::kDegenerate);
   EXPECT_NE(alike.reason.find("F is infinite"), std::string::npos);
   EXPECT_FALSE(alike.p_value.has_value());
+  const OmnibusTest same = repeated_measures_anova(measured({{1, 1, 1}, {7, 7, 7}}));
+  EXPECT_EQ(same.status, FitStatus::kDegenerate);
+  EXPECT_NE(same.reason.find("nothing to test"), std::string::npos) << same.reason;
   EXPECT_EQ(repeated_measures_anova(measured({{1, 2, 4}})).status, FitStatus::kDegenerate);
   EXPECT_THROW((void)repeated_measures_anova(
                    measured({{1, std::numeric_limits<double>::quiet_NaN()}, {1, 2}})),
