@@ -9,8 +9,6 @@
 #include "core/require.h"
 
 namespace jnd::analysis {
-namespace {}  // namespace
-
 double expanded_tail(std::size_t num_values) {
   if (num_values < 2) return 0.025;
   const auto n = static_cast<double>(num_values);
