@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/fits/bootstrap_ends.h"
+#include "analysis/fits/curve_resamples.h"
 #include "analysis/statistics/distributions.h"
 #include "analysis/statistics/multiplicity.h"
 

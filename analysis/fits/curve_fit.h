@@ -111,17 +111,6 @@ struct FoundCurve {
 [[nodiscard]] FoundCurve found_curve(const std::vector<AnswerCount>& rows,
                                      const CurveModel& model);
 
-/// Values of several quantities over redrawn answers: one list for each quantity, in the order
-/// of the redraws. If a redraw has no optimum, its value is the limit that the quantity tends
-/// to, such as a JND of 0 for a step. The same seed draws the same answers.
-struct CurveResamples {
-  std::vector<std::vector<double>> values;
-  int num_degenerate = 0;
-};
-[[nodiscard]] CurveResamples resampled(const FoundCurve& fit, const CurveModel& model,
-                                       const std::vector<CurveQuantity>& quantities,
-                                       int num_redraws, BootstrapKind kind, std::uint64_t seed);
-
 /// Whether the answers of all groups together fall as the intensity grows. The covariance of
 /// answer and intensity, summed over the groups, must be below 0 by more than two of its
 /// standard deviations.

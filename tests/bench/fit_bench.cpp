@@ -2,6 +2,7 @@
 
 #include "analysis/data/answer_file.h"
 #include "analysis/fits/curve_fit.h"
+#include "analysis/fits/curve_resamples.h"
 #include "analysis/fits/power_fit.h"
 #include "analysis/fits/psychometric_fit.h"
 
