@@ -7,6 +7,7 @@
 #include "analysis/fits/curve_resamples.h"
 #include "analysis/statistics/distributions.h"
 #include "analysis/statistics/multiplicity.h"
+#include "core/require.h"
 
 namespace jnd::analysis {
 namespace {
@@ -141,22 +142,29 @@ class ThresholdPair {
   double level_;
 };
 
+/// A redraw without a value may lie beyond either end.
+Interval ends_of(const std::vector<double>& values, const std::optional<double>& estimate) {
+  if (values.empty() || !estimate) return {};
+  const auto ends_if = [&](double undefined) {
+    std::vector<double> ascending = values;
+    for (double& value : ascending) {
+      if (std::isnan(value)) value = undefined;
+    }
+    std::ranges::sort(ascending);
+    return bootstrap_ends(ascending, *estimate, std::nullopt).ci95;
+  };
+  return {.low = ends_if(-core::kInfinity).low, .high = ends_if(core::kInfinity).high};
+}
+
 void add_bootstrap_ends(CurveContrast& contrast, const std::vector<double>& one,
                         const std::vector<double>& other) {
-  const auto ends_of = [](std::vector<double> values, const std::optional<double>& estimate) {
-    std::erase_if(values, [](double value) { return std::isnan(value); });
-    if (values.empty() || !estimate) return Interval{};
-    std::ranges::sort(values);
-    return bootstrap_ends(values, *estimate, std::nullopt).ci95;
-  };
   std::vector<double> differences, ratios;
   for (std::size_t i = 0; i < std::min(one.size(), other.size()); ++i) {
     differences.push_back(other[i] - one[i]);
-    if (one[i] > 0.0 && other[i] > 0.0) ratios.push_back(other[i] / one[i]);
+    ratios.push_back(one[i] > 0.0 && other[i] > 0.0 ? other[i] / one[i] : std::nan(""));
   }
-  contrast.difference.bootstrap_ci95 =
-      ends_of(std::move(differences), contrast.difference.value);
-  contrast.ratio.bootstrap_ci95 = ends_of(std::move(ratios), contrast.ratio.value);
+  contrast.difference.bootstrap_ci95 = ends_of(differences, contrast.difference.value);
+  contrast.ratio.bootstrap_ci95 = ends_of(ratios, contrast.ratio.value);
 }
 
 }  // namespace

@@ -23,25 +23,23 @@ class LimitOfRedraw {
                 PsychometricSupremum supremum, const PsychometricCurve& fitted)
       : model_(model), levels_(redrawn), is_step_(supremum == PsychometricSupremum::kStep) {
     curve_ = fitted;
-    if (is_step_) {
-      curve_.slope = 1e12;
-      curve_.offset = -curve_.slope * step_place();
-    }
+    if (!is_step_) return;
+    step_place_ = step_place();
+    curve_.slope = 1e12;
+    curve_.offset = -curve_.slope * step_place_;
   }
 
   [[nodiscard]] double value(const CurveQuantity& quantity) const {
     switch (quantity.kind) {
       case Kind::kGuess:
       case Kind::kLapse:
+        return value_of(quantity, model_, levels_, curve_);
       case Kind::kThreshold:
-      case Kind::kThresholdOfProportion:
+        return place_of(quantity, quantity.level);
       case Kind::kLocation:
-        if (is_step_ || quantity.kind == Kind::kGuess || quantity.kind == Kind::kLapse) {
-          return value_of(quantity, model_, levels_, curve_);
-        }
-        // The limit lies beyond all levels, on the side of the rarer answers. The engine's
-        // curve rises, whatever the model does.
-        return mostly_yes() ? -core::kInfinity : core::kInfinity;
+        return place_of(quantity, traits_of(model_.family).at_location);
+      case Kind::kThresholdOfProportion:
+        return place_of(quantity, level_of_proportion(model_, levels_, curve_, quantity.level));
       case Kind::kDistance:
         return is_step_ ? 0.0 : core::kInfinity;
       case Kind::kScale:
@@ -58,33 +56,50 @@ class LimitOfRedraw {
   [[nodiscard]] double low_end() const { return levels_.ends.low(curve_.lapse, curve_.guess); }
   [[nodiscard]] double rise() const { return levels_.ends.rise(curve_.lapse, curve_.guess); }
 
-  /// Whether yes is more frequent than in the middle of the fitted curve. For a forced choice
-  /// between two this is three quarters, for half of the guesses are right.
-  [[nodiscard]] bool mostly_yes() const {
+  /// The place where F has a level. On a step this is the step. A level line has it beyond all
+  /// stimuli: above them if yes is rarer than the fitted curve has it at that level. (The
+  /// engine's curve rises, whatever the model does.)
+  [[nodiscard]] double place_of(const CurveQuantity& quantity, double level) const {
+    if (is_step_ && std::isfinite(step_place_)) {
+      return value_of(quantity, model_, levels_, curve_);
+    }
+    if (is_step_) return step_place_;
     double yes = 0.0, trials = 0.0;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
       yes += levels_.num_yes[i];
       trials += levels_.num_trials[i];
     }
-    return yes > (low_end() + 0.5 * rise()) * trials;
+    return yes > (low_end() + level * rise()) * trials ? -core::kInfinity : core::kInfinity;
   }
-  /// The place of the likeliest step between the ends of the fitted curve, in the middle
-  /// between its two neighbouring levels. An answer that an end at 0 or 1 excludes is very
-  /// unlikely, so that the step with the fewest of them is chosen.
+
+  /// The place of the likeliest step between the ends of the fitted curve: at a level, whose
+  /// probability may then be any between the ends, in the middle between two levels, or beyond
+  /// all of them. An answer that an end at 0 or 1 excludes is very unlikely, so that the step
+  /// with the fewest of them is chosen.
   [[nodiscard]] double step_place() const {
     constexpr double kUnlikely = 1e-9;
     const double low = std::clamp(low_end(), kUnlikely, 1.0 - kUnlikely);
     const double high = std::clamp(low_end() + rise(), kUnlikely, 1.0 - kUnlikely);
     // Minus the log-likelihood, less that of a step below every level.
-    double cost = 0.0, least = 0.0, place = levels_.abscissa.front();
+    double cost = 0.0, least = 0.0, place = -core::kInfinity;
+    const auto consider = [&](double its_cost, double its_place) {
+      if (!(its_cost < least)) return;
+      least = its_cost;
+      place = its_place;
+    };
     for (std::size_t i = 0; i < levels_.size(); ++i) {
-      const double num_no = levels_.num_trials[i] - levels_.num_yes[i];
-      cost += levels_.num_yes[i] * std::log(high / low) +
-              num_no * std::log((1.0 - high) / (1.0 - low));
-      if (!(cost < least)) continue;
-      least = cost;
-      place =
-          0.5 * (levels_.abscissa[i] + levels_.abscissa[std::min(i + 1, levels_.size() - 1)]);
+      const double yes = levels_.num_yes[i], no = levels_.num_trials[i] - yes;
+      // What it costs that level i has this probability instead of the upper end.
+      const auto more_at = [&](double probability) {
+        return yes * std::log(high / probability) +
+               no * std::log((1.0 - high) / (1.0 - probability));
+      };
+      const double share = yes / levels_.num_trials[i];
+      if (low < share && share < high) consider(cost + more_at(share), levels_.abscissa[i]);
+      cost += more_at(low);
+      const bool is_last = i + 1 == levels_.size();
+      consider(cost, is_last ? core::kInfinity
+                             : 0.5 * (levels_.abscissa[i] + levels_.abscissa[i + 1]));
     }
     return place;
   }
@@ -92,6 +107,7 @@ class LimitOfRedraw {
   const CurveModel& model_;
   const PsychometricLevels& levels_;
   bool is_step_;
+  double step_place_ = 0.0;
   PsychometricCurve curve_;
 };
 

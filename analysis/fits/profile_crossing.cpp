@@ -9,12 +9,11 @@ namespace jnd::analysis {
 
 std::optional<double> crossing(const std::function<double(double)>& function, double from,
                                double first_step, double limit, double precision) {
-  // Where answers are impossible the excess is infinite or not a number, with which a search
-  // for the root cannot reckon.
+  // Where answers are impossible the excess is infinite, with which a search for the root
+  // cannot reckon.
   const auto excess = [&function](double at) {
     constexpr double kMost = 1e6;
-    const double value = function(at);
-    return value < kMost ? value : kMost;
+    return std::min(function(at), kMost);
   };
   double inside = from;
   double excess_inside = excess(inside);

@@ -248,10 +248,6 @@ void fill_intervals(ShiftedPowerFit& fit, const Law& law, const Search& search,
   const auto of_exponent = [&](double a) { return search.with_exponent(a); };
   fit.a_ci95 = {profile_end(of_exponent, *fit.a, 0.01, kLowestExponent, most),
                 profile_end(of_exponent, *fit.a, 0.01, kHighestExponent, most)};
-  // Where a logarithm does not lie too far off, nothing bounds the exponent on the side of 0.
-  if (fit.magnitude_offset && law.squares_of_logarithm() < most) {
-    (*fit.a > 0.0 ? fit.a_ci95.low : fit.a_ci95.high).reset();
-  }
   // The walk is along ln k, so k stays above 0.
   const auto of_factor = [&](double log_k) { return search.with_factor(std::exp(log_k)); };
   const double log_k = std::log(*fit.k);
@@ -270,6 +266,13 @@ void fill_intervals(ShiftedPowerFit& fit, const Law& law, const Search& search,
     const double at = *fit.magnitude_offset, reach = std::sqrt(law.squares_of_values());
     fit.shift_ci95 = {profile_end(of_shift, at, 1e-3 * reach, at - 10.0 * reach, most),
                       profile_end(of_shift, at, 1e-3 * reach, at + 10.0 * reach, most)};
+    // Where a logarithm does not lie too far off, nothing bounds the exponent on the side of 0,
+    // where k grows and the offset falls without bound.
+    if (law.squares_of_logarithm() < most) {
+      (*fit.a > 0.0 ? fit.a_ci95.low : fit.a_ci95.high).reset();
+      fit.k_ci95.high.reset();
+      fit.shift_ci95.low.reset();
+    }
   }
 }
 
@@ -310,8 +313,8 @@ ShiftedPowerFit fit_shifted_power(const std::vector<Magnitude>& data, PowerMetho
   }
   const Law law(rows, method, shift);
   const Search search(law, shift);
-  const double about_mean = law.squares_about_mean();
-  if (shift != PowerShift::kNone && !(about_mean > 0.0)) {
+  const auto [least, most] = std::ranges::minmax_element(rows, {}, &Magnitude::magnitude);
+  if (shift != PowerShift::kNone && least->magnitude == most->magnitude) {
     fit.reason = std::string("the magnitudes are all the same, so that every ") +
                  (shift == PowerShift::kThreshold ? "threshold" : "offset") + " does as well";
     return fit;
@@ -349,6 +352,7 @@ ShiftedPowerFit fit_shifted_power(const std::vector<Magnitude>& data, PowerMetho
   if (shift == PowerShift::kThreshold) fit.intensity_threshold = law.threshold_at(u);
   if (shift == PowerShift::kOffset) fit.magnitude_offset = linear.offset;
   fit.sum_of_squares = linear.squares;
+  const double about_mean = law.squares_about_mean();
   if (about_mean > 0.0) fit.r_squared = 1.0 - linear.squares / about_mean;
   const int degrees_of_freedom = fit.num_rows - static_cast<int>(num_parameters);
   constexpr double kRounding = 1e-18;

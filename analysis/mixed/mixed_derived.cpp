@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <set>
 
@@ -87,6 +88,7 @@ class CellRows {
 struct CellQuantities {
   std::array<double, 3> value = {kNone, kNone, kNone};
   std::array<Eigen::VectorXd, 3> gradient;
+  bool is_jnd_below = false;  ///< Whether F is `jnd_at` at a stimulus below the PSE.
 };
 
 CellQuantities quantities_of(const MixedCell& cell, const StimulusLines& lines, MixedLink link,
@@ -108,11 +110,28 @@ CellQuantities quantities_of(const MixedCell& cell, const StimulusLines& lines, 
   const Eigen::VectorXd by_weber =
       is_log ? Eigen::VectorXd(std::exp(step) * by_width)
              : Eigen::VectorXd(by_width / pse - (weber / pse) * by_place);
+  found.is_jnd_below = step < 0.0;
   found.value = {pse, is_log ? pse * weber : width,
                  lines.has_weber_fraction && pse > 0.0 ? weber : kNone};
   found.gradient = {
       by_pse, is_log ? Eigen::VectorXd(weber * by_pse + pse * by_weber) : by_width, by_weber};
   return found;
+}
+
+/// The interval of a value by its logarithm, where `reach` is that of the value itself.
+Interval by_logarithm(double value, double reach) {
+  return {value * std::exp(-reach / value), value * std::exp(reach / value)};
+}
+
+/// The interval of a Weber fraction on a logarithmic axis, by the logarithm of the step on the
+/// axis. A stimulus below the PSE is above 0, so that the fraction of one is below 1.
+Interval by_step(double weber, double reach, bool is_below) {
+  const double ratio = is_below ? 1.0 - weber : 1.0 + weber;
+  const Interval step = by_logarithm(std::fabs(std::log(ratio)), reach / ratio);
+  const auto fraction = [is_below](double of_step) {
+    return is_below ? -std::expm1(-of_step) : std::expm1(of_step);
+  };
+  return {fraction(*step.low), fraction(*step.high)};
 }
 
 /// The interval between the expanded percentiles of sorted values, if so many redraws beside
@@ -230,26 +249,39 @@ std::vector<DerivedQuantity> derived_quantities(const StimulusLines& lines, Mixe
   const double student_t =
       student_t_quantile(0.975, static_cast<double>(uncertainty.num_groups) - 1.0);
   const auto add = [&](const std::string& name, double value, const Eigen::VectorXd& gradient,
-                       bool is_positive) {
+                       const std::function<Interval(double value, double reach)>& interval) {
     DerivedQuantity quantity{.name = name};
     if (std::isfinite(value)) {
       const double error = std::sqrt(gradient.dot(uncertainty.covariance * gradient));
-      const double reach = student_t * error;
       quantity.value = value;
       quantity.standard_error = error;
-      quantity.ci95 = is_positive ? Interval{value * std::exp(-reach / value),
-                                             value * std::exp(reach / value)}
-                                  : Interval{value - reach, value + reach};
+      quantity.ci95 = interval(value, student_t * error);
     }
     all.push_back(std::move(quantity));
   };
+  const auto about = [](double value, double reach) {
+    return Interval{value - reach, value + reach};
+  };
+  const bool is_log = lines.axis == StimulusAxis::kLogarithmic;
   std::vector<CellQuantities> cells;
   for (const MixedCell& cell : lines.cells) {
     cells.push_back(quantities_of(cell, lines, link, jnd_at, beta));
-    for (std::size_t k = 0; k < kQuantities.size(); ++k) {
-      const bool is_positive = k > 0 || lines.axis == StimulusAxis::kLogarithmic;
-      add(kQuantities[k] + (cell.name.empty() ? "" : ", " + cell.name), cells.back().value[k],
-          cells.back().gradient[k], is_positive);
+    const CellQuantities& its = cells.back();
+    const std::string of_cell = cell.name.empty() ? "" : ", " + cell.name;
+    const auto of_step = [&its](double value, double reach) {
+      return by_step(value, reach, its.is_jnd_below);
+    };
+    const auto add_next = [&](std::size_t k, const auto& interval) {
+      add(kQuantities[k] + of_cell, its.value[k], its.gradient[k], interval);
+    };
+    if (is_log) {
+      add_next(0, by_logarithm);
+      add_next(1, by_logarithm);
+      add_next(2, of_step);
+    } else {
+      add_next(0, about);
+      add_next(1, by_logarithm);
+      add_next(2, by_logarithm);
     }
   }
   for (const auto& [later, earlier] : compared_cells(lines.cells)) {
@@ -257,7 +289,7 @@ std::vector<DerivedQuantity> derived_quantities(const StimulusLines& lines, Mixe
       add(std::string(kQuantities[k]) + ", " + lines.cells[later].name + " - " +
               lines.cells[earlier].name,
           cells[later].value[k] - cells[earlier].value[k],
-          cells[later].gradient[k] - cells[earlier].gradient[k], false);
+          cells[later].gradient[k] - cells[earlier].gradient[k], about);
     }
   }
   std::vector<std::vector<double>> drawn(all.size());

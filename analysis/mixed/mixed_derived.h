@@ -58,7 +58,8 @@ struct DerivedQuantity {
   std::optional<double> value;
   std::optional<double> standard_error;  ///< By the delta method.
   /// By the delta method and Student's t. A quantity that is > 0 (a JND, a Weber fraction, a
-  /// PSE on a logarithmic axis) has the interval of its logarithm, others that of the value.
+  /// PSE on a logarithmic axis) has the interval of its logarithm, others that of the value. A
+  /// Weber fraction on a logarithmic axis has that of ln |D / b|.
   Interval ci95;
   /// Percentiles of the redraws, expanded for few groups (Hesterberg 2015). A redraw that has
   /// no fit, or in which the quantity does not exist, counts as beyond either end.

@@ -197,35 +197,48 @@ void add_trial_before(const FitGlmmOptions& options, GlmmResult& result) {
       num_first));
 }
 
-/// The number of groups of the grouping that has the fewest.
-std::size_t fewest_groups(const GlmmResult& result) {
-  return std::ranges::min_element(result.groups, {},
-                                  &std::pair<std::string, std::size_t>::second)
-      ->second;
+/// The grouping that has the fewest groups, and their number.
+const std::pair<std::string, std::size_t>& fewest_groups(const GlmmResult& result) {
+  return *std::ranges::min_element(result.groups, {},
+                                   &std::pair<std::string, std::size_t>::second);
 }
 
 /// Says why the bootstrap gives no interval.
 void add_caution_of_bootstrap(const FitGlmmOptions& options, GlmmResult& result) {
   if (options.num_bootstrap == 0) return;
-  const auto num_redraws = static_cast<std::size_t>(options.num_bootstrap);
-  const std::size_t num_groups = fewest_groups(result);
+  const std::size_t num_groups = fewest_groups(result).second;
   const std::optional<std::size_t> needed = analysis::num_redraws_needed(num_groups);
   if (!needed) {
     result.notes.push_back(fmt::format(
         "the bootstrap has no interval with fewer than {} groups of a random effect",
         analysis::kFewestResampled));
-  } else if (num_redraws < *needed) {
+  } else if (static_cast<std::size_t>(options.num_bootstrap) < *needed) {
     result.notes.push_back(fmt::format(
         "the bootstrap has no interval with {} redraws: percentiles of {} groups, which reach "
         "as far as Student's t, need {} or more",
-        num_redraws, num_groups, *needed));
+        options.num_bootstrap, num_groups, *needed));
+  } else if (result.num_without_fit >
+             analysis::expanded_tail(num_groups) * options.num_bootstrap) {
+    result.notes.push_back(fmt::format(
+        "the bootstrap has no interval, for {} of {} redraws had no fit and may lie beyond "
+        "either end",
+        result.num_without_fit, options.num_bootstrap));
   }
+}
+
+/// Says whose groups decide how wide the intervals are, where there are several groupings.
+void add_note_of_groups(GlmmResult& result) {
+  if (result.groups.size() < 2) return;
+  const auto& [name, number] = fewest_groups(result);
+  result.notes.push_back(
+      fmt::format("intervals of PSE and JND go by the {} groups of {}, which are the fewest",
+                  number, name));
 }
 
 void add_derived(const FitGlmmOptions& options, const analysis::MixedOptions& how,
                  const analysis::MixedRefit& refit, GlmmResult& result) {
   analysis::MixedUncertainty uncertainty = {.covariance = result.fit.fixed_covariance,
-                                            .num_groups = fewest_groups(result),
+                                            .num_groups = fewest_groups(result).second,
                                             .redrawn = {}};
   std::vector<Eigen::VectorXd>& redrawn = uncertainty.redrawn;
   redrawn.resize(static_cast<std::size_t>(options.num_bootstrap));
@@ -238,6 +251,7 @@ void add_derived(const FitGlmmOptions& options, const analysis::MixedOptions& ho
   result.degrees_of_freedom = static_cast<int>(uncertainty.num_groups) - 1;
   result.derived = analysis::derived_quantities(result.lines, how.curve.link, options.jnd_at,
                                                 result.fit.estimates(), uncertainty);
+  add_note_of_groups(result);
   add_caution_of_bootstrap(options, result);
   for (const std::string& name : result.lines.held) {
     result.notes.push_back(
@@ -541,8 +555,8 @@ void add_fit_glmm(CLI::App& fit, Invocation& invocation) {
           "covariate of which PSE, JND and Weber fraction are told in each combination "
           "of the factors' levels, with their differences: eta = a + b x has PSE = "
           "(q(1/2) - a) / b, JND = |q(at) - q(1/2)| / |b| and Weber fraction JND / PSE; "
-          "eta = a + b ln x has their exponentials, Weber fraction = exp(|q(at) - "
-          "q(1/2)| / |b|) - 1; q is the inverse of F")
+          "eta = a + b ln x has PSE = exp((q(1/2) - a) / b) and Weber fraction = "
+          "|exp((q(at) - q(1/2)) / b) - 1|; q is the inverse of F")
       ->option_text("COLUMN");
   command.add_option("--jnd-at", options->jnd_at, "level of F, from 0 to 1, of the JND")
       ->option_text("LEVEL [0.75]");

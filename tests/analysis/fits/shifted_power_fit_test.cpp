@@ -122,12 +122,18 @@ TEST(ShiftedPowerFit, NothingBoundsAnExponentFromWhichALogarithmIsNotFar) {
   EXPECT_GT(*fit.a, 0.0);
   EXPECT_FALSE(fit.a_ci95.low);
   EXPECT_TRUE(fit.a_ci95.high);
+  EXPECT_TRUE(fit.k_ci95.low);
+  EXPECT_FALSE(fit.k_ci95.high);
+  EXPECT_FALSE(fit.shift_ci95.low);
+  EXPECT_TRUE(fit.shift_ci95.high);
 }
 
 TEST(ShiftedPowerFit, MagnitudesThatAreAllTheSameTellNoThreshold) {
   for (const PowerShift shift : {PowerShift::kThreshold, PowerShift::kOffset}) {
+    // The mean of six times 0.1 is not 0.1 in a computer's numbers.
     const ShiftedPowerFit same =
-        fit_shifted_power({{1, 5}, {2, 5}, {4, 5}, {8, 5}}, PowerMethod::kNonlinear, shift);
+        fit_shifted_power({{1, 0.1}, {2, 0.1}, {4, 0.1}, {8, 0.1}, {16, 0.1}, {32, 0.1}},
+                          PowerMethod::kNonlinear, shift);
     EXPECT_EQ(same.status, FitStatus::kDegenerate);
     EXPECT_NE(same.reason.find("all the same"), std::string::npos) << same.reason;
   }
