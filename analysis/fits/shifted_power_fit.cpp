@@ -333,16 +333,15 @@ ShiftedPowerFit fit_shifted_power(const std::vector<Magnitude>& data, PowerMetho
   }
   const LeastSquares best = search.over_exponents(u);
   if (!std::isfinite(best.squares) || best.at_edge) {
-    fit.reason =
-        "no power law: the best exponent lies beyond -4 to 8, or no factor > 0 is best";
+    fit.reason = "the best exponent lies beyond -4 to 8, or no factor > 0 is best";
     return fit;
   }
   // A best exponent so near to 0 that a logarithm does as well stands for none.
   constexpr double kAsGood = 1.0 - 1e-6;
   if (shift == PowerShift::kOffset && best.squares > kAsGood * law.squares_of_logarithm()) {
     fit.reason =
-        "no power law with an offset: a logarithm, to which it tends as the exponent nears 0, "
-        "suits the magnitudes as well or better; leave the offset out";
+        "a logarithm, to which a law with an offset tends as its exponent nears 0, suits the "
+        "magnitudes as well or better; leave the offset out";
     return fit;
   }
   const Law::Linear linear = law.linear(best.at, u);
