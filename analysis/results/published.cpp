@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/data/stored_studies.h"
 #include "core/error.h"
 
 namespace jnd::analysis {
@@ -92,11 +93,19 @@ PublishedStatistic statistic_of(const nlohmann::json& entry) {
   return statistic;
 }
 
+/// Words of an entry: a text, or one for each language.
+std::string published_words(const nlohmann::json& entry, const char* key) {
+  if (!entry.contains(key)) return "";
+  const nlohmann::json& words = entry.at(key);
+  return words.is_string() ? words.get<std::string>()
+                           : in_spoken_language(words.get<experiments::Text>());
+}
+
 PublishedValue value_of(const nlohmann::json& entry) {
   PublishedValue value{.positive = entry.value("positive", false),
                        .place = entry.value("place", ""),
                        .unit = entry.value("unit", "1"),
-                       .statistic = entry.value("statistic", ""),
+                       .statistic = published_words(entry, "statistic"),
                        .follows_from_others = entry.value("follows_from_others", false)};
   if (!value.positive) value.value = entry.at("value").get<double>();
   if (entry.contains("sd")) value.standard_deviation = entry.at("sd").get<double>();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "analysis/words/said.h"
 #include "core/error.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
@@ -84,6 +85,17 @@ TEST_F(PublishedTest, TellsHowAValueWasComputed) {
   EXPECT_EQ(ratio.compute->summary, PublishedStatistic::Summary::kStandardDeviation);
   EXPECT_EQ(ratio.compute->high_target, 100.0);
   EXPECT_EQ(ratio.compute->low_target, 50.0);
+}
+
+TEST_F(PublishedTest, TellsHowAValueWasComputedInTheLanguageOfTheReport) {
+  write("a.json", R"json({"citation":"A","studies":{"honey":{"ratio":{"value":2,
+      "statistic":{"en":"mean of ratios","de":"Mittelwert der Quotienten"}}}}})json");
+  EXPECT_EQ(found("honey").values.at("ratio").statistic, "mean of ratios");
+  speak({.code = "de", .words = nullptr});
+  EXPECT_EQ(found("honey").values.at("ratio").statistic, "Mittelwert der Quotienten");
+  speak({.code = "fr", .words = nullptr});
+  EXPECT_EQ(found("honey").values.at("ratio").statistic, "mean of ratios");
+  speak({});
 }
 
 TEST_F(PublishedTest, EveryShippedNumberSaysHowItWasComputedAndHowManyItRestsOn) {
