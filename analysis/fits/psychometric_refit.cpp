@@ -34,7 +34,7 @@ PsychometricSearchResult PsychometricRefit::find(const PsychometricLevels& redra
   PsychometricCurve near = between_;  // A descent that starts on a bound may not leave it.
   near.slope = fitted_.slope;
   near.offset = fitted_.offset;
-  const PsychometricSearchResult first = search_.find_from(redrawn, {near});
+  PsychometricSearchResult first = search_.find_from(redrawn, {near});
   std::vector<PsychometricCurve> starts =
       grid_->minima(redrawn, logs_, between_.lapse, between_.guess, kMostStarts);
   if (first.supremum == PsychometricSupremum::kAttained) {

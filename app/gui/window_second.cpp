@@ -102,9 +102,10 @@ ScreenArea Window::Implementation::area_beside() const {
   return best;
 }
 
-void Window::Implementation::make_second(const std::string& title, const std::string& name) {
-  const auto monitor = std::ranges::find(monitors, name, &Monitor::name);
-  const bool fills = !name.empty();
+void Window::Implementation::make_second(const std::string& title,
+                                         const std::string& monitor_name) {
+  const auto monitor = std::ranges::find(monitors, monitor_name, &Monitor::name);
+  const bool fills = !monitor_name.empty();
   // The monitor was unplugged at this moment.
   if (fills && monitor == monitors.end()) return;
   ScreenArea area =
@@ -127,7 +128,7 @@ void Window::Implementation::make_second(const std::string& title, const std::st
   if (second == nullptr) {
     throw core::Error(tr("the participant's window cannot be opened: {}", last_glfw_error()));
   }
-  second_monitor = fills ? name : "";
+  second_monitor = fills ? monitor_name : "";
   if (has_place) glfwSetWindowPos(second, area.x, area.y);
   glfwMakeContextCurrent(second);
   glfwSwapInterval(0);
@@ -165,6 +166,7 @@ void Window::Implementation::load_second_fonts(float scale) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr)
   atlas.SetTexID(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(second_letters)));
   atlas.ClearTexData();
   ImGui::SetCurrentContext(context);

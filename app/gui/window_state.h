@@ -68,7 +68,7 @@ struct Window::Implementation {
   /// Makes letters for the second window's size. Returns true if that window can be drawn.
   [[nodiscard]] bool prepare_second();
   void load_second_fonts(float scale);
-  void make_second(const std::string& title, const std::string& monitor);
+  void make_second(const std::string& title, const std::string& monitor_name);
   /// Follows a monitor whose size or place has changed.
   void keep_second_on_monitor();
   /// The area with most room beside our window; empty if there is none.
