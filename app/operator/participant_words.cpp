@@ -256,7 +256,7 @@ class ScreenWriter {
 }  // namespace
 
 std::string participant_word(ParticipantWord word, const std::string& language) {
-  const auto found =
+  const auto* const found =
       std::ranges::find(kLanguagesOfParticipants, language, &LanguageOfParticipants::code);
   const bool is_known = found != std::end(kLanguagesOfParticipants);
   return (is_known ? found->words : kInEnglish)[static_cast<std::size_t>(word)];

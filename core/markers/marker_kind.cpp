@@ -18,7 +18,7 @@ constexpr std::array<std::pair<std::string_view, MarkerKind>, 5> kPulsedEvents =
 }  // namespace
 
 std::optional<MarkerKind> marker_kind_of(const EventRow& event) {
-  const auto found =
+  const auto* const found =
       std::ranges::find(kPulsedEvents, event.kind, [](const auto& row) { return row.first; });
   if (found == kPulsedEvents.end()) return std::nullopt;
   return found->second;

@@ -36,7 +36,7 @@ constexpr std::array<std::pair<int, speed_t>, 8> kBaudRates = {{{9600, B9600},
 }
 
 speed_t speed_of(const std::filesystem::path& path, int baud) {
-  const auto found =
+  const auto* const found =
       std::ranges::find(kBaudRates, baud, [](const auto& row) { return row.first; });
   if (found != kBaudRates.end()) return found->second;
   throw Error(path.string() +

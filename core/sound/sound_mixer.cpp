@@ -68,8 +68,8 @@ void SoundMixer::turn_to(int noise, double ramp_s) noexcept {
 /// Returns false if the largest number of cues is sounding. The cue then has to wait.
 bool SoundMixer::begin_cue(const Request& request, std::int64_t heard_ns) noexcept {
   if (request.cue >= cues_.size()) return true;
-  const auto free = std::find_if(sounding_.begin(), sounding_.end(),
-                                 [](const Sounding& one) { return one.samples == nullptr; });
+  auto* const free = std::find_if(sounding_.begin(), sounding_.end(),
+                                  [](const Sounding& one) { return one.samples == nullptr; });
   if (free == sounding_.end()) return false;
   const std::int64_t until_ns =
       std::max<std::int64_t>(0, request.asked_ns + cue_delay_ns_ - heard_ns);

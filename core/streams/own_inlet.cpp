@@ -93,10 +93,10 @@ std::size_t bytes_of(const StreamSample& sample) {
 
 class OwnInlet final : public StreamInlet {
  public:
-  OwnInlet(StreamInfo info, const StreamNetwork& network, double timeout_s)
+  OwnInlet(StreamInfo info, StreamNetwork network, double timeout_s)
       : info_(std::move(info)),
         place_(info_),
-        network_(network),
+        network_(std::move(network)),
         full_xml_(full_xml_of(info_, timeout_s)),
         time_socket_(datagram_socket()),
         probe_(static_cast<int>(std::random_device{}() >> 2)) {

@@ -260,7 +260,7 @@ std::vector<Cue> cues(const ObjectReader& in) {
     for (const CueMoment moment : kCueMoments) {
       if (name(moment) == cue.string("moment")) read.moment = moment;
     }
-    found.push_back(std::move(read));
+    found.push_back(read);
   });
   return found;
 }

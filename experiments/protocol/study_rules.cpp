@@ -149,7 +149,7 @@ class Rules : StudyCheck {
     std::map<double, std::string_view> known;  // Codes, with the kind that has each.
     for (std::size_t kind = 0; kind < core::kNumMarkerKinds; ++kind) {
       const std::string name(core::kMarkerNames[kind]);
-      const double code = number_or(markers, name.c_str(), core::MarkerCodes{}.codes[kind]);
+      const double code = number_or(markers, name, core::MarkerCodes{}.codes[kind]);
       if (code == 0.0) continue;
       const auto [first, is_new] = known.emplace(code, core::kMarkerNames[kind]);
       if (is_new) continue;
