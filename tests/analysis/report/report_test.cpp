@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "analysis/charts/study_titles.h"
 #include "analysis/hand_made_study.h"
 #include "analysis/report/data_quality.h"
 #include "analysis/report/figures.h"
@@ -112,13 +113,14 @@ TEST_F(ReportTest, ShowsEveryEstimateAndComparisonThatTheResultsHave) {
   const std::string html = without_breaks(whole(report(out())));
   const StudyData data = load_study(study_.store());
   const StudyResults results = results_of(data, {}, {.num_resamples = 100});
+  const StudyTitles titles = titles_of(data.written);
   for (const ResultsSection& section : results.sections) {
     for (const Estimate& estimate : section.estimates) {
       if (section.name == "questionnaires") continue;  // Each row is an item, not an estimate.
       EXPECT_TRUE(has(html, "<code>" + estimate.name + "</code>")) << estimate.name;
     }
     for (const NamedComparison& named : section.comparisons) {
-      EXPECT_TRUE(has(html, html_escaped(named.name))) << named.name;
+      EXPECT_TRUE(has(html, html_escaped(titles.titled(named.name)))) << named.name;
     }
   }
   EXPECT_TRUE(has(html, "0.697")) << "the published value";
